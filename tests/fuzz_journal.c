@@ -6,8 +6,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "document/journal_folder.h"
-#include "document/journal_line.h"
+#include "document/journal_file.h"
 
 #include <string.h>
 #include <sys/mman.h>

@@ -6,7 +6,7 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/pool.h"
-#include "document/compositor.h"
+#include "document/composite.h"
 #include "field/field.h"
 
 enum { MOST = 8 };

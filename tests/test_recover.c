@@ -3,7 +3,7 @@
 #include "journal_help.h"
 
 #include "base/error.h"
-#include "document/journal_folder.h"
+#include "document/journal_file.h"
 
 #include <fcntl.h>
 #include <sys/file.h>

@@ -9,7 +9,7 @@
 #include "command/session.h"
 #include "command/recovery.h"
 #include "command/command_table.h"
-#include "document/view_history.h"
+#include "document/history.h"
 #include "scene/scene.h"
 
 #include <glob.h>

@@ -12,7 +12,6 @@
 #include "document/document.h"
 #include "document/edit.h"
 #include "document/history.h"
-#include "document/view_history.h"
 #include "field/field.h"
 #include "render/frame/frame.h"
 #include "scene/objects.h"

@@ -10,7 +10,6 @@
 #include "document/history.h"
 #include "document/journal.h"
 #include "document/object_tables.h"
-#include "document/view_history.h"
 #include "image/image.h"
 #include "scene/scene.h"
 

@@ -1,16 +1,499 @@
-/* A filter divides the stack: the layers below it are composited separately, the operation is applied, and the
-   rest is composited on top. So each part of the stack has its own compositor. Each filter stores its input and
-   its output, and recomputes only the part that an edit may have changed. */
+/* Composite of a document's layers: an incremental compositor for each part of the stack, and filters between the
+   parts. */
 #include "document/composite.h"
 
 #include "base/array.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/pool.h"
 #include "base/progress.h"
-#include "document/compositor.h"
 #include "document/document.h"
 #include "field/field.h"
 #include "system/thread.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- the compositor of one part ---- */
+
+/* The inputs of a composite are stored as shares of the visible layers, its `parts`. An update compares the old
+   and new parts, marks the tiles that may differ and computes them again.
+
+   A tile is "bare" if it shows no more than the floor. The floor is the lowest part if that is shown unchanged,
+   else an empty table at the composite's level. The composite starts as a share of the floor, so bare tiles cost
+   nothing. If many tiles become bare later, they are shared with the floor again. A few, as under a brush, are
+   copied, because the next dab would copy a shared tile anyway, into newly allocated memory each time. Once
+   there are more of these stray copies than blended tiles, the composite restarts from the floor and keeps the
+   blended tiles, so that memory stays bounded. */
+
+#define TEXELS (WR_TILE * WR_TILE)
+#define STRAYS 64 /* up to this many strays are tolerated */
+
+typedef struct Part {
+    /* compositor->parts own shares of the fields; elsewhere they are borrowed */
+    WrBlendLayer layer;
+    bool on_ground; /* no part below it is visible */
+} Part;
+
+/* A tile to be blended. */
+typedef struct Job {
+    int tx, ty;
+    float *out;
+} Job;
+
+struct WrCompositor {
+    WrField *result; /* NULL before the first update */
+    Part *parts;     /* [count] */
+    int count;
+    bool broken;     /* an update was cancelled: the result does not match the parts */
+    int64_t strays;  /* bare tiles copied since the last restart */
+    int64_t blended; /* blended tiles at the last restart */
+};
+
+/* State of one update. */
+typedef struct Update {
+    WrCompositor *compositor;
+    Part *parts; /* [count] the new parts, with borrowed fields */
+    int count;
+    WrField *floor;
+    const Part *base; /* the part that is the floor, or NULL */
+    bool whole;       /* mark all allocated tiles */
+    uint8_t *marked;  /* [tiles] flags of the tiles in `dirty` */
+    int tiles_u;
+    WR_ARRAY(int) dirty; /* indices tx + ty tiles_u */
+    WR_ARRAY(Job) jobs;
+} Update;
+
+static bool same_bits(float a, float b)
+{
+    return memcmp(&a, &b, sizeof a) == 0;
+}
+
+static bool same_size(const WrField *a, const WrField *b)
+{
+    return wr_field_width(a) == wr_field_width(b) && wr_field_height(a) == wr_field_height(b);
+}
+
+bool wr_blend_layer_check(const WrBlendLayer *layer, WrError *err)
+{
+    if ((int)layer->mode < 0 || layer->mode >= WR_BLEND_COUNT)
+        return wr_fail(err, "blend mode %d: must be 0..%d", (int)layer->mode, WR_BLEND_COUNT - 1);
+    if (!(layer->opacity >= 0.0f && layer->opacity <= 1.0f))
+        return wr_fail(err, "opacity %g: must be 0..1", (double)layer->opacity);
+    if (!(layer->radius >= 0.0f && layer->radius <= 3.4028234e38f))
+        return wr_fail(err, "blend radius %g: must be 0 or more and finite", (double)layer->radius);
+    const WrField *h = layer->heights;
+    const WrField *others[] = { layer->cover, layer->mask };
+    for (int i = 0; i < 2; i++)
+        if (others[i] && !same_size(h, others[i]))
+            return wr_fail(err, "%s of %dx%d texels: must have its layer's size, %dx%d",
+                           i == 0 ? "coverage" : "mask", wr_field_width(others[i]),
+                           wr_field_height(others[i]), wr_field_width(h), wr_field_height(h));
+    return true;
+}
+
+/* The blend input of one tile of a part. */
+static WrBlendTile part_tile(const Part *part, int tx, int ty)
+{
+    const WrBlendLayer *l = &part->layer;
+    WrBlendTile tile = { .heights = wr_field_tile(l->heights, tx, ty),
+                         .level = wr_field_level(l->heights),
+                         .cover_level = 1.0f,
+                         .mask_level = 1.0f };
+    if (l->cover) {
+        tile.cover = wr_field_tile(l->cover, tx, ty);
+        tile.cover_level = wr_field_level(l->cover);
+    }
+    if (l->mask) {
+        tile.mask = wr_field_tile(l->mask, tx, ty);
+        tile.mask_level = wr_field_level(l->mask);
+    }
+    return tile;
+}
+
+/* The blend input of tiles in which all of a part's fields are empty. */
+static WrBlendTile part_level(const Part *part)
+{
+    const WrBlendLayer *l = &part->layer;
+    return (WrBlendTile){ .level = wr_field_level(l->heights),
+                          .cover_level = l->cover ? wr_field_level(l->cover) : 1.0f,
+                          .mask_level = l->mask ? wr_field_level(l->mask) : 1.0f };
+}
+
+/* True if the part changes no bit below. Decided by levels, so "false" may be wrong. */
+static bool is_idle(const Part *part, const WrBlendTile *tile)
+{
+    const WrBlendMode *mode = &wr_blends[part->layer.mode];
+    if (!tile->mask && !(tile->mask_level > 0.0f)) return true;
+    if (mode->uses_cover && !tile->cover && !(tile->cover_level > 0.0f)) return true;
+    return !tile->heights && same_bits(tile->level, mode->neutral);
+}
+
+static WrBlend mode_of(const Part *part)
+{
+    WrBlend mode = part->layer.mode;
+    return part->on_ground && mode == WR_BLEND_ADD ? WR_BLEND_MIX : mode;
+}
+
+/* True if the part's result is exactly its heights, independent of those below. */
+static bool is_opaque(const Part *part, const WrBlendTile *tile)
+{
+    const WrBlendMode *mode = &wr_blends[mode_of(part)];
+    if (!mode->takes || part->layer.opacity < 1.0f) return false;
+    if (tile->mask || tile->mask_level < 1.0f) return false;
+    return !mode->uses_cover || (!tile->cover && tile->cover_level >= 1.0f);
+}
+
+static void blend(const Part *part, const WrBlendTile *tile, size_t count, float *below)
+{
+    wr_blend_tile(mode_of(part), part->layer.opacity, part->layer.radius, tile, count, below);
+}
+
+/* Level of the composite where all parts are empty. */
+static float composite_level(const Part *parts, int count)
+{
+    float level = 0.0f;
+    for (int i = 0; i < count; i++) {
+        WrBlendTile tile = part_level(&parts[i]);
+        blend(&parts[i], &tile, 1, &level);
+    }
+    return level;
+}
+
+/* The part that all bare tiles show, or NULL. */
+static const Part *base_of(const Part *parts, int count, float level)
+{
+    if (count == 0 || !same_bits(level, wr_field_level(parts[0].layer.heights))) return NULL;
+    WrBlendTile tile = part_level(&parts[0]);
+    bool everywhere =
+        !parts[0].layer.mask && !(wr_blends[mode_of(&parts[0])].uses_cover && parts[0].layer.cover);
+    return everywhere && is_opaque(&parts[0], &tile) ? &parts[0] : NULL;
+}
+
+static bool is_bare(const Update *update, int tx, int ty)
+{
+    for (int i = update->base ? 1 : 0; i < update->count; i++) {
+        WrBlendTile tile = part_tile(&update->parts[i], tx, ty);
+        if (is_idle(&update->parts[i], &tile)) continue;
+        /* with a base, a part that has an effect at its level changes the base's heights */
+        if (update->base || tile.heights || tile.cover || tile.mask) return false;
+    }
+    return true;
+}
+
+static void mark(int tx, int ty, void *ctx)
+{
+    Update *update = ctx;
+    int index = tx + ty * update->tiles_u;
+    if (update->marked[index]) return;
+    update->marked[index] = 1;
+    wr_array_push(&update->dirty, index);
+}
+
+/* Marks every allocated tile of the field. */
+static void mark_held(Update *update, const WrField *field)
+{
+    if (!field) return;
+    WrField *empty = wr_field_new(wr_field_width(field), wr_field_height(field), WR_WRAP_PERIODIC,
+                                  WR_WRAP_PERIODIC, wr_field_level(field), NULL);
+    wr_field_changes(empty, field, mark, update);
+    wr_field_free(empty);
+}
+
+static void mark_part(Update *update, const Part *part)
+{
+    WrBlendTile tile = part_level(part);
+    if (!is_idle(part, &tile)) update->whole = true;
+    mark_held(update, part->layer.heights);
+    mark_held(update, part->layer.cover);
+    mark_held(update, part->layer.mask);
+}
+
+static void mark_changes(Update *update, const WrField *a, const WrField *b)
+{
+    if (!a || wr_field_key(a) == wr_field_key(b)) return;
+    if (same_bits(wr_field_level(a), wr_field_level(b))) wr_field_changes(a, b, mark, update);
+    else update->whole = true;
+}
+
+/* True if both are the same layer, except for the contents of its fields. */
+static bool same_settings(const Part *a, const Part *b)
+{
+    return a->layer.mode == b->layer.mode && a->layer.opacity == b->layer.opacity &&
+           a->layer.radius == b->layer.radius && a->on_ground == b->on_ground &&
+           !a->layer.cover == !b->layer.cover && !a->layer.mask == !b->layer.mask;
+}
+
+static bool same_key(const WrField *a, const WrField *b)
+{
+    return (!a && !b) || wr_field_key(a) == wr_field_key(b);
+}
+
+static bool same_part(const Part *a, const Part *b)
+{
+    return same_settings(a, b) && same_key(a->layer.heights, b->layer.heights) &&
+           same_key(a->layer.cover, b->layer.cover) && same_key(a->layer.mask, b->layer.mask);
+}
+
+/* Marks the differences between the old and new parts. Equal ones at both ends are skipped; in between, parts
+   are compared in pairs if there are equally many, else all of them count as changed. Any pairing marks enough
+   tiles: two different layers differ wherever either has a tile. */
+static void mark_differences(Update *update)
+{
+    const Part *then = update->compositor->parts, *now = update->parts;
+    int then_count = update->compositor->count, now_count = update->count;
+    while (then_count && now_count && same_part(then, now))
+        then++, now++, then_count--, now_count--;
+    while (then_count && now_count && same_part(then + then_count - 1, now + now_count - 1))
+        then_count--, now_count--;
+    bool pairs = then_count == now_count;
+    for (int i = 0; i < then_count || i < now_count; i++) {
+        if (pairs && same_settings(&then[i], &now[i])) {
+            mark_changes(update, then[i].layer.heights, now[i].layer.heights);
+            mark_changes(update, then[i].layer.cover, now[i].layer.cover);
+            mark_changes(update, then[i].layer.mask, now[i].layer.mask);
+            continue;
+        }
+        if (i < then_count) mark_part(update, &then[i]);
+        if (i < now_count) mark_part(update, &now[i]);
+    }
+}
+
+/* Replaces the composite by its floor. */
+static void start(Update *update)
+{
+    WrCompositor *c = update->compositor;
+    wr_field_free(c->result);
+    c->result = wr_field_share(update->floor);
+    c->strays = c->blended = 0;
+    for (int i = 0; i < update->count; i++) {
+        mark_held(update, update->parts[i].layer.heights);
+        mark_held(update, update->parts[i].layer.cover);
+        mark_held(update, update->parts[i].layer.mask);
+    }
+}
+
+static void copy_tile(WrField *to, const WrField *from, int tx, int ty)
+{
+    const float *tile = wr_field_tile(from, tx, ty);
+    float *out = wr_field_tile_write(to, tx, ty);
+    if (tile) memcpy(out, tile, sizeof *out * TEXELS);
+    else
+        for (int i = 0; i < TEXELS; i++) out[i] = wr_field_level(from);
+}
+
+static void run_job(int index, int worker, void *ctx)
+{
+    (void)worker;
+    const Update *update = ctx;
+    Job job = update->jobs.data[index];
+    int first = update->count - 1; /* parts below an opaque tile have no effect */
+    for (; first > 0; first--) {
+        WrBlendTile tile = part_tile(&update->parts[first], job.tx, job.ty);
+        if (is_opaque(&update->parts[first], &tile)) break;
+    }
+    memset(job.out, 0, sizeof *job.out * TEXELS);
+    for (int i = first < 0 ? 0 : first; i < update->count; i++) {
+        WrBlendTile tile = part_tile(&update->parts[i], job.tx, job.ty);
+        if (!is_idle(&update->parts[i], &tile)) blend(&update->parts[i], &tile, TEXELS, job.out);
+    }
+}
+
+/* Computes the marked tiles again. */
+static void repaint(Update *update, WrPool *pool)
+{
+    WrCompositor *c = update->compositor;
+    for (int i = 0; i < update->dirty.count && (i % 256 || !wr_progress_stopped()); i++) {
+        int tx = update->dirty.data[i] % update->tiles_u;
+        int ty = update->dirty.data[i] / update->tiles_u;
+        if (!is_bare(update, tx, ty)) {
+            Job job = { tx, ty, wr_field_tile_write(c->result, tx, ty) };
+            wr_array_push(&update->jobs, job);
+        } else if (update->dirty.count > STRAYS) {
+            wr_field_tile_share(c->result, update->floor, tx, ty);
+        } else if (wr_field_tile(c->result, tx, ty) != wr_field_tile(update->floor, tx, ty)) {
+            copy_tile(c->result, update->floor, tx, ty);
+            c->strays++;
+        }
+    }
+    if (update->jobs.count) wr_pool_run_with_progress(pool, update->jobs.count, run_job, update);
+}
+
+typedef struct Gathering {
+    const Update *update;
+    WrField *fresh;
+    int64_t blended;
+} Gathering;
+
+static void gather_tile(int tx, int ty, void *ctx)
+{
+    Gathering *g = ctx;
+    if (is_bare(g->update, tx, ty)) return;
+    wr_field_tile_share(g->fresh, g->update->compositor->result, tx, ty);
+    g->blended++;
+}
+
+/* Restarts from the floor and keeps the blended tiles; all tiles that differ from the floor are either these or
+   strays. */
+static void drop_strays(Update *update)
+{
+    WrCompositor *c = update->compositor;
+    Gathering gathering = { update, wr_field_share(update->floor), 0 };
+    wr_field_changes(update->floor, c->result, gather_tile, &gathering);
+    wr_field_free(c->result);
+    c->result = gathering.fresh;
+    c->strays = 0;
+    c->blended = gathering.blended;
+}
+
+static void free_parts(Part *parts, int count)
+{
+    for (int i = 0; i < count; i++) {
+        wr_field_free((WrField *)parts[i].layer.heights);
+        wr_field_free((WrField *)parts[i].layer.cover);
+        wr_field_free((WrField *)parts[i].layer.mask);
+    }
+    wr_free(parts);
+}
+
+static WrField *share_or_null(const WrField *field)
+{
+    return field ? wr_field_share(field) : NULL;
+}
+
+/* A copy of parts that owns shares of their fields. */
+static Part *share_parts(const Part *parts, int count)
+{
+    if (count == 0) return NULL;
+    Part *copy = wr_alloc((size_t)count, sizeof *copy);
+    for (int i = 0; i < count; i++) {
+        copy[i] = parts[i];
+        copy[i].layer.heights = wr_field_share(parts[i].layer.heights);
+        copy[i].layer.cover = share_or_null(parts[i].layer.cover);
+        copy[i].layer.mask = share_or_null(parts[i].layer.mask);
+    }
+    return copy;
+}
+
+WrCompositor *wr_compositor_new(void)
+{
+    return wr_alloc(1, sizeof(WrCompositor));
+}
+
+WrCompositor *wr_compositor_share(const WrCompositor *compositor)
+{
+    WrCompositor *copy = wr_compositor_new();
+    *copy = *compositor;
+    if (compositor->result) copy->result = wr_field_share(compositor->result);
+    copy->parts = share_parts(compositor->parts, compositor->count);
+    return copy;
+}
+
+void wr_compositor_free(WrCompositor *compositor)
+{
+    if (!compositor) return;
+    free_parts(compositor->parts, compositor->count);
+    wr_field_free(compositor->result);
+    wr_free(compositor);
+}
+
+/* Selects the visible layers, without coverage if the mode does not use it. */
+static void pick_parts(Update *update, const WrBlendLayer *layers, int count)
+{
+    update->parts = wr_alloc((size_t)count, sizeof *update->parts);
+    for (int i = 0; i < count; i++) {
+        WR_ASSERT(wr_blend_layer_check(&layers[i], NULL));
+        WR_ASSERT(wr_field_alike(layers[i].heights, layers[0].heights));
+        if (layers[i].hidden || !(layers[i].opacity > 0.0f)) continue;
+        Part *part = &update->parts[update->count];
+        *part = (Part){ .layer = layers[i], .on_ground = update->count == 0 };
+        if (!wr_blends[part->layer.mode].uses_cover) part->layer.cover = NULL;
+        if (!wr_blends[part->layer.mode].uses_radius) part->layer.radius = 0.0f;
+        update->count++;
+    }
+}
+
+/* True if the old composite can be updated by computing only marked tiles. */
+static bool is_mendable(const Update *update, const WrField *like, float level)
+{
+    const WrCompositor *c = update->compositor;
+    return c->result && !c->broken && wr_field_alike(c->result, like) &&
+           same_bits(wr_field_level(c->result), level) &&
+           !base_of(c->parts, c->count, level) == !update->base;
+}
+
+static void keep_parts(const Update *update)
+{
+    WrCompositor *c = update->compositor;
+    Part *kept = share_parts(update->parts, update->count);
+    free_parts(c->parts, c->count);
+    c->parts = kept;
+    c->count = update->count;
+    c->broken = false;
+}
+
+/* ---- cancelled updates ---- */
+
+/* State before an update that can be cancelled. */
+typedef struct Before {
+    WrField *result; /* owned; NULL: nothing can be restored */
+    int64_t strays, blended;
+} Before;
+
+static Before keep_before(const WrCompositor *c)
+{
+    bool keeps = c->result && !c->broken && wr_progress_here();
+    return (Before){ keeps ? wr_field_share(c->result) : NULL, c->strays, c->blended };
+}
+
+/* Restores the old result, which still matches the old parts; otherwise the next update restarts. */
+static void put_back(WrCompositor *c, Before *before)
+{
+    c->broken = !before->result;
+    if (c->broken) return;
+    wr_field_free(c->result);
+    c->result = before->result;
+    before->result = NULL;
+    c->strays = before->strays;
+    c->blended = before->blended;
+}
+
+const WrField *wr_compositor_update(WrCompositor *compositor, const WrBlendLayer *layers, int count,
+                                    WrPool *pool)
+{
+    WR_ASSERT(count >= 1);
+    const WrField *like = layers[0].heights;
+    Update update = { .compositor = compositor, .tiles_u = wr_field_tiles_u(like) };
+    pick_parts(&update, layers, count);
+    float level = composite_level(update.parts, update.count);
+    update.base = base_of(update.parts, update.count, level);
+    update.floor = update.base
+                       ? wr_field_share(update.base->layer.heights)
+                       : wr_field_new(wr_field_width(like), wr_field_height(like),
+                                      wr_field_wrap_u(like), wr_field_wrap_v(like), level, NULL);
+    update.marked = wr_alloc((size_t)update.tiles_u * (size_t)wr_field_tiles_v(like), 1);
+    update.whole = !is_mendable(&update, like, level);
+    if (!update.whole) mark_differences(&update);
+    Before before = keep_before(compositor);
+    if (update.whole) start(&update);
+    repaint(&update, pool);
+    if (compositor->strays > compositor->blended + STRAYS) drop_strays(&update);
+    if (wr_progress_stopped()) put_back(compositor, &before);
+    else keep_parts(&update);
+    wr_field_free(before.result);
+    wr_free(update.parts);
+    wr_free(update.marked);
+    wr_array_free(&update.dirty);
+    wr_array_free(&update.jobs);
+    wr_field_free(update.floor);
+    return compositor->result;
+}
+
+/* ---- the composite, divided by filters ---- */
+
+/* A filter divides the stack: the layers below it are composited separately, the operation is applied, and the
+   rest is composited on top. So each part of the stack has its own compositor. Each filter stores its input and
+   its output, and recomputes only the part that an edit may have changed. */
 
 /* A filter, or none, and the layers from there up to the next filter. */
 typedef struct Stage {
@@ -53,11 +536,6 @@ WrComposite *wr_composite_new(void)
     return composite;
 }
 
-static WrField *share_or_null(const WrField *field)
-{
-    return field ? wr_field_share(field) : NULL;
-}
-
 WrComposite *wr_composite_share(const WrComposite *composite)
 {
     /* the cast is only for locking */
@@ -65,9 +543,9 @@ WrComposite *wr_composite_share(const WrComposite *composite)
     wr_mutex_lock(&from->lock);
     for (int i = 0; i < from->stages.count; i++) {
         const Stage *stage = &from->stages.data[i];
-        wr_array_push(&copy->stages,
-                      ((Stage){ stage->filter, share_or_null(stage->given),
-                                share_or_null(stage->made), wr_compositor_share(stage->above) }));
+        wr_array_push(&copy->stages, ((Stage){ stage->filter, share_or_null(stage->given),
+                                               share_or_null(stage->made),
+                                               wr_compositor_share(stage->above) }));
     }
     wr_mutex_unlock(&from->lock);
     return copy;

@@ -57,7 +57,7 @@ WrDocument *wr_document_snapshot(const WrDocument *document);
 void wr_document_swap_composites(WrDocument *document, WrDocument *from);
 void wr_document_free(WrDocument *document); /* NULL is fine */
 
-/* The composited F: the visible layers blended from the bottom up (compositor.h), or the solo layer alone on the
+/* The composited F: the visible layers blended from the bottom up (composite.h), or the solo layer alone on the
    ground (for a solo filter: the layers up to it). A document of one plain layer (visible, opacity 1, no mask,
    mode equivalent to mix) returns that layer's heights themselves; otherwise tiles that changed since the last
    call are computed again. Borrowed until the next edit. Any number of threads may call it as long as nobody

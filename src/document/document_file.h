@@ -27,8 +27,8 @@
      8  filter layers
    A file with several parts and none of the later features is still written as version 2. */
 #pragma once
-#include "scene/objects.h"
 #include "field/wrap.h"
+#include "scene/objects.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -43,7 +43,7 @@ typedef struct WrImageRows WrImageRows;
 
 #define WR_DOCUMENT_VERSION 9
 #define WR_DOCUMENT_VERSION_FACETS 8 /* for a file without filter layers */
-#define WR_DOCUMENT_VERSION_CELL 7   /* for a file without later features (format_version.h) */
+#define WR_DOCUMENT_VERSION_CELL 7   /* for a file without later features (document_file.h) */
 #define WR_DOCUMENT_VERSION_SURROUND                                                               \
     6 /* for a file without a cell size and the features introduced with it */
 #define WR_DOCUMENT_VERSION_OBJECTS 5 /* for a file without an environment */
@@ -122,3 +122,21 @@ WrField *wr_import_heights(const WrImage *image, int width, int height, WrWrap w
    rows, unless its height grows. The rows are consumed. */
 WrField *wr_import_rows(WrImageRows *rows, int width, int height, WrWrap wrap_u, WrWrap wrap_v,
                         WrError *err);
+
+/* ---- oldest file version that can hold a scene ---- */
+
+typedef enum WrSceneAge {
+    WR_SCENE_OLD,     /* commands of the oldest documents, and features that have their own parts */
+    WR_SCENE_OF_CELL, /* the cell's size, solid textures, tone, relief shadows, displacement */
+    /* roughness and metalness pictures, occlusion, area lamps, hollows, sheets, frames */
+    WR_SCENE_OF_FACETS
+} WrSceneAge;
+
+/* The newest feature in the scene that differs from its default in older programs. */
+WrSceneAge wr_scene_age(const WrScene *scene);
+
+/* ---- conversion of a scene's picture to float rows, for saving ---- */
+
+/* Copies rows [y, y + rows) with that number of channels: the picture's first ones, or its only one into each.
+   out: floats. */
+void wr_image_rows_out(const WrImage *image, int channels, int y, int rows, float *out);

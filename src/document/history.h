@@ -1,5 +1,5 @@
 /* history.h - undo history of a document: the command lines and every state between them, as snapshots that
-   share their tiles. Lines are opaque text here.
+   share their tiles. Lines are opaque text here. Views have a history of their own, at the end of this file.
 
    A history of n steps has n + 1 states; state k is the result of the first k lines. States are exact: going
    back and forth restores every bit. The cost of a step is the memory that its two states do not share
@@ -11,6 +11,8 @@
    that had a view of its own (a document was opened). There the view changes to that on the other side of the
    step. */
 #pragma once
+#include "scene/camera.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -62,3 +64,31 @@ WrDocument *wr_history_go(WrHistory *history, int state);
 
 /* Discards at once whatever exceeds the budget: the oldest states first, then undone steps, the last one first. */
 void wr_history_set_budget(WrHistory *history, size_t bytes);
+
+/* ---- history of camera views, with steps back and forward ---- */
+
+/* Separate from the undo history (history.h): views are not edits, and the two histories have separate steps. */
+
+typedef struct WrScene WrScene;
+
+#define WR_VIEWS_MAX 1000 /* maximum; the oldest are removed */
+
+typedef struct WrViews WrViews;
+
+/* Creates a history with one view. The caller owns it. */
+WrViews *wr_views_new(const WrSceneView *start);
+void wr_views_free(WrViews *views);            /* NULL is fine */
+WrViews *wr_views_clone(const WrViews *views); /* the caller owns it */
+
+/* Makes `view` the current one. If it equals the current view there is no step; else the views after that are
+   removed. */
+void wr_views_note(WrViews *views, const WrSceneView *view);
+
+int wr_views_back(const WrViews *views);    /* number of steps possible back */
+int wr_views_forward(const WrViews *views); /* and forward */
+/* Moves by `steps` (negative: back), -back..forward, and returns the view there. */
+WrSceneView wr_views_go(WrViews *views, int steps);
+/* Number of the current view, counted from the start, including removed ones. */
+int64_t wr_views_number(const WrViews *views);
+/* The first view, always kept. */
+WrSceneView wr_views_start(const WrViews *views);

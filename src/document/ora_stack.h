@@ -1,14 +1,17 @@
-/* ora_stack.h - stack.xml of an OpenRaster file as data.
+/* ora_stack.h - parts of an OpenRaster file: stack.xml as data, and the zip archive.
    Private to this module. */
 #pragma once
-#include "scene/objects.h"
 #include "base/array.h"
+#include "base/sink.h"
 #include "document/blend.h"
 #include "document/document_file.h"
 #include "field/ops.h"
+#include "scene/objects.h"
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
+#include <zip.h>
 
 typedef struct WrDocument WrDocument;
 typedef struct WrError WrError;
@@ -61,3 +64,28 @@ const char *wr_ora_picture_name(const char *prefix, int object, int which, const
                                 char buffer[WR_ORA_PICTURE_NAME]);
 /* Format version of the document's file. composite: with a composite layer for other programs. */
 int wr_ora_version(const WrDocument *document, bool composite);
+
+/* ---- zip archives: reading of untrusted entries within limits, and output of our own ---- */
+
+typedef struct WrOraZip WrOraZip;
+
+/* Opens an archive. Errors name the file. Writes no files, follows no paths, never waits on a pipe. */
+WrOraZip *wr_ora_zip_open(const char *path, WrError *err);
+/* Opens an archive from an open file, which it takes ownership of. */
+WrOraZip *wr_ora_zip_take(const char *name, int fd, WrError *err);
+void wr_ora_zip_close(WrOraZip *zip); /* NULL is fine */
+
+/* Reads one entry, whole, with verified checksum, at most `most` bytes; owned by the caller (wr_free), followed
+   by a NUL. */
+bool wr_ora_zip_read(WrOraZip *zip, const char *name, size_t most, char **bytes, size_t *length,
+                     WrError *err);
+
+/* Destination of a written archive. */
+typedef struct WrOraSink {
+    WrByteSink to; /* must be empty */
+    int64_t at, end;
+    int error; /* errno of the first failure */
+} WrOraSink;
+
+/* Creates an archive in the sink, which the library neither opens nor renames. The sink must outlive it. */
+zip_t *wr_ora_sink_open(WrOraSink *sink, WrError *err);

@@ -22,7 +22,7 @@ typedef struct WrCamera {
 extern const char *const wr_camera_names[2];
 
 /* A view: the orientation of a single object and the camera. Not part of the document's edits: it has a
-   history of its own (document/view_history.h). */
+   history of its own (document/history.h). */
 typedef struct WrSceneView {
     bool of_one; /* the scene has one object; with several, rotations are edits of the objects */
     bool posed;  /* as in WrScene; for one object */
