@@ -4,7 +4,7 @@
 #include "base/suggest.h"
 #include "base/text.h"
 #include "export/check.h"
-#include "field/certificate.h"
+#include "field/seam.h"
 
 #include <math.h>
 #include <string.h>

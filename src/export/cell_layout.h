@@ -2,7 +2,7 @@
    rectangle, an atlas, resizing.
    Private to this module. */
 #pragma once
-#include "field/certificate.h"
+#include "field/seam.h"
 
 #include <stdbool.h>
 

@@ -67,7 +67,7 @@
    table is farther from its triangle than the requested error, and the report contains the largest distance. */
 #pragma once
 #include "base/enum_rows.h"
-#include "field/certificate.h"
+#include "field/seam.h"
 
 #include <stdbool.h>
 #include <stdint.h>

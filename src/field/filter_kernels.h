@@ -1,4 +1,4 @@
-/* filter_kernels.h - inner loops of blurs (ops_blur.c, ops_blur_wide.c) and of the final step of all
+/* filter_kernels.h - inner loops of blurs (ops_filter.c) and of the final step of all
    operations (ops_build.c), compiled once per instruction set.
 
    All sets give the same bits: only + - * and comparisons, in the same order, without contraction.

@@ -1,5 +1,5 @@
 /* filter_kernels_body.h - implementation of the loops of filter_kernels.h, included once by each
-   filter_kernels_v*.c, which defines WR_TAPS_TABLE and WR_TAPS_NAME. Intentionally without an include
+   kernels_v*.c, which defines WR_TAPS_TABLE and WR_TAPS_NAME. Intentionally without an include
    guard. */
 #include "field/filter_kernels.h"
 
@@ -262,3 +262,6 @@ const WrTaps WR_TAPS_TABLE = {
     .add_steps_across = add_steps_across,
     .settle = settle,
 };
+
+#undef LANES
+#undef ALWAYS

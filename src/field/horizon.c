@@ -384,8 +384,9 @@ void wr_occlusion_map_make(WrOcclusionMap *opening, int directions, double acros
     }
 }
 
-double wr_occlusion_map_sky(const WrOcclusionMap *opening, const float *slope, double along_i,
-                            double along_j)
+/* wr_horizon_sky for one texel; its normal comes from the slopes of F along i and j, heights per texel. */
+static double occlusion_map_sky(const WrOcclusionMap *opening, const float *slope, double along_i,
+                                double along_j)
 {
     /* Slope on the surface, from the two axis directions. */
     const int quarter = opening->directions / 4;
@@ -426,7 +427,7 @@ static void open_row(int j, int worker, void *ctx)
         const double x = (double)row[(i + 1) % w] - (double)row[(i + w - 1) % w];
         const double y = (double)below[i] - (double)above[i];
         out[i] =
-            (float)wr_occlusion_map_sky(job->opening, slope, job->sign * x / 2, job->sign * y / 2);
+            (float)occlusion_map_sky(job->opening, slope, job->sign * x / 2, job->sign * y / 2);
     }
 }
 

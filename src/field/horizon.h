@@ -102,9 +102,6 @@ typedef struct WrOcclusionMap {
 } WrOcclusionMap;
 
 void wr_occlusion_map_make(WrOcclusionMap *opening, int directions, double across, double down);
-/* wr_horizon_sky for one texel; its normal comes from the slopes of F along i and j, heights per texel. */
-double wr_occlusion_map_sky(const WrOcclusionMap *opening, const float *slope, double along_i,
-                            double along_j);
 /* Ambient occlusion of every texel of the horizon's table, first column and row repeated at the end:
    out[height + 1][width + 1]. changed: as set by wr_horizon_update; only these texels are computed.
    NULL: all. */

@@ -1,23 +1,271 @@
-/* Builds a table from blocks of new heights. The blocks of a batch are computed in parallel. A thread
-   processes several blocks of one column, since a filter can reuse rows read for the block above.
-   Changed tiles are allocated at once but inserted into the table sequentially, since that may copy
-   nodes of the tree. The choice of batches never affects a height. */
-#include "field/ops_internal.h"
-
+/* The frame of table operations: batches of blocks, reading with edges, blocks to recompute, building of the result. */
+#include "base/array.h"
+#include "base/cpu.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
 #include "field/field.h"
 #include "field/filter_kernels.h"
+#include "field/ops_internal.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
+/* ---- the kernels of this processor ---- */
+
+static const WrCpuBuilds builds = { &wr_taps_v1, &wr_taps_v3, &wr_taps_v4 };
+
+const WrTaps *wr_taps_at(int index)
+{
+    return wr_cpu_build(&builds, index);
+}
+
+const WrTaps *wr_taps(void)
+{
+    return wr_cpu_best(&builds);
+}
+
+/* ---- reports, batches, reading with repeated edges, planes ---- */
+
+/* Helpers of operations besides the builder: reports, batches, reading with repeated edges, planes. */
+
+#define ROWS 64 /* of a plane, between two checks for cancellation */
+
+bool wr_op_step(const WrOpJob *job, double fraction)
+{
+    if (wr_progress_step(job->progress, job->from + (job->to - job->from) * fraction)) return true;
+    return wr_fail(job->err, "%s: cancelled", job->name);
+}
+
+typedef struct Batch {
+    WrPiece piece;
+    void *ctx;
+    const WrProgress *progress;
+    int first;
+} Batch;
+
+static void run_piece(int index, int worker, void *ctx)
+{
+    const Batch *batch = ctx;
+    if (!wr_progress_cancelled(batch->progress))
+        batch->piece(batch->first + index, worker, batch->ctx);
+}
+
+bool wr_op_pieces(const WrOpJob *job, int count, WrPiece piece, void *ctx)
+{
+    enum { PIECES = 64 };
+    Batch batch = { piece, ctx, job->progress, 0 };
+    if (!wr_op_step(job, 0.0)) return false;
+    for (int first = 0; first < count; first += PIECES) {
+        int pieces = count - first < PIECES ? count - first : PIECES;
+        batch.first = first;
+        wr_pool_run(job->pool, pieces, run_piece, &batch);
+        if (!wr_op_step(job, (double)(first + pieces) / count)) return false;
+    }
+    return true;
+}
+
+/* Indices from .. from + count - 1 of an axis of n texels: the range to read, and the output position
+   of its first texel; the rest repeats the ends. */
+typedef struct Span {
+    int from, count, at;
+} Span;
+
+static int clamp_index(int i, int low, int high)
+{
+    return i < low ? low : i > high ? high : i;
+}
+
+static Span span_inside(int from, int count, int n, WrWrap wrap)
+{
+    if (wrap == WR_WRAP_PERIODIC) return (Span){ from, count, 0 };
+    int first = clamp_index(from, 0, n - 1), last = clamp_index(from + count - 1, 0, n - 1);
+    return (Span){ first, last - first + 1, clamp_index(first - from, 0, count - 1) };
+}
+
+void wr_op_read(const WrField *field, int i, int j, int count_i, int count_j, float *out,
+                size_t pitch)
+{
+    Span u = span_inside(i, count_i, wr_field_width(field), wr_field_wrap_u(field));
+    Span v = span_inside(j, count_j, wr_field_height(field), wr_field_wrap_v(field));
+    wr_field_read(field, u.from, v.from, u.count, v.count, out + (size_t)v.at * pitch + u.at,
+                  pitch);
+    for (int y = v.at; y < v.at + v.count; y++) {
+        float *row = out + (size_t)y * pitch;
+        int end = u.at + u.count;
+        for (int x = 0; x < u.at; x++) row[x] = row[u.at];
+        for (int x = end; x < count_i; x++) row[x] = row[end - 1];
+    }
+    for (int y = 0; y < count_j; y++) {
+        int from = clamp_index(y, v.at, v.at + v.count - 1);
+        if (from != y)
+            memcpy(out + (size_t)y * pitch, out + (size_t)from * pitch,
+                   sizeof *out * (size_t)count_i);
+    }
+}
+
+bool wr_op_plane_init(WrOpPlane *plane, const WrOpJob *job)
+{
+    int width = wr_field_width(job->in), height = wr_field_height(job->in);
+    size_t pitch = ((size_t)width + 4 + 15) / 16 * 16 + 16;
+    if (!wr_op_step(job, 0.0)) return false;
+    float *block = wr_try_alloc_unset(pitch * (size_t)height, sizeof *block, job->name, job->err);
+    if (!block) return false;
+    for (int y = 0; y < height; y++) { /* vector code also computes on the padding between rows */
+        /* the system clears each page when it is first written: seconds for the largest tables */
+        if (y % ROWS == 0 && wr_progress_cancelled(job->progress)) {
+            wr_free(block);
+            return wr_fail(job->err, "%s: cancelled", job->name);
+        }
+        float *row = block + pitch * (size_t)y;
+        memset(row, 0, 2 * sizeof *row);
+        memset(row + 2 + width, 0, (pitch - 2 - (size_t)width) * sizeof *row);
+    }
+    *plane = (WrOpPlane){ block, block + 2, pitch, width, height };
+    return true;
+}
+
+void wr_op_plane_fini(WrOpPlane *plane)
+{
+    wr_free(plane->block);
+    *plane = (WrOpPlane){ 0 };
+}
+
+/* ---- blocks to recompute after a partial change ---- */
+
+#define ACROSS (WR_OP_SIDE / WR_TILE) /* tiles along a block's side */
+
+typedef struct Changed {
+    const WrOpJob *job;
+    int reach;
+    int tiles_u, tiles_v;
+    uint8_t *marked; /* [tiles_v][tiles_u] */
+} Changed;
+
+/* Texels along an axis. */
+typedef struct TileRange {
+    int from, to;
+} TileRange;
+
+static int least(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+/* The tiles of a span that may extend outside, as one or two runs: beyond an edge they wrap to the
+ * other. */
+static int tile_runs(TileRange s, int n, WrWrap wrap, TileRange run[2])
+{
+    const int last = (n - 1) / WR_TILE;
+    if (wrap == WR_WRAP_CLAMP || s.to - s.from + 1 >= n) {
+        bool all = wrap != WR_WRAP_CLAMP;
+        run[0].from = all || s.from < 0 ? 0 : s.from / WR_TILE;
+        run[0].to = all || s.to >= n ? last : s.to / WR_TILE;
+        return 1;
+    }
+    if (s.from >= 0 && s.to < n) {
+        run[0] = (TileRange){ s.from / WR_TILE, s.to / WR_TILE };
+        return 1;
+    }
+    run[0] = (TileRange){ 0, (s.from < 0 ? s.to : s.to - n) / WR_TILE };
+    run[1] = (TileRange){ (s.from < 0 ? s.from + n : s.from) / WR_TILE, last };
+    return 2;
+}
+
+static void mark(const Changed *c, TileRange i, TileRange j)
+{
+    const WrField *in = c->job->in;
+    TileRange across[2], down[2];
+    int runs_u = tile_runs((TileRange){ i.from - c->reach, i.to + c->reach }, wr_field_width(in),
+                           wr_field_wrap_u(in), across);
+    int runs_v = tile_runs((TileRange){ j.from - c->reach, j.to + c->reach }, wr_field_height(in),
+                           wr_field_wrap_v(in), down);
+    for (int a = 0; a < runs_v; a++)
+        for (int ty = down[a].from; ty <= down[a].to; ty++)
+            for (int b = 0; b < runs_u; b++)
+                memset(c->marked + (size_t)ty * (size_t)c->tiles_u + across[b].from, 1,
+                       (size_t)(across[b].to - across[b].from + 1));
+}
+
+static bool differs(const float *a, float level_a, const float *b, float level_b, int k)
+{
+    float x = a ? a[k] : level_a, y = b ? b[k] : level_b;
+    return memcmp(&x, &y, sizeof x) != 0;
+}
+
+/* Marks the tiles around the changed texels of a tile. */
+static void mark_around(int tx, int ty, void *ctx)
+{
+    const Changed *c = ctx;
+    const WrField *was = c->job->was, *in = c->job->in;
+    const float *a = wr_field_tile(was, tx, ty), *b = wr_field_tile(in, tx, ty);
+    const float level_a = wr_field_level(was), level_b = wr_field_level(in);
+    const int columns = least(WR_TILE, wr_field_width(in) - tx * WR_TILE);
+    const int rows = least(WR_TILE, wr_field_height(in) - ty * WR_TILE);
+    TileRange i = { WR_TILE, -1 }, j = { WR_TILE, -1 };
+    for (int y = 0; y < rows; y++)
+        for (int x = 0; x < columns; x++) {
+            if (!differs(a, level_a, b, level_b, y * WR_TILE + x)) continue;
+            i.from = least(i.from, x);
+            i.to = x > i.to ? x : i.to;
+            j.from = least(j.from, y);
+            j.to = y;
+        }
+    if (i.to < 0) return;
+    mark(c, (TileRange){ tx * WR_TILE + i.from, tx * WR_TILE + i.to },
+         (TileRange){ ty * WR_TILE + j.from, ty * WR_TILE + j.to });
+}
+
+/* The smallest block around the marked tiles of a square of tiles; no texels if there are none. */
+static WrOpBlock block_of(const Changed *c, int left, int top)
+{
+    TileRange i = { c->tiles_u, -1 }, j = { c->tiles_v, -1 };
+    for (int ty = top; ty < least(top + ACROSS, c->tiles_v); ty++)
+        for (int tx = left; tx < least(left + ACROSS, c->tiles_u); tx++) {
+            if (!c->marked[(size_t)ty * (size_t)c->tiles_u + (size_t)tx]) continue;
+            i.from = least(i.from, tx);
+            i.to = tx > i.to ? tx : i.to;
+            j.from = least(j.from, ty);
+            j.to = ty;
+        }
+    if (i.to < 0) return (WrOpBlock){ 0 };
+    const int x = i.from * WR_TILE, y = j.from * WR_TILE;
+    return (WrOpBlock){ x, y, least((i.to + 1) * WR_TILE, wr_field_width(c->job->in)) - x,
+                        least((j.to + 1) * WR_TILE, wr_field_height(c->job->in)) - y, false };
+}
+
+/* The blocks, aligned to tiles, that may differ from the previous result: those within `reach` of a
+   changed texel. The caller frees them. */
+static WrOpBlock *op_changed_blocks(const WrOpJob *job, int reach, int *count)
+{
+    Changed c = { .job = job,
+                  .reach = reach,
+                  .tiles_u = wr_field_tiles_u(job->in),
+                  .tiles_v = wr_field_tiles_v(job->in) };
+    WR_ARRAY(WrOpBlock) blocks = { 0 };
+    c.marked = wr_alloc((size_t)c.tiles_u * (size_t)c.tiles_v, 1);
+    wr_field_changes(job->was, job->in, mark_around, &c);
+    for (int ty = 0; ty < c.tiles_v; ty += ACROSS)
+        for (int tx = 0; tx < c.tiles_u; tx += ACROSS) {
+            WrOpBlock block = block_of(&c, tx, ty);
+            if (block.count_i > 0) wr_array_push(&blocks, block);
+        }
+    wr_free(c.marked);
+    *count = blocks.count;
+    return blocks.data;
+}
+
+/* ---- the builder ---- */
+
+/* Builds a table from blocks of new heights. The blocks of a batch are computed in parallel. A thread
+   processes several blocks of one column, since a filter can reuse rows read for the block above.
+   Changed tiles are allocated at once but inserted into the table sequentially, since that may copy
+   nodes of the tree. The choice of batches never affects a height. */
+
 #define SIDE WR_OP_SIDE
-#define BATCH 128               /* blocks between two reports */
-#define TALL 8                  /* maximum number of blocks in a column */
-#define ACROSS (SIDE / WR_TILE) /* tiles along a block's side */
+#define BATCH 128 /* blocks between two reports */
+#define TALL 8    /* maximum number of blocks in a column */
 #define BLOCK_TILES (ACROSS * ACROSS)
 
 /* Buffers of a thread. */
@@ -320,7 +568,7 @@ static void plan_blocks(Build *build, WrField *base)
         return;
     }
     build->tall = 1;
-    build->blocks = wr_op_changed_blocks(job, window / 2, &build->count);
+    build->blocks = op_changed_blocks(job, window / 2, &build->count);
     build->out = wr_field_share(job->made);
 }
 

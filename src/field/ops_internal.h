@@ -89,13 +89,6 @@ WrField *wr_op_build(const WrOpJob *job, WrField *base, const WrOpWork *work);
 /* wr_op_build for an operation whose result has the input's size and edges. */
 WrField *wr_op_build_same(const WrOpJob *job, const WrOpWork *work);
 
-/* The blocks, aligned to tiles, that may differ from the previous result: those within `reach` of a
-   changed texel. The caller frees them. */
-WrOpBlock *wr_op_changed_blocks(const WrOpJob *job, int reach, int *count);
-
-/* Checks all values, in the order of WrFilter. */
-bool wr_op_check_params(const WrOpInfo *op, const double *value, WrError *err);
-
 /* Reports the fraction done of the present step, 0..1; false and an error when the job is cancelled. */
 bool wr_op_step(const WrOpJob *job, double fraction);
 
@@ -128,10 +121,6 @@ static inline float wr_op_float(double x)
    returns reach = ceil(4 sigma). sigma 0..WR_OP_NARROW_SIGMA. */
 #define WR_OP_NARROW_SIGMA 16
 #define WR_OP_NARROW_REACH 64
-int wr_op_gauss(double sigma, float weight[WR_OP_NARROW_REACH + 1]);
-
-/* The blurred input for sigma above WR_OP_NARROW_SIGMA, by repeated boxes. */
-bool wr_op_blur_wide(const WrOpJob *job, double sigma, WrOpPlane *plane);
 
 /* The operations; parameters as in their rows, checked. */
 WrField *wr_op_offset(WrOpJob *job, const double *param);

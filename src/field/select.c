@@ -1,18 +1,469 @@
-/* Selections by height and slope, their combination, and the builder of selections made row by row. */
+/* Selections by height, slope and flood fill; growing, shrinking and combination. */
 #include "field/select.h"
 
+#include "base/enum_rows.h"
 #include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"
-#include "base/enum_rows.h"
 #include "field/field.h"
 #include "field/ops.h"
 #include "field/select_internal.h"
 
 #include <math.h>
 #include <string.h>
+
+/* ---- bounding box ---- */
+
+static void mark(const WrField *selection, bool *columns, bool *rows)
+{
+    const int width = wr_field_width(selection), height = wr_field_height(selection);
+    for (int ty = 0; ty < wr_field_tiles_v(selection) && !wr_progress_stopped(); ty++)
+        for (int tx = 0; tx < wr_field_tiles_u(selection); tx++) {
+            const float *tile = wr_field_tile(selection, tx, ty);
+            const float level = wr_field_level(selection);
+            if (!tile && level == 0.0f) continue;
+            for (int k = 0; k < WR_TILE * WR_TILE; k++) {
+                int i = tx * WR_TILE + k % WR_TILE, j = ty * WR_TILE + k / WR_TILE;
+                if (i >= width || j >= height || (tile ? tile[k] : level) == 0.0f) continue;
+                columns[i] = rows[j] = true;
+            }
+        }
+}
+
+/* The shortest run of texels that contains all marked ones; on a periodic axis the complement of the
+ * widest gap. */
+static bool run_of(const bool *marked, int n, bool periodic, int *from, int *count)
+{
+    int first = -1, last = -1, before = -1, widest = 0, begin = 0;
+    for (int i = 0; i < n; i++) {
+        if (!marked[i]) continue;
+        if (first < 0) first = i;
+        if (before >= 0 && i - before - 1 > widest) {
+            widest = i - before - 1;
+            begin = i;
+        }
+        before = last = i;
+    }
+    if (first < 0) return false;
+    bool over = periodic && widest > first + n - 1 - last;
+    *from = over ? begin : first;
+    *count = over ? n - widest : last - first + 1;
+    return true;
+}
+
+bool wr_select_box(const WrField *selection, WrSelectBox *box)
+{
+    const int width = wr_field_width(selection), height = wr_field_height(selection);
+    bool *columns = wr_alloc((size_t)width, sizeof *columns);
+    bool *rows = wr_alloc((size_t)height, sizeof *rows);
+    mark(selection, columns, rows);
+    bool any = run_of(columns, width, wr_field_wrap_u(selection) == WR_WRAP_PERIODIC, &box->i,
+                      &box->count_i) &&
+               run_of(rows, height, wr_field_wrap_v(selection) == WR_WRAP_PERIODIC, &box->j,
+                      &box->count_j);
+    wr_free(columns);
+    wr_free(rows);
+    return any;
+}
+
+/* ---- flood fill ---- */
+
+/* A run of `count` texels of one row from column x on; on a periodic axis it may continue at the first
+   column. */
+typedef struct Run {
+    int x, y, count;
+} Run;
+
+typedef struct RunList {
+    Run *runs; /* owned */
+    size_t count, capacity;
+} RunList;
+
+typedef struct Flood {
+    int width, height, tiles_u;
+    bool wrap_u, wrap_v, diagonal;
+    const float **tiles; /* [tiles_v][tiles_u], owned */
+    float level;
+    double low, high; /* range of heights of the region */
+    uint64_t *marks;  /* [height][words], a bit for each visited texel; owned */
+    size_t words;
+    RunList now, next;
+} Flood;
+
+static bool push(RunList *list, Run run, WrError *err)
+{
+    if (list->count == list->capacity) {
+        size_t grown = list->capacity ? 2 * list->capacity : 1024;
+        Run *runs = wr_try_alloc(grown, sizeof *runs, "flood", err);
+        if (!runs) return false;
+        if (list->count) memcpy(runs, list->runs, list->count * sizeof *runs);
+        wr_free(list->runs);
+        list->runs = runs;
+        list->capacity = grown;
+    }
+    list->runs[list->count++] = run;
+    return true;
+}
+
+static bool is_marked(const Flood *f, int x, int y)
+{
+    return f->marks[(size_t)y * f->words + (size_t)(x >> 6)] >> (x & 63) & 1;
+}
+
+static void mark_flood(Flood *f, int x, int y)
+{
+    f->marks[(size_t)y * f->words + (size_t)(x >> 6)] |= (uint64_t)1 << (x & 63);
+}
+
+/* In range, and not yet visited. */
+static bool is_open(const Flood *f, int x, int y)
+{
+    if (is_marked(f, x, y)) return false;
+    const float *tile = f->tiles[(y / WR_TILE) * f->tiles_u + x / WR_TILE];
+    double height = tile ? tile[(y % WR_TILE) * WR_TILE + x % WR_TILE] : f->level;
+    return height >= f->low && height <= f->high;
+}
+
+static int left_of(const Flood *f, int x)
+{
+    return x > 0 ? x - 1 : f->wrap_u ? f->width - 1 : -1;
+}
+
+static int right_of(const Flood *f, int x)
+{
+    return x + 1 < f->width ? x + 1 : f->wrap_u ? 0 : -1;
+}
+
+/* Marks the whole run that contains the open texel (x, y), and adds it to the next list. */
+static bool take_run(Flood *f, int x, int y, WrError *err)
+{
+    Run run = { x, y, 1 };
+    mark_flood(f, x, y);
+    for (int i = left_of(f, x); i >= 0 && is_open(f, i, y); i = left_of(f, i)) {
+        mark_flood(f, i, y);
+        run.x = i;
+        run.count++;
+    }
+    for (int i = right_of(f, x); i >= 0 && is_open(f, i, y); i = right_of(f, i)) {
+        mark_flood(f, i, y);
+        run.count++;
+    }
+    return push(&f->next, run, err);
+}
+
+/* Visits all runs of row y that touch the run, also at corners if these count. */
+static bool take_row(Flood *f, Run run, int y, WrError *err)
+{
+    if (y < 0 || y >= f->height) {
+        if (!f->wrap_v) return true;
+        y = y < 0 ? f->height - 1 : 0;
+    }
+    int x = run.x, count = run.count;
+    if (f->diagonal && count < f->width) {
+        int before = left_of(f, x);
+        if (before >= 0) {
+            x = before;
+            count++;
+        }
+        count++; /* texels are counted from the one behind the end; at a clamped edge the loop stops
+                    by itself */
+    }
+    for (int k = 0; k < count && x >= 0; k++, x = right_of(f, x))
+        if (is_open(f, x, y) && !take_run(f, x, y, err)) return false;
+    return true;
+}
+
+/* Proceeds in waves, so that only the runs at the border of the region are stored. */
+static bool spread(Flood *f, const WrProgress *progress, WrError *err)
+{
+    while (f->next.count > 0) {
+        RunList done = f->now;
+        f->now = f->next;
+        f->next = done;
+        f->next.count = 0;
+        if (wr_progress_cancelled(progress)) return wr_fail(err, "cancelled");
+        for (size_t i = 0; i < f->now.count; i++) {
+            if (i % 1024 == 1023 && wr_progress_cancelled(progress))
+                return wr_fail(err, "cancelled");
+            Run run = f->now.runs[i];
+            if (!take_row(f, run, run.y - 1, err) || !take_row(f, run, run.y + 1, err))
+                return false;
+        }
+    }
+    return true;
+}
+
+static bool mark_rows(void *ctx, int worker, int j, int rows, float *out)
+{
+    const Flood *f = ctx;
+    (void)worker;
+    for (int y = 0; y < rows; y++)
+        for (int x = 0; x < f->width; x++)
+            out[(size_t)y * (size_t)f->width + (size_t)x] = is_marked(f, x, j + y) ? 1.0f : 0.0f;
+    return true;
+}
+
+/* The value of most texels, so that few tiles are needed. */
+static float most(const Flood *f)
+{
+    int64_t reached = 0;
+    for (size_t i = 0; i < (size_t)f->height * f->words; i++)
+        reached += __builtin_popcountll(f->marks[i]);
+    return 2 * reached > (int64_t)f->width * f->height ? 1.0f : 0.0f;
+}
+
+/* Index of the texel that contains `part` of the axis. */
+static int index_of(double part, int count, bool wrap)
+{
+    if (wrap) part = wr_field_reduce(part, 1.0);
+    double i = floor(part * count);
+    return i < 0.0 ? 0 : i < count ? (int)i : count - 1;
+}
+
+/* Caches the tile pointers of the whole table, so that a texel access does not walk the tree. */
+static bool fetch(Flood *f, const WrField *field, WrError *err)
+{
+    int tiles_v = wr_field_tiles_v(field);
+    f->words = ((size_t)f->width + 63) / 64;
+    f->marks = wr_try_alloc((size_t)f->height * f->words, sizeof *f->marks, "flood", err);
+    f->tiles = wr_try_alloc((size_t)f->tiles_u * (size_t)tiles_v, sizeof *f->tiles, "flood", err);
+    if (!f->marks || !f->tiles) return false;
+    for (int ty = 0; ty < tiles_v; ty++)
+        for (int tx = 0; tx < f->tiles_u; tx++)
+            f->tiles[ty * f->tiles_u + tx] = wr_field_tile(field, tx, ty);
+    return true;
+}
+
+WrField *wr_select_flood(const WrField *field, double u, double v, double tolerance, bool diagonal,
+                         WrPool *pool, const WrProgress *progress, WrError *err)
+{
+    if (!isfinite(u) || !isfinite(v) || !(tolerance >= 0.0)) {
+        wr_fail(err, "flood from %.9g,%.9g within %.9g: must be a place and a height of 0 or more",
+                u, v, tolerance);
+        return NULL;
+    }
+    Flood f = { .width = wr_field_width(field),
+                .height = wr_field_height(field),
+                .tiles_u = wr_field_tiles_u(field),
+                .wrap_u = wr_field_wrap_u(field) == WR_WRAP_PERIODIC,
+                .wrap_v = wr_field_wrap_v(field) == WR_WRAP_PERIODIC,
+                .diagonal = diagonal,
+                .level = wr_field_level(field) };
+    int x = index_of(u, f.width, f.wrap_u), y = index_of(1.0 - v, f.height, f.wrap_v);
+    double start = wr_field_get(field, x, y);
+    f.low = start - tolerance;
+    f.high = start + tolerance;
+    WrField *made = NULL;
+    if (fetch(&f, field, err) && take_run(&f, x, y, err) && spread(&f, progress, err))
+        made = wr_select_build(field, most(&f), mark_rows, &f, pool, progress, err);
+    wr_free(f.marks);
+    wr_free(f.tiles);
+    wr_free(f.now.runs);
+    wr_free(f.next.runs);
+    return made;
+}
+
+/* ---- growing and shrinking ---- */
+
+/* Growing and shrinking by exact Euclidean distance: the distance along columns first, by a sweep down
+   and a sweep up, then across rows as the lower envelope of parabolas (Felzenszwalb and Huttenlocher,
+   Distance Transforms of Sampled Functions, 2012). Squared distances are integers, so there is no
+   rounding before the root. On a periodic axis the nearest image lies within half a period: columns are
+   swept twice round, and rows are extended by half a period at either end. */
+
+#define FAR UINT16_MAX /* no target in this column; real distances are under WR_FIELD_MAX */
+
+/* Scratch memory of one thread for rows; [span]. */
+typedef struct Envelope {
+    double *start;  /* position from which each parabola of the envelope is the lowest */
+    int *apex;      /* its column, which may lie outside the table */
+    double *square; /* [width] squared distance, or infinite */
+} Envelope;
+
+typedef struct Distance {
+    const WrField *a;
+    bool inside; /* distances to a >= 1/2, else to a < 1/2 */
+    bool any;    /* a target exists; set by any thread, only to true */
+    bool *some;  /* [tiles_u] a target exists in this tile column */
+    double r;
+    int width, height;
+    uint16_t *down; /* [height][width] distance to the nearest target in the column */
+    Envelope *envelopes;
+} Distance;
+
+static bool is_target(const Distance *d, const float *tile, int index)
+{
+    float a = tile ? tile[index] : wr_field_level(d->a);
+    return (a >= 0.5f) == d->inside;
+}
+
+static uint16_t one_more(uint16_t steps)
+{
+    return steps == FAR ? FAR : (uint16_t)(steps + 1);
+}
+
+/* Stores for each texel of a row the distance up (or down) to the last target. */
+static void sweep_row(Distance *d, int tx, int j, bool first, uint16_t *steps)
+{
+    const float *tile = wr_field_tile(d->a, tx, j / WR_TILE);
+    uint16_t *row = d->down + (size_t)j * (size_t)d->width;
+    int at = tx * WR_TILE, count = d->width - at < WR_TILE ? d->width - at : WR_TILE;
+    for (int x = 0; x < count; x++) {
+        bool target = is_target(d, tile, j % WR_TILE * WR_TILE + x);
+        if (target) d->some[tx] = true;
+        steps[x] = target ? 0 : one_more(steps[x]);
+        if (first || steps[x] < row[at + x]) row[at + x] = steps[x];
+    }
+}
+
+/* False: cancelled, which is checked at intervals. wr_pool_run then returns false. */
+static bool goes_on(int j)
+{
+    return j % 256 != 0 || !wr_progress_stopped();
+}
+
+static void column_piece(int tx, int worker, void *ctx)
+{
+    (void)worker;
+    Distance *d = ctx;
+    int rounds = wr_field_wrap_v(d->a) == WR_WRAP_PERIODIC ? 2 : 1;
+    uint16_t steps[WR_TILE];
+    for (int x = 0; x < WR_TILE; x++) steps[x] = FAR;
+    for (int round = 0; round < rounds; round++)
+        for (int j = 0; j < d->height && goes_on(j); j++) sweep_row(d, tx, j, round == 0, steps);
+    for (int x = 0; x < WR_TILE; x++) steps[x] = FAR;
+    for (int round = 0; round < rounds; round++)
+        for (int j = d->height; j-- > 0 && goes_on(j);) sweep_row(d, tx, j, false, steps);
+}
+
+static int wrap_index(int i, int n)
+{
+    int rest = i % n;
+    return rest < 0 ? rest + n : rest;
+}
+
+/* square[i] = min over columns q of (i - q)^2 + down[q]^2. A parabola at q is lower than the one at p <
+ * q from x = ((dq + q^2) - (dp + p^2)) / (2 (q - p)) on; for integer columns the rounded quotient gives
+ * the same decision as the exact one. */
+static void envelope_row(const Distance *d, const uint16_t *down, Envelope *e)
+{
+    int around = wr_field_wrap_u(d->a) == WR_WRAP_PERIODIC ? d->width / 2 + 1 : 0;
+    int top = -1;
+    for (int q = -around; q < d->width + around; q++) {
+        uint16_t steps = down[wrap_index(q, d->width)];
+        if (steps == FAR) continue;
+        double dq = (double)steps * steps + (double)q * q, from = -INFINITY;
+        for (; top >= 0; top--) {
+            int p = e->apex[top];
+            uint16_t other = down[wrap_index(p, d->width)];
+            from = (dq - ((double)other * other + (double)p * p)) / (2.0 * (q - p));
+            if (from > e->start[top]) break;
+        }
+        top++;
+        e->apex[top] = q;
+        e->start[top] = top == 0 ? -INFINITY : from;
+    }
+    for (int i = 0, k = 0; i < d->width; i++) {
+        if (top < 0) {
+            e->square[i] = INFINITY;
+            continue;
+        }
+        while (k < top && e->start[k + 1] < i) k++;
+        uint16_t steps = down[wrap_index(e->apex[k], d->width)];
+        double across = i - e->apex[k];
+        e->square[i] = across * across + (double)steps * steps;
+    }
+}
+
+static bool distance_rows(void *ctx, int worker, int j, int rows, float *out)
+{
+    const Distance *d = ctx;
+    Envelope *e = &d->envelopes[worker];
+    size_t width = (size_t)d->width;
+    wr_field_read(d->a, 0, j, d->width, rows, out, width);
+    for (int y = 0; y < rows; y++) {
+        float *row = out + (size_t)y * width;
+        envelope_row(d, d->down + (size_t)(j + y) * width, e);
+        for (int i = 0; i < d->width; i++) {
+            double away = sqrt(e->square[i]), x = d->inside ? d->r + 1.0 - away : away - d->r;
+            float edge = (float)(x < 0.0 ? 0.0 : x > 1.0 ? 1.0 : x);
+            bool takes = d->inside ? edge > row[i] : edge < row[i];
+            row[i] = takes ? edge : row[i];
+        }
+    }
+    return true;
+}
+
+static bool make_room(Distance *d, int threads, WrError *err)
+{
+    size_t width = (size_t)d->width, span = 2 * width + 4;
+    d->down =
+        wr_try_alloc(width * (size_t)d->height, sizeof *d->down, "distances of a selection", err);
+    if (!d->down) return false;
+    d->some = wr_alloc((size_t)wr_field_tiles_u(d->a), sizeof *d->some);
+    d->envelopes = wr_alloc((size_t)threads, sizeof *d->envelopes);
+    for (int i = 0; i < threads; i++) {
+        d->envelopes[i].start = wr_alloc(span, sizeof *d->envelopes[i].start);
+        d->envelopes[i].apex = wr_alloc(span, sizeof *d->envelopes[i].apex);
+        d->envelopes[i].square = wr_alloc(width, sizeof *d->envelopes[i].square);
+    }
+    return true;
+}
+
+static void free_room(Distance *d, int threads)
+{
+    for (int i = 0; d->envelopes && i < threads; i++) {
+        wr_free(d->envelopes[i].start);
+        wr_free(d->envelopes[i].apex);
+        wr_free(d->envelopes[i].square);
+    }
+    wr_free(d->envelopes);
+    wr_free(d->some);
+    wr_free(d->down);
+}
+
+static WrField *change(const WrField *a, double r, bool grow, WrPool *pool, WrError *err)
+{
+    if (!(r >= 0.0) || !isfinite(r)) {
+        wr_fail(err, "%s a selection by %.9g texels: must be 0 or more and finite",
+                grow ? "grow" : "shrink", r);
+        return NULL;
+    }
+    if (r == 0.0) return wr_field_share(a);
+    Distance d = {
+        .a = a, .inside = grow, .r = r, .width = wr_field_width(a), .height = wr_field_height(a)
+    };
+    int threads = wr_pool_threads(pool);
+    WrField *result = NULL;
+    if (make_room(&d, threads, err)) {
+        bool whole = wr_pool_run(pool, wr_field_tiles_u(a), column_piece, &d);
+        bool any = false;
+        for (int tx = 0; tx < wr_field_tiles_u(a); tx++) any |= d.some[tx];
+        if (!whole) wr_fail(err, "cancelled");
+        else if (!any) result = wr_field_share(a);
+        else
+            result = wr_select_build(a, wr_field_level(a), distance_rows, &d, pool,
+                                     wr_progress_here(), err);
+    }
+    free_room(&d, threads);
+    return result;
+}
+
+WrField *wr_select_grow(const WrField *a, double r, WrPool *pool, WrError *err)
+{
+    return change(a, r, true, pool, err);
+}
+
+WrField *wr_select_shrink(const WrField *a, double r, WrPool *pool, WrError *err)
+{
+    return change(a, r, false, pool, err);
+}
+
+/* ---- by height and slope; combination ---- */
+
+/* Selections by height and slope, their combination, and the builder of selections made row by row. */
 
 #define TEXELS (WR_TILE * WR_TILE)
 

@@ -24,11 +24,3 @@ WrField *wr_select_build(const WrField *like, float level, WrSelectRows make, vo
 typedef struct WrSelectVertex {
     int64_t x, y; /* |x|, |y| < 2^38 */
 } WrSelectVertex;
-
-/* False and an error unless the point is finite and in range. */
-bool wr_select_vertex(const WrField *like, WrSelectPoint point, WrSelectVertex *vertex,
-                      WrError *err);
-
-/* The polygon's coverage, even-odd, with its periodic images. */
-WrField *wr_select_polygon(const WrField *like, const WrSelectVertex *vertices, int count,
-                           WrPool *pool, WrError *err);

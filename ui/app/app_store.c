@@ -33,7 +33,6 @@
 #include "ui/views/marks.h"
 
 #include "base/memory.h"
-#include "field/certificate.h"
 #include "field/seam.h"
 
 typedef struct Store {

@@ -11,7 +11,6 @@
 
 #include "base/text.h"
 #include "command/session.h"
-#include "field/certificate.h"
 #include "field/field.h"
 #include "field/seam.h"
 #include "scene/scene.h"

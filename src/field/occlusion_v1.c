@@ -1,4 +1,0 @@
-/* The loops of occlusion for one instruction set; CMakeLists.txt sets the flags. */
-#define WR_SKY_TABLE wr_sky_kernels_v1
-#define WR_SKY_NAME "v1"
-#include "field/occlusion_body.h"
