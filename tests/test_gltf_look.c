@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
-#include "image/gltf_material.h"
+#include "image/gltf.h"
 #include "image/image.h"
 #include "scene/scene.h"
 #include "shade/reflection_models.h"

@@ -6,11 +6,12 @@
 #include "base/error.h"
 #include "base/enum_rows.h"
 #include "image/oiio.h"
-#include "image/png_codec.h"
+#include "image/png.h"
 #include "system/fd.h"
 
 #include <fcntl.h>
 #include <math.h>
+#include <png.h>
 
 typedef struct Kind {
     const char *what;

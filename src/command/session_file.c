@@ -10,7 +10,6 @@
 #include "document/document_file.h"
 #include "document/ora.h"
 #include "image/gltf.h"
-#include "image/gltf_material.h"
 #include "image/image.h"
 #include "scene/scene.h"
 #include "system/fd.h"

@@ -13,7 +13,7 @@
 #include "document/document.h"
 #include "document/document_file.h"
 #include "field/field.h"
-#include "image/gltf_material.h"
+#include "image/gltf.h"
 #include "image/image.h"
 #include "scene/normal_map.h"
 #include "scene/objects.h"

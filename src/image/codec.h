@@ -1,5 +1,5 @@
 /* codec.h - interface of image file libraries: OpenImageIO, which is a module (oiio.h), and libpng
-   (png_codec.h).
+   (png.h).
 
    No exception crosses this interface.
    Private to this module. C and C++.

@@ -40,9 +40,3 @@ int64_t wr_gltf_set(json_object *reference);
 /* The reference whose transform applies to the (u,v) of a model: that of its normals, else of its
    colours, else of its metalness; NULL: none uses coordinate set 0. */
 json_object *wr_gltf_mapped(json_object *material);
-
-/* Decodes a URI's percent escapes and appends the name. False if the result contains a NUL, or is
- * empty. */
-bool wr_gltf_decode_name(const char *uri, WrText *name);
-/* True if a path stays in its folder: no root, no "..", no scheme, no drive. */
-bool wr_gltf_stays_within(const char *name);

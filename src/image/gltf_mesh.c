@@ -1,4 +1,4 @@
-#include "image/gltf_mesh.h"
+#include "image/mesh_formats.h"
 
 #include "base/error.h"
 #include "base/memory.h"
@@ -319,7 +319,9 @@ static bool is_packed(Gltf *file, json_object *primitive, json_object *attribute
            wr_gltf_index(points, "bufferView", -1) < 0;
 }
 
-/* ---- skins: a point is transformed by the weighted mean of its joints' matrices (glTF 2.0, 3.7.3.3) ---- */
+/* ---- skins ---- */
+
+/* A point is transformed by the weighted mean of its joints' matrices (glTF 2.0, 3.7.3.3). */
 
 static bool read_weights(Gltf *file, json_object *attributes, Body *body, WrError *err)
 {

@@ -58,6 +58,3 @@ bool wr_mesh_build_polygon(WrMeshBuild *build, const int32_t *corners, int32_t c
 /* Adds a strip of triangles: corners i, i+1, i+2, every other one reversed. Degenerate ones are
  * skipped. */
 bool wr_mesh_build_strip(WrMeshBuild *build, const int32_t *corners, int32_t count, WrError *err);
-/* Serialises the mesh (mesh_decode.h) and appends it. Errors: no triangle; a point that is not finite
- * or beyond 1e30 (the first is named). */
-bool wr_mesh_build_finish(const WrMeshBuild *build, WrText *block, WrError *err);

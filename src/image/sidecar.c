@@ -7,7 +7,6 @@
 #include "base/text.h"
 #include "image/image.h"
 #include "image/read_internal.h"
-#include "image/image_info.h"
 #include "system/path.h"
 
 #include <json-c/json.h>
