@@ -5,13 +5,13 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "export/vector_drawing.h"
+#include "image/vector_drawing.h"
 
 /* The same drawing into a file of either kind: lines of two pens, a bend, negative positions, a word. */
 static void draw(const char *path, int width, int height)
 {
     WrError err;
-    WrVectorDrawing *ink = wr_vector_drawing_new(path, width, height, &err);
+    WrVectorDrawing *ink = wr_vector_drawing_new(path, width, height, 1, &err);
     TestRandom random = { 11 };
     assert_non_null(ink);
     for (int line = 0; line < 40; line++) {

@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "base/progress.h"
-#include "export/vector_drawing.h"
+#include "image/vector_drawing.h"
 #include "export/line_drawing.h"
 
 #include <math.h>
@@ -144,7 +144,7 @@ static void a_picture_of_lines_looks_at_the_cancel_too(void **state)
     WrError err;
     for (int i = 0; i < POINTS; i++)
         points[i] = (WrVectorDrawingPoint){ (float)(i % 400), (float)(i % 299) };
-    WrVectorDrawing *ink = wr_vector_drawing_new("/nowhere/at/all.png", 400, HIGH, &err);
+    WrVectorDrawing *ink = wr_vector_drawing_new("/nowhere/at/all.png", 400, HIGH, 1, &err);
     assert_non_null(ink);
     int64_t before = wr_progress_checks();
     wr_vector_drawing_line(ink, points, POINTS);

@@ -8,7 +8,7 @@ wr_program_packages=(
     libdbus-1-dev libmd-dev libmypaint-dev libopenimageio-dev libpng-dev
     libsdl2-dev libseccomp-dev libsleef-dev libstb-dev libx11-dev libxi-dev libxxhash-dev libzip-dev mypaint-brushes
     zlib1g-dev
-    gettext fonts-dejavu-core fonts-inter fonts-materialdesignicons-webfont gnuplot-nox xfonts-terminus
+    gettext fonts-dejavu-core fonts-inter fonts-materialdesignicons-webfont xfonts-terminus
 )
 # The tests besides: the framework, checkers, an X server and hands for the window, readers of what
 # the program writes.

@@ -10,7 +10,7 @@
 # --keep       measurements are kept there, and those that are there already are not made again
 # --quick      tiny pictures and few runs: the page is made, its numbers mean nothing
 #
-# Every sentence of the page that says what follows is made from the numbers. Needs jq, gnuplot and
+# Every sentence of the page that says what follows is made from the numbers. Needs jq and
 # ImageMagick's convert. Takes about half an hour; --quick, half a minute.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)

@@ -98,7 +98,7 @@ static WrPlotSpot place(const Sheet *sheet, int own)
             /* Above and to the right first, among equally good places. */
             const double angle =
                 WR_PI * (0.25 + (turn % 2 ? -1 : 1) * (turn + 1) / 2 * 2.0 / TURNS);
-            const WrPlotSpot at = { point.x + radius * cos(angle), point.y + radius * sin(angle) };
+            const WrPlotSpot at = { point.x + radius * cos(angle), point.y - radius * sin(angle) };
             const WrPlotBox box = wr_plot_number_box(at, own + 1);
             if (!free_place(sheet, &box)) continue;
             const double bad = badness(sheet, own, at);

@@ -1,14 +1,10 @@
 /* plot_labels.h - positions of a plot's numbers without overlaps.
    Private to plot*.c and their test. */
 #pragma once
-
-/* In pixels, y upwards. */
-typedef struct WrPlotSpot {
-    double x, y;
-} WrPlotSpot;
+#include "accuracy/plot.h"
 
 typedef struct WrPlotBox {
-    double x, y, w, h; /* lower left corner and size */
+    double x, y, w, h; /* upper left corner and size, pixels */
 } WrPlotBox;
 
 #define WR_PLOT_MARK 7 /* half the side of a point's mark */

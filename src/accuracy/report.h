@@ -11,10 +11,6 @@ void wr_report_text(const WrLadder *ladder, const char *name, WrText *text);
 void wr_report_csv(const WrLadder *ladder, WrText *text);
 /* {"reference":{...},"claim":{...},"rungs":[{...}]}; null for values that were not measured. */
 void wr_report_json(const WrLadder *ladder, const char *name, WrText *text);
-/* Gnuplot script of a plot of error against time with the front marked; terminal: "pngcairo" or "svg". It writes
-   to standard output. */
-void wr_report_plot_script(const WrLadder *ladder, const char *name, const char *terminal,
-                           WrText *text);
-/* Writes that plot to a .png or .svg file, drawn by gnuplot, atomically. Errors: another extension; gnuplot is
-   not installed or fails, with its own message. */
+/* Writes the plot (plot.h) to a .svg, .pdf or .png file, atomically: the front is numbered and listed below, each setting
+   in full. Errors: another extension; the file cannot be written. */
 bool wr_report_plot(const WrLadder *ladder, const char *name, const char *path, WrError *err);

@@ -276,7 +276,7 @@ static const struct Option {
     { "--csv", NULL, "FILE", WR_OPTION_ACCURACY, "write the table for spreadsheets",
       .set = set_csv },
     { "--plot", NULL, "FILE", WR_OPTION_ACCURACY,
-      "write error against time as a .png or .svg; repeatable; needs gnuplot", .set = set_plot },
+      "write error against time as a .pdf, .png or .svg; repeatable", .set = set_plot },
     { "--differences", NULL, "FOLDER", WR_OPTION_ACCURACY,
       "write a picture of each rung's error into the folder", .set = set_differences },
     { "--tolerance", NULL, "KIND=VALUE", WR_OPTION_ACCURACY,

@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "export/job.h"
-#include "export/vector_drawing.h"
+#include "image/vector_drawing.h"
 
 #include <math.h>
 
@@ -343,7 +343,7 @@ bool wr_export_drawing_write(WrExportJob *job, const char *path, WrError *err)
     job->report.width = o->drawing_w;
     job->report.height = o->drawing_h;
     job->report.lines = drawing.stretch_count;
-    WrVectorDrawing *ink = wr_vector_drawing_new(path, o->drawing_w, o->drawing_h, err);
+    WrVectorDrawing *ink = wr_vector_drawing_new(path, o->drawing_w, o->drawing_h, 1, err);
     if (ink) {
         wr_vector_drawing_pen(ink, o->pen, 1.0);
         for (int s = 0; s < drawing.stretch_count && !wr_progress_stopped(); s++)

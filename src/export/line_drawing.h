@@ -4,7 +4,7 @@
    The heights stand on the unit square, z = relief F, in parallel projection, rotated about the vertical by
    turn_deg and seen from tilt_deg above the horizon. Lines run along u and along v through texels' centres. */
 #pragma once
-#include "export/vector_drawing.h"
+#include "image/vector_drawing.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -2,7 +2,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "export/vector_drawing.h"
+#include "image/vector_drawing.h"
 #include "export/job.h"
 #include "field/analytic.h"
 #include "field/scheme.h"
@@ -112,7 +112,7 @@ bool wr_export_profile_write(WrExportJob *job, const char *path, WrError *err)
 {
     WrExportOptions *o = &job->options;
     if (o->scheme < 0) o->scheme = (int)job->scene->scheme;
-    WrVectorDrawing *ink = wr_vector_drawing_new(path, o->drawing_w, o->drawing_h, err);
+    WrVectorDrawing *ink = wr_vector_drawing_new(path, o->drawing_w, o->drawing_h, 1, err);
     if (!ink) return false;
     Chart chart = { .x0 = 4.5 * SIZE,
                     .y0 = 2.0 * SIZE,

@@ -1,7 +1,6 @@
 /* Over the patch: two pictures to compare, maps of one quantity, their labels and scales. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/accuracy/accuracy_plan.h"
-#include "ui/accuracy/accuracy_plot.h"
 #include "ui/accuracy/accuracy_work.h"
 #include "ui/state/app_state.h"
 #include "ui/state/layout.h"
@@ -13,6 +12,7 @@
 #include "ui/patch/patch.h"
 #include "ui/preview/preview.h"
 
+#include "accuracy/plot.h"
 #include "accuracy/metrics.h"
 #include "base/array.h"
 #include "base/memory.h"

@@ -1,6 +1,5 @@
 /* The Accuracy tab: picture of the patch, error and time, cost of other dials, the dials. */
 #include "ui/accuracy/accuracy.h"
-#include "ui/accuracy/accuracy_plot.h"
 #include "ui/accuracy/accuracy_work.h"
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
@@ -11,6 +10,7 @@
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
 #include "ui/preview/preview.h"
+#include "accuracy/plot.h"
 #include "base/error.h"
 #include "base/enum_rows.h"
 

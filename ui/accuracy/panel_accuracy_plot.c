@@ -1,7 +1,6 @@
 /* Plot of error against time of all settings in the ladder, both logarithmic: the Pareto front, and a ring around the
    present setting. A click on a point applies it. */
 #include "ui/accuracy/accuracy.h"
-#include "ui/accuracy/accuracy_plot.h"
 #include "ui/accuracy/accuracy_work.h"
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
@@ -12,6 +11,7 @@
 #include "ui/toolkit/words.h"
 #include "ui/jobs/job.h"
 
+#include "accuracy/plot.h"
 #include "accuracy/ladder.h"
 #include "base/array.h"
 #include "base/enum_rows.h"
@@ -28,44 +28,55 @@
 
 _Static_assert(WR_SERIES == WR_AXIS_COUNT + 1, "and one for several axes at once");
 
-typedef struct Plot {
-    WrPlotAxis time, error; /* seconds; RMS */
-    double floor;           /* the reference's own error: smaller errors are unknown */
-    double x, y, w, h;      /* area between the axes, pixels */
-    double (*points)[2];    /* [count] pixels; far outside for a rung without a point */
-    int count;
-} Plot;
+typedef struct Canvas {
+    double end; /* right end of the pad: labels stay left of it */
+    bool old;   /* of another state of table or scene: faded */
+} Canvas;
 
-static bool has_point(const WrRung *rung)
+static WrColour colour_of(const Canvas *canvas, WrPlotInk ink)
 {
-    return !rung->model && !rung->note.text[0] && rung->seconds > 0 && rung->errors.rms > 0;
+    const WrColour colours[WR_PLOT_SERIES] = { [WR_PLOT_GRID] = WR_COLOUR_GRID,
+                                               [WR_PLOT_FRAME] = WR_COLOUR_GRAB,
+                                               [WR_PLOT_LABEL] = WR_COLOUR_LABEL,
+                                               [WR_PLOT_REFERENCE] = WR_COLOUR_MUTED,
+                                               [WR_PLOT_FRONT] = WR_COLOUR_MUTED };
+    const WrColour colour = ink < WR_PLOT_SERIES ? colours[ink] : wr_series[ink - WR_PLOT_SERIES];
+    return canvas->old && ink >= WR_PLOT_FRONT ? (colour & 0x00ffffffu) | 0x58000000u : colour;
 }
 
-/* Errors below the reference's own are not measurable, so they are drawn at its line. */
-static double error_of(const Plot *plot, const WrRung *rung)
+/* Thin lines of axes are whole pixels. */
+static void draw_line(void *ctx, const WrPlotSpot *p, int count, double width, WrPlotInk ink)
 {
-    return fmax(rung->errors.rms, plot->floor);
+    for (int i = 1; i < count; i++) {
+        const WrPlotSpot a = p[i - 1], b = p[i];
+        if (ink >= WR_PLOT_FRONT) wr_gui_draw_line(a.x, a.y, b.x, b.y, colour_of(ctx, ink), width);
+        else
+            wr_gui_draw_fill(floor(fmin(a.x, b.x)), floor(fmin(a.y, b.y)), fmax(1, fabs(b.x - a.x)),
+                             fmax(1, fabs(b.y - a.y)), colour_of(ctx, ink), 0);
+    }
 }
 
-static bool make_axes(const WrLadder *ladder, Plot *plot)
+static void draw_mark(void *ctx, WrPlotSpot at, double radius, WrPlotInk ink)
 {
-    const double own = ladder->reference.last_rms;
-    plot->floor = isfinite(own) ? own : 0;
-    double *times = wr_alloc((size_t)ladder->count + 1, sizeof *times);
-    double *errors = wr_alloc((size_t)ladder->count + 1, sizeof *errors);
-    int n = 0;
-    for (int i = 0; i < ladder->count; i++)
-        if (has_point(&ladder->rungs[i])) {
-            times[n] = ladder->rungs[i].seconds;
-            errors[n++] = error_of(plot, &ladder->rungs[i]);
-        }
-    bool good = wr_plot_axis(times, n, &plot->time) && wr_plot_axis(errors, n, &plot->error);
-    wr_free(times);
-    wr_free(errors);
-    return good;
+    wr_gui_draw_disc(at.x, at.y, radius, colour_of(ctx, ink));
 }
 
-static void lay_out(const WrLadder *ladder, const WrPad *pad, Plot *plot)
+static void draw_ring(void *ctx, WrPlotSpot at, double radius, double width)
+{
+    (void)ctx;
+    wr_gui_draw_circle(at.x, at.y, radius, WR_COLOUR_STRONG, width);
+}
+
+static void draw_word(void *ctx, const char *word, double x, double y, double anchor, WrPlotInk ink)
+{
+    const Canvas *canvas = ctx;
+    const double wide = wr_gui_text_width(WR_FONT_SMALL, word);
+    wr_gui_draw_text(fmin(x - anchor * wide, canvas->end - wide),
+                     y - wr_gui_line_height(WR_FONT_SMALL) / 2, WR_FONT_SMALL, colour_of(ctx, ink),
+                     word);
+}
+
+static void lay_out(const WrPad *pad, WrPlot *plot)
 {
     const double s = wr_gui_scale(), line = wr_gui_line_height(WR_FONT_SMALL);
     double ticks[TICKS], widest = 0;
@@ -73,103 +84,36 @@ static void lay_out(const WrLadder *ladder, const WrPad *pad, Plot *plot)
     const int count = wr_plot_ticks(&plot->error, ticks, TICKS);
     for (int i = 0; i < count; i++)
         widest = fmax(widest, wr_gui_text_width(WR_FONT_SMALL, wr_plot_number(ticks[i], text)));
-    plot->x = pad->x + widest + 12 * s;
-    plot->y = pad->y + line + 12 * s;
-    plot->w = pad->x + pad->w - 12 * s - plot->x;
-    plot->h = pad->y + pad->h - line - 10 * s - plot->y;
-    plot->count = ladder->count;
-    plot->points = wr_alloc((size_t)ladder->count + 1, sizeof *plot->points);
-    for (int i = 0; i < ladder->count; i++) {
-        const WrRung *rung = &ladder->rungs[i];
-        plot->points[i][0] = plot->points[i][1] = -1e9;
-        if (!has_point(rung)) continue;
-        plot->points[i][0] = plot->x + plot->w * wr_plot_place(&plot->time, rung->seconds);
-        plot->points[i][1] =
-            plot->y + plot->h * (1 - wr_plot_place(&plot->error, error_of(plot, rung)));
-    }
+    const double left = widest + 12 * s, top = line + 12 * s;
+    wr_plot_lay_out(plot, pad->x + left, pad->y + top, pad->w - 12 * s - left,
+                    pad->h - line - 10 * s - top);
 }
 
-static void draw_axes(const WrPad *pad, const Plot *plot)
+static void draw_plot(const WrAccuracy *a, const WrPad *pad, const WrPlot *plot, int present,
+                      bool old)
 {
     const double s = wr_gui_scale(), line = wr_gui_line_height(WR_FONT_SMALL);
-    double ticks[TICKS];
-    char text[16];
-    int count = wr_plot_ticks(&plot->error, ticks, TICKS);
-    for (int i = 0; i < count; i++) {
-        const double y = floor(plot->y + plot->h * (1 - wr_plot_place(&plot->error, ticks[i])));
-        wr_plot_number(ticks[i], text);
-        wr_gui_draw_fill(plot->x, y, plot->w, 1, WR_COLOUR_GRID, 0);
-        wr_gui_draw_text(plot->x - 6 * s - wr_gui_text_width(WR_FONT_SMALL, text), y - line / 2,
-                         WR_FONT_SMALL, WR_COLOUR_LABEL, text);
-    }
-    const int room = (int)(plot->w / (44 * s));
-    count = wr_plot_ticks(&plot->time, ticks, room < 2 ? 2 : room > TICKS ? TICKS : room);
-    for (int i = 0; i < count; i++) {
-        const double x = floor(plot->x + plot->w * wr_plot_place(&plot->time, ticks[i]));
-        wr_plot_number(1e3 * ticks[i], text);
-        const double wide = wr_gui_text_width(WR_FONT_SMALL, text), end = pad->x + pad->w - 4 * s;
-        wr_gui_draw_fill(x, plot->y, 1, plot->h, WR_COLOUR_GRID, 0);
-        wr_gui_draw_text(fmin(x - wide / 2, end - wide), plot->y + plot->h + 4 * s, WR_FONT_SMALL,
-                         WR_COLOUR_LABEL, text);
-    }
-    if (plot->floor > plot->error.low) {
-        const double y = plot->y + plot->h * (1 - wr_plot_place(&plot->error, plot->floor));
-        for (double x = plot->x; x < plot->x + plot->w; x += 8 * s)
-            wr_gui_draw_fill(x, floor(y), fmin(4 * s, plot->x + plot->w - x), 1, WR_COLOUR_FAINT,
-                             0);
-        wr_gui_draw_text(plot->x + 5 * s, y + 2 * s, WR_FONT_SMALL, WR_COLOUR_MUTED,
-                         "the reference's own");
-    }
-    wr_gui_draw_rect(plot->x, plot->y, plot->w, plot->h, WR_COLOUR_GRAB, 1);
-    wr_gui_draw_text(pad->x + 6 * s, pad->y + 5 * s, WR_FONT_SMALL, WR_COLOUR_TEXT, "error, rms");
     const char *time = "ms a picture \xe2\x86\x92";
+    const int room = (int)(plot->w / (44 * s));
+    Canvas mine = { .end = pad->x + pad->w - 4 * s, .old = old };
+    const WrPlotCanvas canvas = { .ctx = &mine,
+                                  .unit = s,
+                                  .text = line,
+                                  .times = room < 2       ? 2
+                                           : room > TICKS ? TICKS
+                                                          : room,
+                                  .errors = TICKS,
+                                  .line = draw_line,
+                                  .mark = draw_mark,
+                                  .ring = draw_ring,
+                                  .word = draw_word };
+    wr_plot_draw(plot, &canvas, "the reference's own", present);
+    if (a->plot_hot >= 0)
+        wr_gui_draw_circle(plot->spots[a->plot_hot].x, plot->spots[a->plot_hot].y, 6 * s,
+                           WR_COLOUR_ACCENT, 1.5 * s);
+    wr_gui_draw_text(pad->x + 6 * s, pad->y + 5 * s, WR_FONT_SMALL, WR_COLOUR_TEXT, "error, rms");
     wr_gui_draw_text(pad->x + pad->w - 8 * s - wr_gui_text_width(WR_FONT_SMALL, time),
                      pad->y + 5 * s, WR_FONT_SMALL, WR_COLOUR_TEXT, time);
-}
-
-/* The front from fastest to most accurate. */
-static void draw_front(const WrLadder *ladder, const Plot *plot, WrColour colour)
-{
-    int last = -1;
-    for (int done = 0; done < ladder->count; done++) {
-        int next = -1;
-        for (int i = 0; i < ladder->count; i++) {
-            const double x = plot->points[i][0];
-            if (!ladder->rungs[i].front || x < plot->x - 1 || i == last) continue;
-            if (last >= 0 && x <= plot->points[last][0]) continue;
-            if (next < 0 || x < plot->points[next][0]) next = i;
-        }
-        if (next < 0) return;
-        if (last >= 0)
-            wr_gui_draw_line(plot->points[last][0], plot->points[last][1], plot->points[next][0],
-                             plot->points[next][1], colour, 1.5 * wr_gui_scale());
-        last = next;
-    }
-}
-
-static WrColour faded(WrColour colour, bool fade)
-{
-    return fade ? (colour & 0x00ffffffu) | 0x58000000u : colour;
-}
-
-static void draw_points(const WrAccuracy *a, const Plot *plot, int present, bool old)
-{
-    const double s = wr_gui_scale();
-    const WrLadder *ladder = &a->plot->ladder;
-    for (int pass = 0; pass < 2; pass++) /* points of the front on top */
-        for (int i = 0; i < plot->count; i++) {
-            const WrRung *rung = &ladder->rungs[i];
-            if (rung->front != (pass == 1)) continue;
-            wr_gui_draw_disc(plot->points[i][0], plot->points[i][1], (pass ? 4 : 3) * s,
-                             faded(wr_series[rung->axis], old));
-        }
-    if (present >= 0 && has_point(&ladder->rungs[present])) {
-        wr_gui_draw_circle(plot->points[present][0], plot->points[present][1], 7.5 * s,
-                           WR_COLOUR_STRONG, 2 * s);
-    }
-    if (a->plot_hot >= 0)
-        wr_gui_draw_circle(plot->points[a->plot_hot][0], plot->points[a->plot_hot][1], 6 * s,
-                           WR_COLOUR_ACCENT, 1.5 * s);
 }
 
 /* ---- texts ---- */
@@ -197,7 +141,7 @@ static void tell(const WrAccuracy *a, int present, bool old)
         wr_gui_text_wrapped(
             WR_FONT_SMALL, WR_COLOUR_CELL,
             "Of another state of table or scene.\nMeasured anew when the view rests.");
-    else if (present >= 0 && has_point(&a->plot->ladder.rungs[present]))
+    else if (present >= 0 && wr_plot_has_point(&a->plot->ladder.rungs[present]))
         tell_rung(&a->plot->ladder, present, true);
     else
         wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
@@ -249,22 +193,19 @@ static void foot(WrApp *app)
 static void field(WrApp *app)
 {
     WrAccuracy *a = app->accuracy;
-    Plot plot = { 0 };
-    const bool axes = a->plot && make_axes(&a->plot->ladder, &plot);
+    WrPlot plot = { 0 };
+    const bool axes = a->plot && wr_plot_init(&a->plot->ladder, &plot);
     const bool old = axes && !wr_accuracy_plot_fits(app);
     const int present = axes && !old ? wr_accuracy_rung(app) : -1;
     WrPad pad = wr_gui_pad_begin("pareto", 0, wr_gui_px(PLOT_UNITS));
     int clicked = -1;
     a->plot_hot = -1;
     if (axes) {
-        lay_out(&a->plot->ladder, &pad, &plot);
+        lay_out(&pad, &plot);
         if (pad.hovered)
-            a->plot_hot =
-                wr_plot_nearest((const double(*)[2])plot.points, plot.count, pad.pointer_x,
-                                pad.pointer_y, REACH_UNITS * wr_gui_scale());
-        draw_axes(&pad, &plot);
-        draw_front(&a->plot->ladder, &plot, faded(WR_COLOUR_MUTED, old));
-        draw_points(a, &plot, present, old);
+            a->plot_hot = wr_plot_nearest(plot.spots, a->plot->ladder.count, pad.pointer_x,
+                                          pad.pointer_y, REACH_UNITS * wr_gui_scale());
+        draw_plot(a, &pad, &plot, present, old);
         if (pad.pressed) clicked = a->plot_hot;
     } else {
         const char *words =
@@ -278,7 +219,7 @@ static void field(WrApp *app)
         legend();
         tell(a, present, old);
     }
-    wr_free(plot.points);
+    wr_plot_fini(&plot);
     if (clicked >= 0) wr_accuracy_take_rung(app, a->chooses, clicked);
 }
 

@@ -1,6 +1,5 @@
 /* Hard-case gallery: requirement and measured deviation of each case, and the case itself on the patch. */
 #include "ui/accuracy/accuracy.h"
-#include "ui/accuracy/accuracy_plot.h"
 #include "ui/accuracy/accuracy_work.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
@@ -10,6 +9,7 @@
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
 
+#include "accuracy/plot.h"
 #include "hardcases/hardcases.h"
 #include "base/text.h"
 

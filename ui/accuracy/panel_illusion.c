@@ -1,13 +1,13 @@
 /* Error of bump mapping against displacement, in the Accuracy tab: numbers for the view at the time of the request,
    and their interpretation. */
 #include "ui/accuracy/accuracy.h"
-#include "ui/accuracy/accuracy_plot.h"
 #include "ui/state/app_state.h"
 #include "ui/state/settings.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 #include "ui/jobs/job.h"
 
+#include "accuracy/plot.h"
 #include "accuracy/illusion.h"
 #include "base/text.h"
 

@@ -8,7 +8,7 @@
 # --keep       measurements are kept there, and those that are there already are not made again
 #
 # The reference sums over all of the sky at every sample and marches to every place of a lamp, so pictures are small, those
-# under a sky smallest. Needs jq, gnuplot and ImageMagick's convert. Takes some forty minutes of processor time.
+# under a sky smallest. Needs jq and ImageMagick's convert. Takes some forty minutes of processor time.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 out=$here keep='' program=''

@@ -1,4 +1,4 @@
-#include "export/vector_drawing.h"
+#include "image/vector_drawing.h"
 
 #include "base/error.h"
 #include "base/file.h"
@@ -30,17 +30,18 @@ extern const WrVectorDrawingVectors wr_vector_drawing_svg, wr_vector_drawing_pdf
 
 struct WrVectorDrawing {
     char *path;
-    int width, height;
-    double breadth, darkness;
+    int width, height, channels;
+    double breadth;
+    double darkness[3];                    /* of red, green and blue; linear 0..1 */
     const WrVectorDrawingVectors *vectors; /* NULL: a picture */
     bool drawing;                          /* vectors: a path is open */
     WrText text;                           /* vectors: the file so far */
     size_t stream;                         /* PDF: offset of the page's content in it */
-    float *ink;                            /* pictures: [height][width] darkness 0..1 */
+    float *ink;                            /* pictures: [height][width][channels] darkness 0..1 */
 };
 
-/* sRGB code of the pen */
-static int vector_drawing_grey(const WrVectorDrawing *ink);
+/* sRGB code of the pen in that channel */
+static int vector_drawing_code(const WrVectorDrawing *ink, int channel);
 /* rounded to a hundredth */
 static void vector_drawing_number(WrVectorDrawing *ink, double x);
 
@@ -57,11 +58,11 @@ static void head(WrVectorDrawing *ink)
 
 static void begin_path(WrVectorDrawing *ink)
 {
-    const int grey = vector_drawing_grey(ink);
     wr_text_addf(&ink->text,
                  "<path fill=\"none\" stroke=\"#%02x%02x%02x\" stroke-linecap=\"round\" "
                  "stroke-linejoin=\"round\" stroke-width=\"",
-                 grey, grey, grey);
+                 vector_drawing_code(ink, 0), vector_drawing_code(ink, 1),
+                 vector_drawing_code(ink, 2));
     wr_text_add_number(&ink->text, ink->breadth);
     wr_text_add(&ink->text, "\" d=\"");
 }
@@ -167,17 +168,20 @@ static void head_pdf(WrVectorDrawing *ink)
     wr_text_add(text, " cm\n1 J 1 j\n");
 }
 
-static void add_grey(WrVectorDrawing *ink, const char *operator)
+static void add_colour(WrVectorDrawing *ink, const char *grey, const char *rgb)
 {
-    const int parts = (1000 * vector_drawing_grey(ink) + 127) / 255;
-    wr_text_addf(&ink->text, "%d.%03d %s\n", parts / 1000, parts % 1000, operator);
+    for (int i = 0; i < ink->channels; i++) {
+        const int parts = (1000 * vector_drawing_code(ink, i) + 127) / 255;
+        wr_text_addf(&ink->text, "%d.%03d ", parts / 1000, parts % 1000);
+    }
+    wr_text_addf(&ink->text, "%s\n", ink->channels == 1 ? grey : rgb);
 }
 
 static void begin_path_pdf(WrVectorDrawing *ink)
 {
     vector_drawing_number(ink, ink->breadth);
     wr_text_add(&ink->text, " w ");
-    add_grey(ink, "G");
+    add_colour(ink, "G", "RG");
 }
 
 static void place_pdf(WrVectorDrawing *ink, bool first, const WrVectorDrawingPoint *p)
@@ -208,7 +212,7 @@ static double advance(const char *word, double size)
 static void word_pdf(WrVectorDrawing *ink, const char *word, double x, double y, double size,
                      double anchor)
 {
-    add_grey(ink, "g");
+    add_colour(ink, "g", "rg");
     wr_text_add(&ink->text, "BT /F ");
     vector_drawing_number(ink, size);
     wr_text_add(&ink->text, " Tf 1 0 0 -1 ");
@@ -266,21 +270,24 @@ static const WrVectorDrawingVectors *vectors_of(const char *path)
     return strcmp(ending, wr_vector_drawing_pdf.ending) == 0 ? &wr_vector_drawing_pdf : NULL;
 }
 
-WrVectorDrawing *wr_vector_drawing_new(const char *path, int width, int height, WrError *err)
+WrVectorDrawing *wr_vector_drawing_new(const char *path, int width, int height, int channels,
+                                       WrError *err)
 {
     const WrVectorDrawingVectors *vectors = vectors_of(path);
     float *pixels = NULL;
     if (!vectors) {
-        if (!wr_image_can_write(path, WR_PIXEL_U8, 1, false, err)) return NULL;
-        pixels = wr_try_alloc((size_t)width * (size_t)height, sizeof *pixels, "a drawing", err);
+        if (!wr_image_can_write(path, WR_PIXEL_U8, channels, false, err)) return NULL;
+        pixels = wr_try_alloc((size_t)width * (size_t)height, (size_t)channels * sizeof *pixels,
+                              "a drawing", err);
         if (!pixels) return NULL;
     }
     WrVectorDrawing *ink = wr_alloc(1, sizeof *ink);
     *ink = (WrVectorDrawing){ .path = wr_strdup(path),
                               .width = width,
                               .height = height,
+                              .channels = channels,
                               .breadth = 1.0,
-                              .darkness = 1.0,
+                              .darkness = { 1.0, 1.0, 1.0 },
                               .vectors = vectors,
                               .ink = pixels };
     if (vectors) vectors->head(ink);
@@ -304,9 +311,9 @@ static void close_path(WrVectorDrawing *ink)
     ink->drawing = false;
 }
 
-static int vector_drawing_grey(const WrVectorDrawing *ink)
+static int vector_drawing_code(const WrVectorDrawing *ink, int channel)
 {
-    return (int)rint(255.0 * (double)wr_srgb_encode((float)(1.0 - ink->darkness)));
+    return (int)rint(255.0 * (double)wr_srgb_encode((float)(1.0 - ink->darkness[channel])));
 }
 
 /* Formats without an exponent, which PDF does not support. */
@@ -360,12 +367,22 @@ static int clip(double x, int most)
     return x < 0.0 ? 0 : x > most ? most : (int)x;
 }
 
-/* Draws a line of the pen's width with an edge one pixel wide; of overlapping lines the darkest counts. */
+/* Darkens pixel i by that part of the pen's darkness; of overlapping lines the darkest counts in each channel. */
+static void ink_pixel(WrVectorDrawing *ink, size_t i, double part)
+{
+    for (int c = 0; c < ink->channels; c++) {
+        const float dark = (float)(ink->darkness[c] * part);
+        float *at = &ink->ink[i * (size_t)ink->channels + (size_t)c];
+        if (dark > *at) *at = dark;
+    }
+}
+
+/* Draws a line of the pen's width with an edge one pixel wide. */
 static void ink_segment(WrVectorDrawing *ink, const WrVectorDrawingPoint *a,
                         const WrVectorDrawingPoint *b)
 {
     double reach = 0.5 * ink->breadth + 0.5;
-    double most = ink->darkness * (ink->breadth < 1.0 ? ink->breadth : 1.0);
+    double most = ink->breadth < 1.0 ? ink->breadth : 1.0;
     int x0 = clip(floor((a->x < b->x ? a->x : b->x) - reach), ink->width - 1);
     int x1 = clip(ceil((a->x < b->x ? b->x : a->x) + reach), ink->width - 1);
     int y0 = clip(floor((a->y < b->y ? a->y : b->y) - reach), ink->height - 1);
@@ -373,9 +390,10 @@ static void ink_segment(WrVectorDrawing *ink, const WrVectorDrawingPoint *a,
     for (int y = y0; y <= y1; y++)
         for (int x = x0; x <= x1; x++) {
             double d = reach - to_segment(x + 0.5, y + 0.5, a, b);
-            float dark = (float)(most * (d < 0.0 ? 0.0 : d > 1.0 ? 1.0 : d));
-            float *at = &ink->ink[(size_t)y * (size_t)ink->width + (size_t)x];
-            if (dark > *at) *at = dark;
+            ink_pixel(ink, (size_t)y * (size_t)ink->width + (size_t)x,
+                      most * (d < 0.0   ? 0.0
+                              : d > 1.0 ? 1.0
+                                        : d));
         }
 }
 
@@ -388,21 +406,18 @@ static void ink_word(WrVectorDrawing *ink, const char *word, double x, double y,
     int top = clip(rint(y) - 2.0 * size, ink->height), end = clip(rint(y) + size, ink->height);
     size_t pixels = (size_t)ink->width * (size_t)(end - top);
     uint8_t *grey = wr_alloc(pixels + 1, 1);
-    float *under = ink->ink + (size_t)top * (size_t)ink->width;
     int from = (int)rint(x - anchor * wr_label_width(label, word));
     wr_label_draw(label, word, from, (int)rint(y) - top, ink->width, 255, grey, ink->width,
                   end - top);
-    for (size_t i = 0; i < pixels; i++) {
-        float dark = (float)(ink->darkness * grey[i] / 255.0);
-        if (dark > under[i]) under[i] = dark;
-    }
+    for (size_t i = 0; i < pixels; i++)
+        if (grey[i]) ink_pixel(ink, (size_t)top * (size_t)ink->width + i, grey[i] / 255.0);
     wr_free(grey);
     wr_label_free(label);
 }
 
 static bool write_picture(WrVectorDrawing *ink, WrError *err)
 {
-    size_t wide = (size_t)ink->width;
+    size_t wide = (size_t)ink->width * (size_t)ink->channels;
     uint8_t *codes = wr_alloc(wide * (size_t)ink->height, 1);
     bool going = true;
     for (int y = 0; going && y < ink->height; y++) {
@@ -412,19 +427,33 @@ static bool write_picture(WrVectorDrawing *ink, WrError *err)
         going = !wr_progress_stopped();
     }
     if (!going) wr_fail(err, "cancelled");
-    bool good = going && wr_image_write_pixels(ink->path, ink->width, ink->height, 1, WR_PIXEL_U8,
-                                               false, codes, err);
+    bool good = going && wr_image_write_pixels(ink->path, ink->width, ink->height, ink->channels,
+                                               WR_PIXEL_U8, false, codes, err);
     wr_free(codes);
     return good;
 }
 
 /* ---- both kinds of drawing ---- */
 
+static void set_pen(WrVectorDrawing *ink, double breadth, const double darkness[3])
+{
+    if (breadth != ink->breadth || memcmp(darkness, ink->darkness, sizeof ink->darkness) != 0)
+        close_path(ink);
+    ink->breadth = breadth;
+    memcpy(ink->darkness, darkness, sizeof ink->darkness);
+}
+
 void wr_vector_drawing_pen(WrVectorDrawing *ink, double breadth, double darkness)
 {
-    if (breadth != ink->breadth || darkness != ink->darkness) close_path(ink);
-    ink->breadth = breadth;
-    ink->darkness = darkness;
+    set_pen(ink, breadth, (const double[3]){ darkness, darkness, darkness });
+}
+
+void wr_vector_drawing_colour(WrVectorDrawing *ink, double breadth, uint32_t rgb)
+{
+    double darkness[3];
+    for (int i = 0; i < 3; i++)
+        darkness[i] = 1.0 - (double)wr_srgb_decode((float)(rgb >> (16 - 8 * i) & 255) / 255.0f);
+    set_pen(ink, breadth, darkness);
 }
 
 void wr_vector_drawing_line(WrVectorDrawing *ink, const WrVectorDrawingPoint *points, int count)
