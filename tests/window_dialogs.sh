@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # What dialogs may not do: no file goes without a question, whatever its name came by.
-# window_dialogs.sh PROGRAM SOURCE-FOLDER
+# window_dialogs.sh PROGRAM SOURCE-FOLDER PORTAL
 set -uo pipefail
 program=$1
 source=$2
+portal=$3
 folder=$(mktemp -d) || exit 1
 # shellcheck source=tests/window_help.sh
 source "$source/tests/window_help.sh"
@@ -158,28 +159,26 @@ home
 declined "$(preset)" "$was" "a preset's name"
 quit
 
-# ---- the desktop's dialog is told to ask, and what it did not ask about is asked here ----
-mkdir bin
-cat >bin/zenity <<'END'
-#!/bin/sh
-printf '%s\n' "$@" >"$HOME/asked"
-cat "$HOME/answer"
-END
-chmod +x bin/zenity
+# ---- the desktop's dialog asks before it answers, and what it did not ask about is asked here ----
 unset WRINKLE_DIALOG
-PATH=$folder/bin:$PATH start flat.wrinkle
+mkfifo bus
+"$portal" >bus &
+read -r DBUS_SESSION_BUS_ADDRESS <bus || complain "there is no portal: apt-get install dbus-daemon"
+export DBUS_SESSION_BUS_ADDRESS
+printf 'dialogs 1\n' >>config/wrinkle/window.conf # the desktop's, however slow the machine
+start flat.wrinkle
 stroke
 was=$(sum_of taken.exr)
 printf '%s\n' "$folder/taken" >answer # an ending was never spoken of
 key ctrl+s
 home
-grep -qx -e --confirm-overwrite asked || complain "zenity is not told to ask: $(tr '\n' ' ' <asked)"
+grep -q '^SaveFile' asked || complain "the portal is not told that a file is written: $(cat asked)"
 key Return
 unharmed taken.exr "$was" "a name without its ending from the desktop's dialog"
 printf '%s\n' "$folder/fresh" >answer
 key Escape # asks the desktop's dialog again
 until_true 120 "the file of the second answer" file_is_there fresh.exr
-grep -qx -e "--filename=$folder/taken.exr" asked || complain "the name was not kept: $(tr '\n' ' ' <asked)"
+grep -qF "['current_name' ['taken.exr'" asked || complain "the name was not kept: $(cat asked)"
 until_true 120 "the title of the second answer" title_is fresh.exr
 stroke 40
 until_true 120 "the mark of unsaved work" title_is 'fresh.exr *'

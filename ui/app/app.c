@@ -223,9 +223,10 @@ static void handle(WrApp *app, const SDL_Event *event)
             if ((*p)->forget) (*p)->forget(app);
     } else if (event->type == app->file_event) {
         WrFilePurpose purpose;
-        const WrFilesHeard heard = wr_files_hear(app->files);
-        if (heard == WR_FILES_PANEL) wr_dialog_open(app, WR_DIALOG_FILE);
-        if (heard != WR_FILES_ANSWERED) return;
+        if (!wr_files_hear(app->files)) {
+            wr_dialog_open(app, WR_DIALOG_FILE);
+            return;
+        }
         const char *path = wr_files_answer(app->files, &purpose);
         if (path) wr_app_file_chosen(app, purpose, path);
         else app->file->after = WR_AFTER_NOTHING;

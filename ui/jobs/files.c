@@ -1,6 +1,5 @@
 #include "ui/jobs/files.h"
 #include "ui/jobs/file_places.h"
-#include "ui/jobs/file_program.h"
 #include "ui/jobs/portal.h"
 #include "ui/toolkit/desktop.h"
 #include "ui/toolkit/gui.h"
@@ -15,10 +14,7 @@
 #include "base/enum_rows.h"
 #include "base/text.h"
 #include "image/image.h"
-#include "system/child.h"
-#include "system/fd.h"
 #include "system/path.h"
-#include "system/process.h"
 #include "system/thread.h"
 
 #include <SDL.h>
@@ -44,13 +40,11 @@ struct WrFiles {
     char *from; /* owned: initial file of the dialog, as a path */
     WrFileWay way;
     char parent[32]; /* identifier of the window for the portal */
-    /* native dialog: by the portal, or a child process */
-    bool running, by_portal;
+    /* native dialog */
+    bool running;
     WrPortalRequest ask; /* its texts are owned */
     WrPortalEnd end;
     volatile int stop;
-    WrPid child;
-    int pipe;
     WrThread waiter;
     /* panel */
     char folder[PATH_SIZE], field[PATH_SIZE];
@@ -125,39 +119,13 @@ WrFiles *wr_files_new(Uint32 done_event)
 {
     WrFiles *files = wr_alloc(1, sizeof *files);
     files->done_event = done_event;
-    files->pipe = files->place_count = -1;
+    files->place_count = -1;
     return files;
 }
 
-/* ---- native dialog by a program ---- */
+/* ---- the portal ---- */
 
-/* Read the program's answer, on a separate thread. */
-static void *wait_for_child(void *arg)
-{
-    WrFiles *files = arg;
-    wr_file_program_hear(files->child, files->pipe, files->answer, sizeof files->answer);
-    SDL_Event event = { .type = files->done_event };
-    SDL_PushEvent(&event);
-    return NULL;
-}
-
-static bool ask_program(WrFiles *files, const char *start_at)
-{
-    const char *title = wr_words(purposes[files->purpose].title);
-    if (!wr_file_program_start(title, wr_files_writes(files->purpose), start_at, &files->child,
-                               &files->pipe))
-        return false;
-    files->by_portal = false;
-    files->running = wr_thread_start(&files->waiter, wait_for_child, files);
-    if (files->running) return true;
-    wr_file_program_dismiss(files->child); /* no thread could read its answer */
-    wr_fd_close(files->pipe);
-    return false;
-}
-
-/* ---- native dialog by the portal ---- */
-
-/* timeout in seconds for the portal's first response, if other dialogs are available */
+/* timeout in seconds for the portal's first response, before the panel opens */
 #define SOON 1.0
 #define LATE 10.0 /* timeout if the user has chosen the portal: it may be starting */
 
@@ -195,11 +163,8 @@ static bool ask_portal(WrFiles *files, const char *folder, const char *name)
                                     .patience = files->way == WR_FILE_WAY_DESKTOP ? LATE : SOON };
     files->stop = 0;
     files->running = wr_thread_start(&files->waiter, wait_for_portal, files);
-    files->by_portal = files->running;
     return files->running;
 }
-
-/* ---- both native dialogs ---- */
 
 static bool wants_own(const WrFiles *files)
 {
@@ -219,11 +184,9 @@ void wr_files_set_window(WrFiles *files, SDL_Window *window)
     if (number) snprintf(files->parent, sizeof files->parent, "x11:%lx", number);
 }
 
-/* Join the thread or the child process. */
 static void join(WrFiles *files)
 {
     wr_thread_join(files->waiter);
-    if (!files->by_portal) wr_fd_close(files->pipe);
     files->running = false;
 }
 
@@ -315,14 +278,11 @@ bool wr_files_ask(WrFiles *files, WrFilePurpose purpose, const char *folder, con
     if (purpose == WR_FILE_SAVE || purpose == WR_FILE_EXPORT || purpose == WR_FILE_RENDER)
         wr_image_warm_writing();
     char *from = folder ? wr_strdup(folder) : wr_path_real(".");
-    char *start_at = wr_path_join(from ? from : "/", name);
     forget_places(files);
     wr_free(files->from);
-    files->from = start_at;
+    files->from = wr_path_join(from ? from : "/", name);
     snprintf(files->field, sizeof files->field, "%s", name);
-    files->by_portal = false;
-    bool native = !wants_own(files) &&
-                  (ask_portal(files, from ? from : "", name) || ask_program(files, start_at));
+    const bool native = !wants_own(files) && ask_portal(files, from ? from : "", name);
     if (!native) go_to(files, from ? from : "/");
     if (folder) wr_free(from);
     else free(from);
@@ -340,21 +300,19 @@ static void take_native(WrFiles *files)
     wr_free(full);
 }
 
-WrFilesHeard wr_files_hear(WrFiles *files)
+bool wr_files_hear(WrFiles *files)
 {
-    if (!files->running) return WR_FILES_ANSWERED;
+    if (!files->running) return true;
     join(files);
-    if (!files->by_portal || files->end != WR_PORTAL_NONE) {
+    if (files->end != WR_PORTAL_NONE) {
         take_native(files);
-        return WR_FILES_ANSWERED;
+        return true;
     }
-    files->by_portal = false;
     files->answer[0] = '\0';
-    if (ask_program(files, files->from)) return WR_FILES_AGAIN;
     char *folder = wr_path_folder(files->from);
     go_to(files, folder);
     wr_free(folder);
-    return WR_FILES_PANEL;
+    return false;
 }
 
 bool wr_files_agreed(const WrFiles *files)
@@ -377,7 +335,6 @@ void wr_files_free(WrFiles *files)
     if (!files) return;
     WrFilePurpose unused;
     __atomic_store_n(&files->stop, 1, __ATOMIC_RELAXED);
-    if (files->running && !files->by_portal) wr_child_ask_to_end(files->child);
     wr_files_answer(files, &unused);
     free_ask(&files->ask);
     wr_free(files->from);

@@ -1,5 +1,5 @@
-/* files.h - file dialog: a native one (portal, portal.h, or zenity or kdialog, run without a shell) while the window
-   stays responsive, or a plain panel of the window. */
+/* files.h - file dialog: the desktop's, by its portal (portal.h), while the window stays responsive, or a plain panel of the
+   window. */
 #pragma once
 #include "base/enum_rows.h"
 
@@ -33,8 +33,7 @@ typedef enum WrFilePurpose {
 /* Kinds of file dialogs. AUTOMATIC: a native one if it answers soon, else the panel. DESKTOP: a native one, with a
    longer timeout. */
 #define WR_FILE_WAYS(X)                                                                            \
-    X(WR_FILE_WAY_AUTOMATIC,                                                                       \
-      "Automatic") /* whichever of the desktop's answers soon, else our own */                     \
+    X(WR_FILE_WAY_AUTOMATIC, "Automatic")   /* the desktop's if it answers soon, else our own */   \
     X(WR_FILE_WAY_DESKTOP, "The desktop's") /* the same, and it is waited for longer */            \
     X(WR_FILE_WAY_OWN, "Wrinkle's own")
 typedef enum WrFileWay { WR_FILE_WAYS(WR_WORD_ID) WR_FILE_WAY_COUNT } WrFileWay;
@@ -52,13 +51,9 @@ void wr_files_set_window(WrFiles *files, SDL_Window *window);
 /* Open a dialog. name: initial file name. True: a native dialog is open and the event will follow; false: there is
  * none, and the caller must draw the panel (wr_files_panel). */
 bool wr_files_ask(WrFiles *files, WrFilePurpose purpose, const char *folder, const char *name);
-/* To be called first after the event: state of the dialog. */
-typedef enum WrFilesHeard {
-    WR_FILES_ANSWERED, /* answered or cancelled */
-    WR_FILES_AGAIN,    /* that dialog failed; another one is open, and the event will come again */
-    WR_FILES_PANEL     /* no native dialog is available: draw the panel */
-} WrFilesHeard;
-WrFilesHeard wr_files_hear(WrFiles *files);
+/* To be called first after the event. True: answered or cancelled; false: the native dialog failed, and the caller must
+ * draw the panel. */
+bool wr_files_hear(WrFiles *files);
 /* To be called after the event: the chosen path, or NULL if cancelled. Valid until the next dialog. A file to be
  * written has an extension: that of its kind if none was typed. */
 const char *wr_files_answer(WrFiles *files, WrFilePurpose *purpose);

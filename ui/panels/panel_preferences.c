@@ -46,7 +46,7 @@ static void dialogs_row(WrApp *app)
     wr_gui_label("File dialogs");
     if (wr_gui_choice("dialogs", 0, ways, WR_FILE_WAY_COUNT, &app->settings->dialogs))
         wr_files_choose_way(app->files, (WrFileWay)app->settings->dialogs);
-    wr_gui_tip("Who asks for files: the desktop by its portal, zenity or kdialog, or this program. "
+    wr_gui_tip("Who asks for files: the desktop by its portal, or this program. "
                "Automatic: the desktop if it answers within a second.");
 }
 
