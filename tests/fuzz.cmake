@@ -53,7 +53,7 @@ wr_fuzz(gbr ${tip_sources} LIBRARIES -lsleef)
 wr_fuzz(gih ${tip_sources} LIBRARIES -lsleef)
 
 set(font_reading image/font_free.c image/font_gzip.c image/font_lines.c image/font_make.c image/font_pack.c
-    image/font_parts.c image/font_psf.c)
+    image/font_parts.c)
 wr_fuzz(font ${font_reading} image/font_outline.c base/error.c base/message.c base/memory.c base/text.c
         LIBRARIES ${SHAPING_CFLAGS} -lfreetype -lharfbuzz -lfribidi -lz)
 

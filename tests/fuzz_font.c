@@ -1,6 +1,6 @@
 /* fuzz_font.c - untrusted fonts: for any bytes, a font is refused with a message or gives a text with a valid result,
-   in which every outline can be drawn. The first byte selects the prefix: none, the starts of PSF 1, PSF 2, BDF and
-   compressed files, or a small valid font of each kind with the fuzzer's bytes written over it. */
+   in which every outline can be drawn. The first byte selects the prefix: none, a valid BDF font with the fuzzer's
+   bytes written over it, a compressed file, or an installed font of each kind with the bytes written over it. */
 #include "base/error.h"
 #include "base/text.h"
 #include "image/font_internal.h"
@@ -98,30 +98,25 @@ static void shape_packed(const uint8_t *data, size_t size)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static const uint8_t psf1[] = { 0x36, 0x04, 2, 1 };
-    static const uint8_t psf2[] = { 0x72, 0xb5, 0x4a, 0x86, 0, 0, 0, 0, 32, 0, 0, 0, 1, 0, 0, 0,
-                                    8,    0,    0,    0,    4, 0, 0, 0, 4,  0, 0, 0, 7, 0, 0, 0 };
     uint8_t file[8192];
     size_t start = 0;
     if (size < 1 || size > 4096) return 0;
-    int way = data[0] % 8;
+    int way = data[0] % 6;
     data++;
     size--;
-    if (way == 1) start = sizeof psf1, memcpy(file, psf1, start);
-    if (way == 2) start = sizeof psf2, memcpy(file, psf2, start);
-    if (way == 3) start = sizeof bdf - 1, memcpy(file, bdf, start);
+    if (way == 1) start = sizeof bdf - 1, memcpy(file, bdf, start);
     memcpy(file + start, data, size);
-    if (way == 3) {
+    if (way == 1) {
         change(file, start, data, size);
         shape(file, start);
-    } else if (way == 4) {
+    } else if (way == 2) {
         shape_packed(data, size);
-    } else if (way == 5) {
+    } else if (way == 3) {
         shape_changed("/usr/share/fonts/truetype/lohit-devanagari/Lohit-Devanagari.ttf", NULL, data,
                       size);
-    } else if (way == 6) {
+    } else if (way == 4) {
         shape_changed("/usr/share/fonts/X11/misc/ter-u16n_unicode.pcf.gz", NULL, data, size);
-    } else if (way == 7) {
+    } else if (way == 5) {
         shape_changed("/usr/share/fonts/truetype/inter-vf/Inter-roman.var.ttf", "wght=650,slnt=-3",
                       data, size);
     } else {

@@ -144,64 +144,19 @@ static void a_bdf_font_is_read_plain_and_packed(void **state)
     }
 }
 
-/* Version 1 with a table in UCS-2: glyph 5 is a Cyrillic letter, and a sequence that must be skipped. */
-static void a_psf1_font_finds_letters_by_its_table(void **state)
-{
-    (void)state;
-    uint8_t file[4 + 256 * 3 + 2000] = { 0x36, 0x04, 2, 3 };
-    uint8_t *glyph5 = file + 4 + 5 * 3, *table = file + 4 + 256 * 3;
-    glyph5[0] = 0x81;
-    glyph5[2] = 0x18;
-    for (int g = 0; g < 256; g++) {
-        if (g == 5) {
-            static const uint8_t entry[] = { 0x16, 0x04, 0xfe, 0xff, 'x', 0, 0x01, 0x03 };
-            memcpy(table, entry, sizeof entry);
-            table += sizeof entry;
-        }
-        *table++ = 0xff;
-        *table++ = 0xff;
-    }
-    WrFontText text = shaped_bytes(file, (size_t)(table - file), "\xd0\x96x");
-    assert_int_equal(text.placed_count, 2);
-    assert_int_equal(text.glyphs[text.placed[0].glyph].id, 5);
-    assert_true(wr_font_dot(&text, &text.glyphs[0], 0, 0));
-    assert_true(wr_font_dot(&text, &text.glyphs[0], 7, 0));
-    assert_false(wr_font_dot(&text, &text.glyphs[0], 3, 0));
-    assert_true(wr_font_dot(&text, &text.glyphs[0], 3, 2));
-    assert_int_equal(text.missing_count, 1); /* x occurs only in a sequence */
-    assert_int_equal(text.missing[0], 'x');
-    wr_font_text_fini(&text);
-}
-
-static size_t make_psf2(uint8_t *file, int width, int height, TestRandom *random)
-{
-    uint32_t size = (uint32_t)((width + 7) / 8 * height);
-    uint32_t head[8] = { 0x864ab572, 0, 32, 0, 4, size, (uint32_t)height, (uint32_t)width };
-    memcpy(file, head, sizeof head);
-    for (uint32_t i = 0; i < 4 * size; i++) file[32 + i] = (uint8_t)test_random_u64(random);
-    return 32 + 4 * size;
-}
-
-/* Without a table, characters are glyph numbers. Every set dot of a noise pattern, touching corners included, is
- * inside the outline and every other outside, and the areas are equal. */
+/* Every set dot of a noise pattern, touching corners included, is inside the outline and every other outside, and the
+ * areas are equal. */
 static void the_outline_of_dots_has_their_area_and_their_inside(void **state)
 {
     (void)state;
-    uint8_t file[400];
     TestRandom random = { 5 };
     for (int width = 1; width <= 19; width += 3) {
         WrError err = { "" };
-        size_t length = make_psf2(file, width, 11, &random);
-        WrFontText text = shaped_bytes(file, length, "\x02");
-        assert_int_equal(text.placed_count, 0); /* control characters are invisible */
-        wr_font_text_fini(&text);
-        file[16] = 1;
-        length = 32 + (size_t)((width + 7) / 8 * 11);
-        text = shaped_bytes(file, length, "Q"); /* missing: the box */
-        wr_font_text_fini(&text);
+        WrFontText text = { 0 };
         WrFontMaking making = { .head = { 1, 11, 9, 2, 11, 0, 0, 0, 0, 0, 0, 0 } };
         WrText block = { 0 };
-        for (size_t i = 32; i < length; i++) wr_array_push(&making.bytes, file[i]);
+        for (int i = 0; i < (width + 7) / 8 * 11; i++)
+            wr_array_push(&making.bytes, (uint8_t)test_random_u64(&random));
         wr_array_push(
             &making.glyphs,
             ((WrFontGlyph){ .units = 11, .left = -2, .top = 7, .width = width, .height = 11 }));
@@ -426,8 +381,6 @@ static void what_is_no_font_is_refused_with_a_reason(void **state)
 {
     (void)state;
     static uint8_t zeros[1 << 20], packed[1 << 16];
-    uint8_t psf[64] = { 0x72, 0xb5, 0x4a, 0x86, 0, 0, 0,   0,   32,  0,
-                        0,    0,    0,    0,    0, 0, 255, 255, 255, 255 };
     WrError err = { "" };
     WrFontText text = { 0 };
     WrFontRequest ask = { .text = "A" };
@@ -436,10 +389,8 @@ static void what_is_no_font_is_refused_with_a_reason(void **state)
     refused("empty", zeros, 0, "empty");
     refused("short gzip", "\x1f\x8b\x08", 3, "no font");
     refused("bad gzip", "\x1f\x8b\x08\0\0\0\0\0\0\0junk", 14, "gzip");
-    refused("psf", psf, sizeof psf, "glyphs");
-    psf[16] = 9, psf[17] = psf[18] = psf[19] = 0;
-    psf[20] = 8, psf[24] = 8, psf[28] = 8;
-    refused("cut psf", psf, sizeof psf, "cut off");
+    refused("psf 1", "\x36\x04\x02\x10", 4, "xfonts-terminus");
+    refused("psf 2", "\x72\xb5\x4a\x86", 4, "xfonts-terminus");
     size_t length = pack_gzip(zeros, sizeof zeros, packed, sizeof packed);
     refused("packed zeros", packed, length, "no font");
     assert_false(wr_font_shape("/usr/share/fonts", &ask, &text, &err));
@@ -567,7 +518,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(dots_of_a_pcf_font_are_freetypes_own_bit_for_bit),
         cmocka_unit_test(a_bdf_font_is_read_plain_and_packed),
-        cmocka_unit_test(a_psf1_font_finds_letters_by_its_table),
         cmocka_unit_test(the_outline_of_dots_has_their_area_and_their_inside),
         cmocka_unit_test(straightened_curves_keep_their_area_to_second_order),
         cmocka_unit_test(advances_and_outlines_are_in_the_fonts_units),

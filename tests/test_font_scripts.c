@@ -16,7 +16,6 @@
 #define INTER "/usr/share/fonts/opentype/inter/Inter-Regular.otf"
 #define DEVANAGARI "/usr/share/fonts/truetype/lohit-devanagari/Lohit-Devanagari.ttf"
 #define TERMINUS "/usr/share/fonts/X11/misc/ter-u16n_unicode.pcf.gz"
-#define CONSOLE "/usr/share/consolefonts/Lat15-Terminus16.psf.gz"
 #define VARIABLE "/usr/share/fonts/truetype/inter-vf/Inter-roman.var.ttf"
 
 static WrFontText shaped(const char *path, const WrFontRequest *ask)
@@ -236,7 +235,7 @@ static void bitmaps_and_outlines_are_as_large_as_asked(void **state)
     WrFontOutline both = { 0 }, own = { 0 };
     WrFontRequest ask = { .text = "i\xe0\xa4\x95", .others = { DEVANAGARI } };
     WrFontRequest alone = { .text = "\xe0\xa4\x95" };
-    WrFontText t = shaped(CONSOLE, &ask), k = shaped(DEVANAGARI, &alone);
+    WrFontText t = shaped(TERMINUS, &ask), k = shaped(DEVANAGARI, &alone);
     WrFontSetting setting = { 64.0, 0.0, 1.0, WR_FONT_LEFT };
     double place[2][2];
     assert_true(t.bitmap);
@@ -294,36 +293,6 @@ static void installed_fonts_that_have_letters_are_found(void **state)
 }
 
 /* ---- console fonts ---- */
-
-static void a_packed_console_font_is_read(void **state)
-{
-    (void)state;
-    WrFontRequest ask = { .text = "\xc3\x84i\xe2\x82\xac" };
-    WrFontText t = shaped(CONSOLE, &ask), same;
-    assert_int_equal(t.missing_count, 0);
-    assert_int_equal(t.units, 16);
-    /* Terminus of the same size in X's format: the same dots. */
-    same = shaped(TERMINUS, &ask);
-    for (int k = 0; k < 3; k++) {
-        const WrFontGlyph *a = &t.glyphs[t.placed[k].glyph];
-        const WrFontGlyph *b = &same.glyphs[same.placed[k].glyph];
-        int set = 0, rise = 0;
-        for (int row = 0; row < 16; row++) /* each counts rows from its own upper edge */
-            for (int x = 0; x < 8; x++) set += wr_font_dot(&t, a, x, row);
-        assert_true(set > 8);
-        for (rise = -4; rise <= 4; rise++) {
-            int differ = 0;
-            for (int row = -4; row < 20; row++)
-                for (int x = 0; x < 8; x++)
-                    differ += wr_font_dot(&t, a, x, row) !=
-                              wr_font_dot(&same, b, x - b->left, row + rise);
-            if (differ == 0) break;
-        }
-        assert_true(rise <= 4);
-    }
-    wr_font_text_fini(&t);
-    wr_font_text_fini(&same);
-}
 
 /* ---- variable fonts ---- */
 
@@ -400,7 +369,6 @@ int main(void)
         cmocka_unit_test(bitmaps_and_outlines_are_as_large_as_asked),
         cmocka_unit_test(fonts_that_cannot_lend_are_named),
         cmocka_unit_test(installed_fonts_that_have_letters_are_found),
-        cmocka_unit_test(a_packed_console_font_is_read),
         cmocka_unit_test(axes_of_a_variable_font_are_freetypes_and_harfbuzzs),
         cmocka_unit_test(wrong_axes_are_told),
     };

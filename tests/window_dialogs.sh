@@ -163,6 +163,8 @@ quit
 unset WRINKLE_DIALOG
 mkfifo bus
 "$portal" >bus &
+desktop=$!
+trap 'kill $desktop 2>/dev/null; cleanup' EXIT
 read -r DBUS_SESSION_BUS_ADDRESS <bus || complain "there is no portal: apt-get install dbus-daemon"
 export DBUS_SESSION_BUS_ADDRESS
 printf 'dialogs 1\n' >>config/wrinkle/window.conf # the desktop's, however slow the machine

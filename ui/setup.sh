@@ -15,7 +15,7 @@ wr_program_packages=(
 # shellcheck disable=SC2034  # used by tests/run.sh
 wr_test_packages=(
     libcmocka-dev clang clang-format libclang-rt-14-dev
-    console-setup-linux fonts-inter-variable fonts-lohit-deva
+    fonts-inter-variable fonts-lohit-deva
     dbus-daemon xvfb xauth xdotool xclip x11-utils openbox valgrind
     xserver-xorg-core xserver-xorg-dev xserver-xorg-video-dummy xinput
     imagemagick openimageio-tools

@@ -45,7 +45,7 @@ typedef struct WrTextRequest {
 #define WR_P_FONT_FILE                                                                             \
     { .name = "file",                                                                              \
       .label = "Font file",                                                                        \
-      .help = "a font: TrueType, OpenType, Type 1, PCF, BDF, PSF, also packed by gzip",            \
+      .help = "a font: TrueType, OpenType, Type 1, PCF, BDF, OTB, also packed by gzip",            \
       .unit = "",                                                                                  \
       .kind = WR_PARAM_FILE,                                                                       \
       .fallback_text = "" },                                                                       \

@@ -4,7 +4,7 @@
    (reader_protocol.h); every number of its reply is checked here. All numbers are integers in the
    font's own units, so that no library's rounding can affect a height: sizes, positions and curves are
    computed later, here, with + - * / sqrt only. Formats: TrueType, OpenType, Type 1 and other outline
-   fonts of FreeType, shaped by HarfBuzz, mixed directions by FriBidi; bitmaps in PCF, BDF, PSF 1 and 2;
+   fonts of FreeType, shaped by HarfBuzz, mixed directions by FriBidi; bitmaps in PCF, BDF and OTB;
    all also compressed by gzip. */
 #pragma once
 #include "base/array.h"

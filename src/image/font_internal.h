@@ -93,12 +93,8 @@ typedef struct WrFontFace {
 /* Allocates the table of `count` glyphs, all unknown. */
 void wr_font_face_expect(WrFontFace *face, int count);
 
-/* True if the bytes begin like a PSF file. */
-bool wr_psf_is(const uint8_t *bytes, size_t length);
-/* Opens a font over bytes that stay valid; face->making, ask and font must be set. On failure there is
- * nothing to close. */
-bool wr_font_open_psf(WrFontFace *face, const uint8_t *bytes, size_t length, WrError *err);
-/* Opens a font with FreeType. */
+/* Opens a font with FreeType over bytes that stay valid; face->making, ask and font must be set. On failure there is
+   nothing to close. */
 bool wr_font_open_free(WrFontFace *face, const uint8_t *bytes, size_t length, WrError *err);
 
 /* Shaping for fonts without shaping tables: one glyph per character. map: returns the index in

@@ -19,6 +19,12 @@ void wr_font_face_expect(WrFontFace *face, int count)
     memset(face->known.data, 0, (size_t)count * sizeof *face->known.data);
 }
 
+/* PSF, version 1 or 2, which FreeType does not read. bytes: [4] */
+static bool is_console_font(const uint8_t *bytes)
+{
+    return memcmp(bytes, "\x36\x04", 2) == 0 || memcmp(bytes, "\x72\xb5\x4a\x86", 4) == 0;
+}
+
 /* Opens the next file. */
 static bool open_file(Opened *all, const WrFontFile *file, WrFontMaking *making,
                       const WrFontRequest *ask, WrError *err)
@@ -33,8 +39,11 @@ static bool open_file(Opened *all, const WrFontFile *file, WrFontMaking *making,
         in.bytes = *unpacked;
     }
     if (in.length < 4) return wr_fail(err, "is no font that can be read");
-    bool good = wr_psf_is(in.bytes, in.length) ? wr_font_open_psf(face, in.bytes, in.length, err)
-                                               : wr_font_open_free(face, in.bytes, in.length, err);
+    if (is_console_font(in.bytes))
+        return wr_fail(err, "is a font of the text console (PSF), which cannot be read; use the "
+                            "same font as PCF, OTB or "
+                            "BDF, such as Terminus in Debian's package xfonts-terminus");
+    const bool good = wr_font_open_free(face, in.bytes, in.length, err);
     if (good) all->count++;
     return good;
 }
