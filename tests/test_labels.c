@@ -94,7 +94,7 @@ static void elevations_and_photographs_go_by_labels_too(void **state)
     must_run(s, "export height h.png");
     must_run(back, "terrain elevation h.png");
     assert_near(farthest(s, back), 0, 4.0 / 65535);
-    assert_non_null(strstr(other.text, "its label tells"));
+    assert_non_null(strstr(other.text, "its label states"));
     must_run(back, "terrain elevation h.png scale=-1 labels=ignore");
     assert_true(farthest(s, back) > 0.5);
     must_run(back, "terrain elevation h.png values=code");
