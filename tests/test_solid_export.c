@@ -381,7 +381,7 @@ static void what_cannot_be_made_is_told(void **state)
         { WR_SURFACE_plane, "", "a.png", "stl files end in .stl" },
         { WR_SURFACE_mesh, "", "a.stl", "surfaces by formulas" },
         { WR_SURFACE_cone, "thickness=60", "a.stl", "leave room for" },
-        { WR_SURFACE_plane, "size=1000 error=1e-6", "a.stl", "takes more than" },
+        { WR_SURFACE_plane, "size=1000 error=1e-6", "a.stl", "needs more than" },
     };
     const int count = 4 - (getenv("WR_FULL") == NULL); /* the last takes seconds */
     WrError err = { "" };
