@@ -135,7 +135,7 @@ static uint8_t *ora_thumbnail(const WrField *f, const WrOraRange *range, int *wi
 /* ---- agreement with other programs ---- */
 
 /* Range of greys for other programs, and whether they would blend the document's layers to our composite
-   (ora_show.h). */
+. */
 
 #define BAND 16 /* rows that are read at a time */
 
@@ -425,7 +425,7 @@ static bool read_filter(Loading *in, const WrOraLayer *from, WrLayer *layer, WrE
     return true;
 }
 
-/* Converts attributes to a layer's settings; the inverse of add_layer in ora_save.c. */
+/* Converts attributes to a layer's settings; the inverse of add_layer. */
 static bool read_settings(Loading *in, const WrOraLayer *from, WrLayer *layer, WrError *err)
 {
     bool exact;
@@ -947,7 +947,7 @@ static void add_looks(Saving *to, int index)
                                 : wr_ora_operation(layer->blend));
 }
 
-/* Converts a layer's settings to attributes; the inverse of read_settings in ora_load.c. */
+/* Converts a layer's settings to attributes; the inverse of read_settings. */
 static bool add_layer(Saving *to, int index, WrError *err)
 {
     const WrLayer *layer = &to->document->layers[index];
