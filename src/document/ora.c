@@ -134,8 +134,7 @@ static uint8_t *ora_thumbnail(const WrField *f, const WrOraRange *range, int *wi
 
 /* ---- agreement with other programs ---- */
 
-/* Range of greys for other programs, and whether they would blend the document's layers to our composite
-. */
+/* Range of greys for other programs, and whether they would blend the document's layers to our composite. */
 
 #define BAND 16 /* rows that are read at a time */
 
