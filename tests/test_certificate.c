@@ -64,7 +64,7 @@ static void joints_of_cells_that_repeat_are_those_of_their_scheme(void **state)
             if (fabs(edge->jump[order + 1] - most) > 1e-9 * most)
                 fail_msg("scheme %d: %.17g, not %.17g", s, edge->jump[order + 1], most);
         }
-        assert_int_equal(wr_certificate_order(&c), orders[s]);
+        assert_int_equal(wr_certificate_continuity(&c), orders[s]);
     }
     wr_field_free(field);
 }
@@ -115,7 +115,7 @@ static void level_ground_is_smooth_whatever_its_height(void **state)
         WrField *field = wr_field_new(5, 1, wrap, WR_WRAP_PERIODIC, 12345.678f, NULL);
         for (int s = 0; s < WR_SCHEME_COUNT; s++) {
             const WrCertificate c = wr_certificate_table(field, (WrScheme)s, NULL);
-            assert_int_equal(wr_certificate_order(&c), 2);
+            assert_int_equal(wr_certificate_continuity(&c), 2);
         }
         wr_field_free(field);
     }
@@ -137,7 +137,7 @@ static void formulas_are_judged_from_edge_to_edge(void **state)
     WrAnalyticTerm wave = { .i = 3, .j = -2, .a = 0.4, .phase_u_deg = 17 };
     const WrAnalytic waves = { .kind = WR_ANALYTIC_FOURIER, .count = 1, .terms = &wave };
     const WrCertificate w = wr_certificate_formula(&waves);
-    assert_int_equal(wr_certificate_order(&w), 2);
+    assert_int_equal(wr_certificate_continuity(&w), 2);
 }
 
 static void the_words_tell_the_first_that_jumps(void **state)

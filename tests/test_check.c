@@ -78,7 +78,7 @@ static WrCheck check_as(const char *path, int kind)
 {
     WrCheck check;
     WrError err = { "" };
-    if (!wr_check_file(path, kind, WR_CODING_AUTO, &check, &err)) fail_msg("%s", err.text);
+    if (!wr_check_picture(path, kind, WR_CODING_AUTO, &check, &err)) fail_msg("%s", err.text);
     return check;
 }
 
@@ -333,11 +333,11 @@ static void hostile_files_are_errors(void **state)
     const char *const names[] = { "cut.png", "huge.png", "none.png", "/dev/zero", "." };
     for (int i = 0; i < 5; i++) {
         err.text[0] = '\0';
-        assert_false(wr_check_file(names[i], -1, WR_CODING_AUTO, &check, &err));
+        assert_false(wr_check_picture(names[i], -1, WR_CODING_AUTO, &check, &err));
         assert_non_null(strstr(err.text, names[i]));
     }
-    assert_false(wr_check_file("s.png", WR_CHECK_SLOPES, WR_CODING_AUTO, &check, &err));
-    assert_false(wr_check_file("s.png", WR_CHECK_NORMAL, WR_CODING_AUTO, &check, &err));
+    assert_false(wr_check_picture("s.png", WR_CHECK_SLOPES, WR_CODING_AUTO, &check, &err));
+    assert_false(wr_check_picture("s.png", WR_CHECK_NORMAL, WR_CODING_AUTO, &check, &err));
 }
 
 int main(void)

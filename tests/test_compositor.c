@@ -391,9 +391,9 @@ static void a_share_of_a_compositor_goes_its_own_way(void **state)
     scribble(s.own[0].heights, &random, -1, 1);
     scribble(s.own[1].heights, &random, -1, 1);
     scribble(s.own[1].cover, &random, 0, 1);
-    WrCompositor *a = wr_compositor_new(), *empty = wr_compositor_share(a);
+    WrCompositor *a = wr_compositor_new(), *empty = wr_compositor_snapshot(a);
     WrHash first = wr_field_hash(wr_compositor_update(a, s.layers, s.count, NULL));
-    WrCompositor *b = wr_compositor_share(a);
+    WrCompositor *b = wr_compositor_snapshot(a);
     scribble(s.own[1].heights, &random, -1, 1);
     wr_field_set(s.own[1].cover, 3, 3, 1.0f);
     wr_field_set(s.own[1].heights, 3, 3, 77.0f);

@@ -71,7 +71,7 @@ static void expect(const char *name, float x)
 {
     WrMesh mesh;
     WrError err = { "" };
-    if (!wr_mesh_read_whole(at(name), &mesh, &err)) fail_msg("%s", err.text);
+    if (!wr_mesh_read_attributes(at(name), &mesh, &err)) fail_msg("%s", err.text);
     assert_int_equal(mesh.triangle_count, 1);
     const float *p = mesh.points[mesh.corners[0][2]];
     assert_float_equal(p[0], x, 0);

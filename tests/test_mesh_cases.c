@@ -15,7 +15,7 @@ static WrMesh read_case(const char *name)
     WrMesh mesh = { 0 };
     WrError err = { "" };
     snprintf(path, sizeof path, WR_SOURCE_DIR "/tests/cases/mesh/%s", name);
-    if (!wr_mesh_read_whole(path, &mesh, &err)) fail_msg("%s", err.text);
+    if (!wr_mesh_read_attributes(path, &mesh, &err)) fail_msg("%s", err.text);
     return mesh;
 }
 

@@ -51,7 +51,7 @@ static void hc59_hashed_prescriptions_are_met_and_perlin_noise_is_zero(void **st
         for (uint32_t k = 0; k < 100; k++, seen++) {
             uint32_t c[3] = { k % 6, k / 6 % 12, k % 9 };
             double t[3] = { c[0], c[1], c[2] }, slope[3], given[3];
-            double value = wr_noise_prescribed(&cases[n], c, given);
+            double value = wr_noise_lattice_value(&cases[n], c, given);
             assert_true(wr_noise_at(&cases[n], t, slope) == value);
             if (cases[n].kind == WR_NOISE_PERLIN) assert_true(value == 0.0);
             for (int a = 0; cases[n].fade != WR_FADE_LINEAR && a < cases[n].dim; a++)

@@ -48,7 +48,7 @@ static void tables_hold_what_the_noise_is_at_their_texels(void **state)
         for (int j = 0; j < 64; j += 3)
             for (int i = 0; i < 96; i += 5) {
                 WrNoiseReading r;
-                wr_noise_maker_at(&maker, (i + 0.5) / 96.0, 1.0 - (j + 0.5) / 64.0, &r);
+                wr_noise_maker_sample(&maker, (i + 0.5) / 96.0, 1.0 - (j + 0.5) / 64.0, &r);
                 assert_near((double)wr_field_get(f, i, j), r.f, 3e-5 * fabs(maker.amplitude));
             }
         wr_field_free(f);
@@ -77,11 +77,11 @@ static void slopes_are_those_of_the_heights(void **state)
         for (int n = 0; n < 20; n++) {
             double u = test_random(&random), v = test_random(&random), h = 1e-5;
             WrNoiseReading r, left, right, low, high;
-            wr_noise_maker_at(&m, u, v, &r);
-            wr_noise_maker_at(&m, u - h, v, &left);
-            wr_noise_maker_at(&m, u + h, v, &right);
-            wr_noise_maker_at(&m, u, v - h, &low);
-            wr_noise_maker_at(&m, u, v + h, &high);
+            wr_noise_maker_sample(&m, u, v, &r);
+            wr_noise_maker_sample(&m, u - h, v, &left);
+            wr_noise_maker_sample(&m, u + h, v, &right);
+            wr_noise_maker_sample(&m, u, v - h, &low);
+            wr_noise_maker_sample(&m, u, v + h, &high);
             assert_near(r.fu, (right.f - left.f) / (2.0 * h), 1e-3);
             assert_near(r.fv, (high.f - low.f) / (2.0 * h), 1e-3);
             assert_near(r.f, m.level + m.amplitude * r.n, 1e-15);
@@ -102,11 +102,11 @@ static void hc59_perlin_noise_is_exactly_0_at_lattice_points(void **state)
             WrNoiseMaker m;
             WrNoiseReading r;
             must_make("perlin", s, 512, 512, &m);
-            wr_noise_maker_at(&m, i / 4.0, j / 4.0, &r);
+            wr_noise_maker_sample(&m, i / 4.0, j / 4.0, &r);
             assert_true(r.n == 0.0);
             assert_true(fabs(r.nu) + fabs(r.nv) > 0.0);
             must_make("perlin", line, 512, 512, &m);
-            wr_noise_maker_at(&m, i / 4.0, 0.37, &r);
+            wr_noise_maker_sample(&m, i / 4.0, 0.37, &r);
             assert_true(r.n == 0.0 && r.nv == 0.0);
         }
 }
@@ -122,10 +122,10 @@ static void hc60_noise_goes_on_below_0_and_comes_back_after_1(void **state)
         for (int n = 0; n < 20; n++) {
             double u = n / 32.0, v = (n * 7 % 32) / 32.0;
             WrNoiseReading a, b, c;
-            wr_noise_maker_at(&m, u, v, &a);
-            wr_noise_maker_at(&m, u - 3.0, v + 2.0, &b);
+            wr_noise_maker_sample(&m, u, v, &a);
+            wr_noise_maker_sample(&m, u - 3.0, v + 2.0, &b);
             assert_true(same_bits(a.n, b.n) && same_bits(a.nu, b.nu) && same_bits(a.nv, b.nv));
-            wr_noise_maker_at(&m, u - 1e-9, v, &c);
+            wr_noise_maker_sample(&m, u - 1e-9, v, &c);
             assert_near(c.n, a.n, 1e-6);
         }
     }
@@ -137,10 +137,10 @@ static void hc61_far_places_and_far_origins_are_harmless(void **state)
     WrNoiseMaker m;
     WrNoiseReading a, b;
     must_make("perlin", NULL, 512, 512, &m);
-    wr_noise_maker_at(&m, 1e16, 1e300, &a);
-    wr_noise_maker_at(&m, 0.0, 0.0, &b);
+    wr_noise_maker_sample(&m, 1e16, 1e300, &a);
+    wr_noise_maker_sample(&m, 0.0, 0.0, &b);
     assert_true(same_bits(a.n, b.n)); /* both are whole numbers of periods */
-    wr_noise_maker_at(&m, INFINITY, NAN, &a);
+    wr_noise_maker_sample(&m, INFINITY, NAN, &a);
     assert_true(isfinite(a.n) && isfinite(a.nu) && isfinite(a.f));
 }
 
@@ -218,11 +218,11 @@ static void hc65_turbulence_is_creased_where_noise_is_0(void **state)
     must_make("perlin", plain, 512, 512, &a);
     must_make("perlin", folded, 512, 512, &b);
     for (int k = 0; k < 50; k++) {
-        wr_noise_maker_at(&a, k / 50.0 + 0.003, k * 0.37, &f);
-        wr_noise_maker_at(&b, k / 50.0 + 0.003, k * 0.37, &t);
+        wr_noise_maker_sample(&a, k / 50.0 + 0.003, k * 0.37, &f);
+        wr_noise_maker_sample(&b, k / 50.0 + 0.003, k * 0.37, &t);
         assert_true(t.n == fabs(f.n) && t.nu == (f.n < 0.0 ? -f.nu : f.nu));
     }
-    wr_noise_maker_at(&b, 0.25, 0.5, &t);
+    wr_noise_maker_sample(&b, 0.25, 0.5, &t);
     assert_true(t.n == 0.0 && t.nu == 0.0 && t.nv == 0.0);
 }
 
@@ -257,9 +257,9 @@ static void hc67_simplex_noise_is_continuous_across_faces(void **state)
     for (int k = 0; k < 200; k++) {
         double p = k / 200.0;
         WrNoiseReading a, b, c;
-        wr_noise_maker_at(&m, p, p, &a);
-        wr_noise_maker_at(&m, p + 1e-13, p - 1e-13, &b);
-        wr_noise_maker_at(&m, p - 1e-13, p + 1e-13, &c);
+        wr_noise_maker_sample(&m, p, p, &a);
+        wr_noise_maker_sample(&m, p + 1e-13, p - 1e-13, &b);
+        wr_noise_maker_sample(&m, p - 1e-13, p + 1e-13, &c);
         assert_near(a.n, b.n, 1e-11);
         assert_near(a.n, c.n, 1e-11);
     }
@@ -276,11 +276,11 @@ static void hc68_sums_with_a_step_that_is_not_whole_still_tile(void **state)
         must_make(rows[k], s, 512, 256, &m);
         for (int n = 0; n < 32; n++) {
             WrNoiseReading a, b;
-            wr_noise_maker_at(&m, 0.0, n / 32.0, &a);
-            wr_noise_maker_at(&m, 1.0, n / 32.0, &b);
+            wr_noise_maker_sample(&m, 0.0, n / 32.0, &a);
+            wr_noise_maker_sample(&m, 1.0, n / 32.0, &b);
             assert_true(same_bits(a.n, b.n));
-            wr_noise_maker_at(&m, n / 32.0, 1.0, &a);
-            wr_noise_maker_at(&m, n / 32.0, 0.0, &b);
+            wr_noise_maker_sample(&m, n / 32.0, 1.0, &a);
+            wr_noise_maker_sample(&m, n / 32.0, 0.0, &b);
             assert_true(same_bits(a.n, b.n));
         }
     }

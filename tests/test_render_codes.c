@@ -18,7 +18,7 @@ static uint32_t counted(float x)
 
 static void expect_code(const uint32_t *bins, float x)
 {
-    const uint32_t got = wr_code_at(bins, wr_code_place(x)), want = counted(x);
+    const uint32_t got = wr_code_at(bins, wr_srgb_bin_position(x)), want = counted(x);
     if (got != want) fail_msg("%a: code %u, not %u", (double)x, got, want);
 }
 
@@ -48,7 +48,7 @@ static void every_value_has_the_code_of_the_borders(void **state)
     static const float ends[] = { -1,         -0.0f, 1e-45f,   1e-30f,   1,
                                   1.0000001f, 3e38f, INFINITY, -INFINITY };
     for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) expect_code(bins, ends[i]);
-    assert_int_equal(wr_code_at(bins, wr_code_place(NAN)), 0);
+    assert_int_equal(wr_code_at(bins, wr_srgb_bin_position(NAN)), 0);
 }
 
 /* ---- pictures ---- */

@@ -237,8 +237,8 @@ static void a_certificate_is_no_better_than_its_pattern(void **state)
     WrField *cut = table_of(128, 96, smooth, 0, 0.71), *whole = table_of(128, 96, smooth, 0, 1);
     const WrCertificate torn = wr_certificate_table(cut, WR_SCHEME_BSPLINE, NULL);
     const WrCertificate good = wr_certificate_table(whole, WR_SCHEME_BSPLINE, NULL);
-    assert_int_equal(wr_certificate_order(&torn), -1);
-    assert_int_equal(wr_certificate_order(&good), 2);
+    assert_int_equal(wr_certificate_continuity(&torn), -1);
+    assert_int_equal(wr_certificate_continuity(&good), 2);
     wr_certificate_text(&torn, &text);
     assert_non_null(strstr(wr_text_get(&text), "none, height differs by "));
     wr_text_clear(&text);

@@ -176,7 +176,7 @@ static void agree(const char *path, const Said *said, const char *what)
     WrCheck check;
     WrError err = { "" };
     const unsigned seams = 1u << WR_CHECK_SEAM_U | 1u << WR_CHECK_SEAM_V;
-    if (!wr_check_file(path, -1, WR_CODING_AUTO, &check, &err)) fail_msg("%s", err.text);
+    if (!wr_check_picture(path, -1, WR_CODING_AUTO, &check, &err)) fail_msg("%s", err.text);
     if (((check.problems & seams) != 0) != is_torn(said->text))
         fail_msg("%s, %s: check finds %s, the export said: %s", what, path,
                  check.problems & seams ? "a seam" : "none", said->text);

@@ -440,7 +440,7 @@ static WrMesh read_whole(const char *path)
 {
     WrMesh mesh;
     WrError err = { "" };
-    if (!wr_mesh_read_whole(path, &mesh, &err)) fail_msg("%s", err.text);
+    if (!wr_mesh_read_attributes(path, &mesh, &err)) fail_msg("%s", err.text);
     return mesh;
 }
 

@@ -579,7 +579,7 @@ static void means_of_cut_off_tiles_count_only_what_is_inside(void **state)
     WrCanvasCells *cells = wr_cells_new();
     int changes = 0;
     float flat;
-    assert_false(wr_cells_look(cells, field, 3, count_tile, &changes));
+    assert_false(wr_cells_update(cells, field, 3, count_tile, &changes));
     const float *mean = wr_cells_block(cells, 1, 1, 1e300, &flat);
     /* cell (12, 8): columns 96..99, rows 64..69 */
     assert_near((double)mean[0 * 8 + 4], 97.5 + 1000 * 66.5, 1e-2);
@@ -601,19 +601,19 @@ static void an_edit_is_seen_and_costs_its_tile_alone(void **state)
     WrCanvasCells *cells = wr_cells_new();
     int changes = 0;
     float flat = 0, low, high;
-    wr_cells_look(cells, field, 2, count_tile, &changes);
+    wr_cells_update(cells, field, 2, count_tile, &changes);
     assert_null(wr_cells_block(cells, 3, 5, 1e300, &flat));
     assert_near((double)flat, 0.25, 0);
     wr_cells_range(cells, &low, &high);
     wr_field_set(field, 3 * 64 + 7, 5 * 64 + 9, 16.25f);
-    assert_true(wr_cells_look(cells, field, 2, count_tile, &changes));
+    assert_true(wr_cells_update(cells, field, 2, count_tile, &changes));
     assert_int_equal(changes, 1);
     const float *mean = wr_cells_block(cells, 3, 5, 1e300, &flat);
     assert_near((double)mean[16 * 2 + 1], 1.25, 1e-6); /* one of 16 texels is 16 higher */
     assert_near((double)mean[0], 0.25, 0);
     wr_cells_range(cells, &low, &high);
     assert_near((double)high, 16.25, 0);
-    assert_true(wr_cells_look(cells, field, 2, count_tile, &changes));
+    assert_true(wr_cells_update(cells, field, 2, count_tile, &changes));
     assert_int_equal(changes, 1); /* nothing changed since */
     wr_cells_free(cells);
     wr_field_free(field);
@@ -633,7 +633,7 @@ static void the_range_follows_every_edit(void **state)
         place[0] = (int)(211 * test_random(&r));
         place[1] = (int)(157 * test_random(&r));
         wr_field_set(field, place[0], place[1], (float)(3 * test_random(&r) - 1.4));
-        wr_cells_look(cells, field, 1, count_tile, &changes);
+        wr_cells_update(cells, field, 1, count_tile, &changes);
         float low, high, least, most;
         wr_cells_range(cells, &low, &high);
         wr_field_range(field, &least, &most);
@@ -652,7 +652,7 @@ static void late_means_are_rough_and_made_good_later(void **state)
         for (int i = 0; i < 64; i++) wr_field_set(field, i, j, (float)i);
     WrCanvasCells *cells = wr_cells_new();
     float flat;
-    wr_cells_look(cells, field, 6, count_tile, NULL);
+    wr_cells_update(cells, field, 6, count_tile, NULL);
     assert_near((double)wr_cells_block(cells, 0, 0, 0, &flat)[0], 0, 0);
     assert_true(wr_cells_rough(cells));
     wr_cells_forget_rough(cells);

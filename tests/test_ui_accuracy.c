@@ -75,24 +75,24 @@ static void two_pictures_flicker_twice_a_second(void **state)
 static void the_line_between_two_pictures_stays_in_reach(void **state)
 {
     (void)state;
-    assert_near(wr_accuracy_split_at(150, 100, 200, 10), 0.25, 1e-12);
-    assert_near(wr_accuracy_split_at(0, 100, 200, 10), 0.05, 1e-12);
-    assert_near(wr_accuracy_split_at(900, 100, 200, 10), 0.95, 1e-12);
-    assert_near(wr_accuracy_split_at(900, 100, 10, 10), 0.5, 1e-12);
-    assert_near(wr_accuracy_split_at(5, 0, 0, 10), 0.5, 1e-12);
+    assert_near(wr_accuracy_split_from_pointer(150, 100, 200, 10), 0.25, 1e-12);
+    assert_near(wr_accuracy_split_from_pointer(0, 100, 200, 10), 0.05, 1e-12);
+    assert_near(wr_accuracy_split_from_pointer(900, 100, 200, 10), 0.95, 1e-12);
+    assert_near(wr_accuracy_split_from_pointer(900, 100, 10, 10), 0.5, 1e-12);
+    assert_near(wr_accuracy_split_from_pointer(5, 0, 0, 10), 0.5, 1e-12);
 }
 
 static void a_fitted_picture_keeps_its_shape(void **state)
 {
     (void)state;
     int w, h;
-    wr_accuracy_fit(1000, 500, 256, &w, &h);
+    wr_accuracy_picture_size(1000, 500, 256, &w, &h);
     assert_int_equal(w, 256);
     assert_int_equal(h, 128);
-    wr_accuracy_fit(100, 50, 256, &w, &h);
+    wr_accuracy_picture_size(100, 50, 256, &w, &h);
     assert_int_equal(w, 100);
     assert_int_equal(h, 50);
-    wr_accuracy_fit(4000, 2, 256, &w, &h);
+    wr_accuracy_picture_size(4000, 2, 256, &w, &h);
     assert_int_equal(w, 256);
     assert_int_equal(h, 1);
 }

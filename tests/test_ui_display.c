@@ -51,7 +51,7 @@ static void the_word_says_what_becomes_of_pens(void **state)
         { { NULL, ":1", "wayland-0", NULL }, NULL, NULL },
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        const char *word = wr_display_word(&rows[i].env, rows[i].opened);
+        const char *word = wr_display_driver_note(&rows[i].env, rows[i].opened);
         if (!rows[i].has) {
             assert_null(word);
             continue;
@@ -66,14 +66,14 @@ static void the_word_says_what_becomes_of_pens(void **state)
 static void a_window_that_nobody_sees_is_found_out(void **state)
 {
     (void)state;
-    assert_true(wr_display_unseen(NULL, "dummy"));
-    assert_true(wr_display_unseen(NULL, "offscreen"));
-    assert_true(wr_display_unseen("x11,wayland", "offscreen"));
-    assert_false(wr_display_unseen("dummy", "dummy")); /* asked for: by tests */
-    assert_false(wr_display_unseen("offscreen,x11", "offscreen"));
-    assert_false(wr_display_unseen(NULL, "x11"));
-    assert_false(wr_display_unseen(NULL, "wayland"));
-    assert_false(wr_display_unseen(NULL, "KMSDRM"));
+    assert_true(wr_display_no_output(NULL, "dummy"));
+    assert_true(wr_display_no_output(NULL, "offscreen"));
+    assert_true(wr_display_no_output("x11,wayland", "offscreen"));
+    assert_false(wr_display_no_output("dummy", "dummy")); /* asked for: by tests */
+    assert_false(wr_display_no_output("offscreen,x11", "offscreen"));
+    assert_false(wr_display_no_output(NULL, "x11"));
+    assert_false(wr_display_no_output(NULL, "wayland"));
+    assert_false(wr_display_no_output(NULL, "KMSDRM"));
 }
 
 int main(void)

@@ -201,7 +201,7 @@ static void the_finest_of_each_axis_is_kept_of_kinds_that_are_there(void **state
     choice.parts[2] = (WrChoicePart){ .scene = with(WR_SCHEME_BSPLINE_FIT, WR_BUMP_EXACT, 12),
                                       .blocks = 0,
                                       .where = "" };
-    wr_chosen_from(&choice, &chosen);
+    wr_choice_summary(&choice, &chosen);
     assert_true(chosen.any && chosen.met);
     assert_string_equal(chosen.reason, "because");
     assert_true(chosen.finest[WR_DIAL_SCHEME] == WR_SCHEME_CATMULL);
@@ -212,7 +212,7 @@ static void the_finest_of_each_axis_is_kept_of_kinds_that_are_there(void **state
                                       "6, the liveliest relief\n50.0 %: blinn catmull 1\xc3\x97"
                                       "1, edges");
     choice.parts[0].blocks = choice.parts[1].blocks = 0; /* nothing is visible */
-    wr_chosen_from(&choice, &chosen);
+    wr_choice_summary(&choice, &chosen);
     assert_false(chosen.any);
     wr_choice_fini(&choice);
 }

@@ -41,7 +41,7 @@ static void settle(Walk *walk)
         app->visible = false; /* deferred work does not wait for a drawn picture */
         wr_deferred_run(app);
         app->visible = true;
-        wr_busy_tend(app);
+        wr_busy_update(app);
         wr_busy_settle(app);
         if (i > 1 && !app->busy && !wr_gui_unsettled(app->gui) && !wr_deferred_waits(app, NULL))
             return;

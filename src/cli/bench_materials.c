@@ -87,7 +87,7 @@ void wr_bench_parallax(WrScene *scene)
     scene->parallax = true;
 }
 
-void wr_bench_three(WrScene *scene)
+void wr_bench_three_objects(WrScene *scene)
 {
     WrScene **others = wr_alloc(2, sizeof *others);
     for (int i = 0; i < 2; i++) {
@@ -99,9 +99,9 @@ void wr_bench_three(WrScene *scene)
     scene->other_count = 2;
 }
 
-void wr_bench_three_hide(WrScene *scene)
+void wr_bench_three_shadowed(WrScene *scene)
 {
-    wr_bench_three(scene);
+    wr_bench_three_objects(scene);
     scene->lights[0].shadow = true;
 }
 

@@ -16,8 +16,8 @@ void wr_bench_parallax(WrScene *scene);
 void wr_bench_worn(WrScene *scene);
 void wr_bench_embossed(WrScene *scene);
 /* Add two smaller objects of the same kind, in front of and behind the sides of the first. */
-void wr_bench_three(WrScene *scene);
+void wr_bench_three_objects(WrScene *scene);
 /* The three objects with shadows on one another. */
-void wr_bench_three_hide(WrScene *scene);
+void wr_bench_three_shadowed(WrScene *scene);
 /* Add a normal map of waves with slopes up to 0.3. */
 void wr_bench_mapped(WrScene *scene);

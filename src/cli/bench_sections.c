@@ -822,10 +822,10 @@ static bool fill_relit(WrBenchSections *all, WrError *err)
     } rows[] = { { "bezier", "bezier", WR_BENCH_BUMP, NULL },
                  { "torus", "torus", WR_BENCH_BUMP, NULL },
                  { "torus, painted", "torus", WR_BENCH_BUMP_TEXTURE, NULL },
-                 { "three tori", "torus", WR_BENCH_BUMP, wr_bench_three },
+                 { "three tori", "torus", WR_BENCH_BUMP, wr_bench_three_objects },
                  { "torus, moments", "torus", WR_BENCH_BUMP, moments },
                  { "torus, relief shadow", "torus", WR_BENCH_BUMP, shadowed },
-                 { "three tori, shadows", "torus", WR_BENCH_BUMP, wr_bench_three_hide },
+                 { "three tori, shadows", "torus", WR_BENCH_BUMP, wr_bench_three_shadowed },
                  { "sphere, 4 x 4 samples", "sphere", WR_BENCH_BUMP, supersampled } };
     for (int i = 0; i < 2 * WR_LENGTH(rows); i++) {
         char name[64];

@@ -151,7 +151,7 @@ int wr_cli_print(const WrCli *cli, const WrText *text);
 
 /* Progress line on standard error, if that is a terminal: start reporting `progress`; clear the line until the next
    report; stop reporting. */
-void wr_cli_report(WrProgress *progress);
+void wr_cli_progress_begin(WrProgress *progress);
 void wr_cli_report_resume(void); /* restart for another piece of work */
 void wr_cli_report_end(void);
 void wr_cli_report_stop(void);

@@ -211,7 +211,7 @@ static int check_one(const WrCli *cli, const char *path, int kind, WrCoding codi
     WrCheck check;
     WrError err = { "" };
     WrText text = { 0 };
-    const bool read = wr_check_file(path, kind, coding, &check, &err);
+    const bool read = wr_check_picture(path, kind, coding, &check, &err);
     int status = read ? WR_EXIT_DONE : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
     if (status == WR_EXIT_INTERRUPTED) return status;
     if (read && cli->json) add_object(&text, path, &check);

@@ -140,7 +140,7 @@ static void add_point(WrText *text, bool json, const WrScene *scene, const Quant
 static void add_noise(WrText *text, bool json, const WrNoiseMaker *maker, double u, double v)
 {
     WrNoiseReading r;
-    wr_noise_maker_at(maker, u, v, &r);
+    wr_noise_maker_sample(maker, u, v, &r);
     if (json) wr_text_add(text, "{");
     else if (text->length) wr_text_add(text, "\n");
     add_number(text, json, "u", u);

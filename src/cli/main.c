@@ -55,7 +55,7 @@ static int run(WrCli *cli)
     if (cli->command->run == wr_cli_run || cli->command->run == wr_cli_export ||
         cli->command->run == wr_cli_render || cli->command->run == wr_cli_recover ||
         cli->command->run == wr_cli_paint)
-        wr_cli_report(&progress);
+        wr_cli_progress_begin(&progress);
     cli->pool = wr_pool_new(cli->threads);
     wr_progress_set(&progress);
     int status = cli->command->run(cli);

@@ -32,7 +32,7 @@ static void report(void *ctx, double fraction)
     line.shown = true;
 }
 
-void wr_cli_report(WrProgress *progress)
+void wr_cli_progress_begin(WrProgress *progress)
 {
     if (!wr_process_has_terminal()) return;
     line.began = wr_clock_seconds();

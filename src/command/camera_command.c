@@ -139,7 +139,7 @@ static bool run_named(const WrCall *call, WrScene *scene, WrError *err)
     int index;
     if (!find_view(call, scene, &index, err)) return false;
     if (call->form == FORM_FORGET) wr_scene_forget_view(scene, index);
-    else wr_scene_set_view(scene, &scene->views[index].view);
+    else wr_scene_set_pose(scene, &scene->views[index].view);
     return true;
 }
 

@@ -54,7 +54,7 @@ double wr_call_number(const WrCall *call, const char *name);
 int wr_call_choice(const WrCall *call, const char *name);
 /* Name of the argument that holds the SHA-256 of the file named by argument `index`: NAME_sha256, or sha256. NULL if
  * that argument names no file, or one that is not read. */
-const char *wr_call_hash_name(const WrCall *call, int index);
+const char *wr_call_hash_argument(const WrCall *call, int index);
 /* True if argument `index` is given and is a file name. A preset may be a file name or a bare name. */
 bool wr_call_names_file(const WrCall *call, int index);
 bool wr_names_preset_file(const char *word); /* true if the word ends in .myb */

@@ -274,7 +274,7 @@ char *wr_generator_text(const char *text)
 static bool check_file(WrCall *call, const char *param, const char *path, WrError *err)
 {
     char hex[65];
-    const char *name = wr_call_hash_name(call, (int)(wr_call_arg(call, param) - call->args));
+    const char *name = wr_call_hash_argument(call, (int)(wr_call_arg(call, param) - call->args));
     return wr_input_sha256(path, hex, err) &&
            wr_call_check_sha256(call, name ? name : "sha256", path, hex, err);
 }
@@ -419,7 +419,7 @@ static WrArgSpec argument(const WrParam *p)
     return spec;
 }
 
-/* The first file's checksum is sha256=; further files have NAME_sha256=, placed before it (wr_call_hash_name). */
+/* The first file's checksum is sha256=; further files have NAME_sha256=, placed before it (wr_call_hash_argument). */
 static int add_checksums(const WrGenerator *g, WrArgSpec *out)
 {
     static const char *const others[][2] = { { "fallback", "fallback_sha256" },

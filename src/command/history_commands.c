@@ -75,7 +75,7 @@ static void add_line(void *ctx, const char *line, const char *folder)
         return;
     }
     for (int i = 0; i < call->count; i++) {
-        const char *hash = wr_call_hash_name(call, i);
+        const char *hash = wr_call_hash_argument(call, i);
         if (!hash || !wr_call_given(call, hash) || !wr_call_names_file(call, i)) continue;
         char *full = wr_path_join(folder ? folder : ".", call->args[i].text);
         wr_call_set_text(call, call->specs[i].name, seen_from(script->home, full));
@@ -114,7 +114,7 @@ static bool run_view(WrSession *session, WrCall *call, WrError *err)
     if (steps > most) return wr_fail(err, "%d views: there are %d", steps, most);
     WrSceneView view = wr_views_go(views, back ? -steps : steps);
     WrScene *scene = wr_scene_clone(session->state.document->scene);
-    wr_scene_set_view(scene, &view);
+    wr_scene_set_pose(scene, &view);
     wr_session_replace_scene(session, scene);
     wr_history_look(session->state.history, session->state.document);
     return true;
@@ -125,7 +125,7 @@ static void put_view(const WrSceneView *view, WrLineSink *sink, void *ctx)
 {
     WrText text = { 0 };
     WrScene *scene = wr_scene_new();
-    wr_scene_set_view(scene, view);
+    wr_scene_set_pose(scene, view);
     if (view->of_one && !view->posed) wr_text_add(&text, "rotate pose=own\n");
     wr_print_rotate(scene, &text);
     wr_print_camera(scene, &text);

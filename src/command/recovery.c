@@ -195,7 +195,7 @@ static char *with_copies(const char *journal, const char *line)
     if (!wr_call_parse(line, false, &call, NULL)) return wr_strdup(line);
     for (int i = 0; i < call->count; i++) {
         char hex[65];
-        const char *name = call->args[i].text, *hash = wr_call_hash_name(call, i);
+        const char *name = call->args[i].text, *hash = wr_call_hash_argument(call, i);
         if (!hash || !wr_call_given(call, hash) || !wr_call_names_file(call, i)) continue;
         const char *sha256 = wr_call_arg(call, hash)->text;
         if (wr_input_sha256(name, hex, NULL) && strcmp(hex, sha256) == 0) continue;

@@ -214,7 +214,7 @@ WrScene *wr_session_scene_at_start(const WrSession *session)
 {
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     WrSceneView view = wr_views_start(session->state.views);
-    wr_scene_set_view(scene, &view);
+    wr_scene_set_pose(scene, &view);
     return scene;
 }
 
@@ -492,7 +492,7 @@ bool wr_session_takes_made(const char *line)
     WrCall *call = NULL;
     if (!wr_call_parse(line, false, &call, NULL)) return false;
     bool takes = call->command && call->command->prework != WR_PREWORK_NONE;
-    for (int i = 0; i < call->count; i++) takes = takes && !wr_call_hash_name(call, i);
+    for (int i = 0; i < call->count; i++) takes = takes && !wr_call_hash_argument(call, i);
     wr_call_free(call);
     return takes;
 }

@@ -478,7 +478,7 @@ static bool file_of(WrSession *session, const WrCall *call, int index, const cha
 static void name_files(WrSession *session, WrCall *call, const char *folder)
 {
     for (int i = 0; i < call->count; i++) {
-        const char *hash_name = wr_call_hash_name(call, i);
+        const char *hash_name = wr_call_hash_argument(call, i);
         WrText path = { 0 };
         char hex[65];
         const bool word = call->specs[i].type == WR_ARG_PATH && !wr_call_names_file(call, i);

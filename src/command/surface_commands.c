@@ -266,7 +266,7 @@ static void note_origin(WrSession *session, const char *path, const WrMesh *mesh
 static WrTriangles *read_triangles(WrSession *session, const char *path, WrError *err)
 {
     WrMesh mesh;
-    if (!wr_mesh_read_whole(path, &mesh, err)) return NULL;
+    if (!wr_mesh_read_attributes(path, &mesh, err)) return NULL;
     WrTrianglePart *parts = parts_of(&mesh);
     const WrTrianglesSource source = { .points = mesh.points,
                                        .normals = mesh.normals,

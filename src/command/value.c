@@ -421,7 +421,7 @@ int wr_call_choice(const WrCall *call, const char *name)
     return wr_call_arg(call, name)->choice;
 }
 
-const char *wr_call_hash_name(const WrCall *call, int index)
+const char *wr_call_hash_argument(const WrCall *call, int index)
 {
     const WrArgSpec *spec = &call->specs[index];
     if (spec->type != WR_ARG_PATH && spec->type != WR_ARG_PRESET) return NULL;

@@ -380,7 +380,7 @@ WrCompositor *wr_compositor_new(void)
     return wr_alloc(1, sizeof(WrCompositor));
 }
 
-WrCompositor *wr_compositor_share(const WrCompositor *compositor)
+WrCompositor *wr_compositor_snapshot(const WrCompositor *compositor)
 {
     WrCompositor *copy = wr_compositor_new();
     *copy = *compositor;
@@ -543,9 +543,9 @@ WrComposite *wr_composite_share(const WrComposite *composite)
     wr_mutex_lock(&from->lock);
     for (int i = 0; i < from->stages.count; i++) {
         const Stage *stage = &from->stages.data[i];
-        wr_array_push(&copy->stages,
-                      ((Stage){ stage->filter, share_or_null(stage->given),
-                                share_or_null(stage->made), wr_compositor_share(stage->above) }));
+        wr_array_push(&copy->stages, ((Stage){ stage->filter, share_or_null(stage->given),
+                                               share_or_null(stage->made),
+                                               wr_compositor_snapshot(stage->above) }));
     }
     wr_mutex_unlock(&from->lock);
     return copy;

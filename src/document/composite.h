@@ -48,7 +48,7 @@ typedef struct WrCompositor WrCompositor;
 /* Creates an empty compositor, without cost until it is updated. The caller owns it. */
 WrCompositor *wr_compositor_new(void);
 /* A copy for a snapshot that shares all cached tiles: a few pointers per layer. */
-WrCompositor *wr_compositor_share(const WrCompositor *compositor);
+WrCompositor *wr_compositor_snapshot(const WrCompositor *compositor);
 void wr_compositor_free(WrCompositor *compositor); /* NULL is fine */
 
 /* Updates the composite to the layers and returns it.

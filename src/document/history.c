@@ -390,7 +390,7 @@ static void look(WrDocument *document, const WrSceneView *view)
     WrSceneView old = wr_scene_view(document->scene);
     if (wr_scene_view_equal(&old, view)) return;
     WrScene *scene = wr_scene_clone(document->scene);
-    wr_scene_set_view(scene, view);
+    wr_scene_set_pose(scene, view);
     wr_scene_free(document->scene);
     document->scene = scene;
 }

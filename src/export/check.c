@@ -512,7 +512,7 @@ static int colours_of(const WrImage *image, int kind)
     return kind == WR_CHECK_SLOPES || kind == WR_CHECK_NORMAL ? image->channels : 1;
 }
 
-bool wr_check_file(const char *path, int kind, WrCoding coding, WrCheck *check, WrError *err)
+bool wr_check_picture(const char *path, int kind, WrCoding coding, WrCheck *check, WrError *err)
 {
     *check = (WrCheck){ 0 };
     WrImage *image = wr_image_read(path, err);

@@ -98,4 +98,4 @@ typedef struct WrCheck {
 
 /* Inspects a file. kind: if known; -1: detected. coding: of float normals. False and an error if the file cannot
    be read. */
-bool wr_check_file(const char *path, int kind, WrCoding coding, WrCheck *check, WrError *err);
+bool wr_check_picture(const char *path, int kind, WrCoding coding, WrCheck *check, WrError *err);

@@ -224,7 +224,8 @@ static double height_at(WrSolid *s, const WrSolidSight *at)
     return f;
 }
 
-void wr_solid_place(WrSolid *solid, const WrSolidSight *sights, int count, bool back, float out[3])
+void wr_solid_point_position(WrSolid *solid, const WrSolidSight *sights, int count, bool back,
+                             float out[3])
 {
     WrVec3 p = { 0, 0, 0 }, n = p, across = p;
     double f = 0.0;
@@ -265,7 +266,7 @@ int32_t wr_solid_add_point(WrSolid *solid, const WrSolidSight *sights, int count
     float at[3];
     wr_array_push(&solid->first, solid->sights.count);
     for (int i = 0; i < count; i++) wr_array_push(&solid->sights, sights[i]);
-    wr_solid_place(solid, sights, count, false, at);
+    wr_solid_point_position(solid, sights, count, false, at);
     return wr_solid_add_bare(solid, at);
 }
 
@@ -358,7 +359,7 @@ static bool make(WrSolid *s, WrError *err)
 {
     WrProgressPart part;
     const WrProgress *whole = wr_progress_enter(&part, 0.0, 0.3);
-    bool good = wr_solid_measure(s, err);
+    bool good = wr_solid_sample(s, err);
     wr_progress_set(whole);
     if (!good) return false;
     wr_solid_lay(s);

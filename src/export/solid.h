@@ -79,7 +79,8 @@ typedef struct WrSolid {
 /* solid.c */
 /* Position of a point in the file, from its sights. With `back` at the lowest height, and `thickness` below
    that. */
-void wr_solid_place(WrSolid *solid, const WrSolidSight *sights, int count, bool back, float out[3]);
+void wr_solid_point_position(WrSolid *solid, const WrSolidSight *sights, int count, bool back,
+                             float out[3]);
 /* Adds a point with these sights; returns its number. */
 int32_t wr_solid_add_point(WrSolid *solid, const WrSolidSight *sights, int count);
 int32_t wr_solid_add_bare(WrSolid *solid, const float at[3]); /* a point without sights */
@@ -89,7 +90,7 @@ void wr_solid_add_triangle(WrSolid *solid, const int32_t corners[3], const WrSol
 /* solid_body.c: builds the squares and joins shared sides. */
 void wr_solid_lay(WrSolid *solid);
 /* solid_body.c: computes positions and heights of all samples. */
-bool wr_solid_measure(WrSolid *solid, WrError *err);
+bool wr_solid_sample(WrSolid *solid, WrError *err);
 /* solid_body.c: bisects triangles until every sample's error is at most `error`. */
 bool wr_solid_refine(WrSolid *solid, WrError *err);
 /* solid_body.c: adds the back, and walls between it and the relief. */

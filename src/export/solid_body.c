@@ -353,7 +353,7 @@ static void sample_row(int j, int worker, void *ctx)
     note(work, low, high, bad);
 }
 
-bool wr_solid_measure(WrSolid *solid, WrError *err)
+bool wr_solid_sample(WrSolid *solid, WrError *err)
 {
     int64_t samples = 0;
     bool good = true;
@@ -797,7 +797,7 @@ static int32_t add_back_point(WrSolid *s, int32_t of)
 {
     const int32_t first = s->first.data[of];
     float at[3];
-    wr_solid_place(s, s->sights.data + first, sights_end(s, of) - first, true, at);
+    wr_solid_point_position(s, s->sights.data + first, sights_end(s, of) - first, true, at);
     return wr_solid_add_bare(s, at);
 }
 

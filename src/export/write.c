@@ -482,7 +482,7 @@ static void describe(WrExportJob *job)
     wr_text_add_number(wr_export_attribute(job, "wrinkle:height"),
                        job->options.strength * job->scene->height);
     wr_text_add(wr_export_attribute(job, "wrinkle:seam"),
-                wr_certificate_word(wr_certificate_order(&job->report.seam)));
+                wr_certificate_word(wr_certificate_continuity(&job->report.seam)));
     describe_edges(job);
     job->kind->describe(job);
 }

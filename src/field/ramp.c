@@ -143,5 +143,5 @@ WrField *wr_ramp_make(const WrField *like, const WrRamp *ramp, WrPool *pool,
     if (ramp->fold && ramp->kind == WR_RAMP_LINEAR &&
         (!check_fold(&r.u, "u", err) || !check_fold(&r.v, "v", err)))
         return NULL;
-    return wr_select_build(like, 0.0f, make_rows, &r, pool, progress, err);
+    return wr_select_from_rows(like, 0.0f, make_rows, &r, pool, progress, err);
 }

@@ -496,7 +496,7 @@ static int lower(int a, int b)
     return a < b ? a : b;
 }
 
-int wr_certificate_order(const WrCertificate *c)
+int wr_certificate_continuity(const WrCertificate *c)
 {
     return lower(lower(c->u.order, c->v.order), lower(c->pattern.u.order, c->pattern.v.order));
 }

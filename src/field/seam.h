@@ -117,7 +117,7 @@ WrCertificate wr_certificate_table(const WrField *field, WrScheme scheme,
                                    const WrSeamOptions *seam);
 WrCertificate wr_certificate_formula(const WrAnalytic *analytic);
 /* The lowest order of both edges, for scheme and pattern. */
-int wr_certificate_order(const WrCertificate *certificate);
+int wr_certificate_continuity(const WrCertificate *certificate);
 const char *wr_certificate_word(int order); /* "none", "C0", "C1", "C2" */
 /* "seam C1, F'' jumps by up to 12.3". If the edges differ: "seam C2 in u; in v none, F jumps by up to
    0.3, the axis ends". If the pattern does not tile: "seam none, height differs by 0.31 across the

@@ -257,7 +257,7 @@ WrField *wr_select_flood(const WrField *field, double u, double v, double tolera
     f.high = start + tolerance;
     WrField *made = NULL;
     if (fetch(&f, field, err) && take_run(&f, x, y, err) && spread(&f, progress, err))
-        made = wr_select_build(field, most(&f), mark_rows, &f, pool, progress, err);
+        made = wr_select_from_rows(field, most(&f), mark_rows, &f, pool, progress, err);
     wr_free(f.marks);
     wr_free(f.tiles);
     wr_free(f.now.runs);
@@ -444,8 +444,8 @@ static WrField *change(const WrField *a, double r, bool grow, WrPool *pool, WrEr
         if (!whole) wr_fail(err, "cancelled");
         else if (!any) result = wr_field_share(a);
         else
-            result = wr_select_build(a, wr_field_level(a), distance_rows, &d, pool,
-                                     wr_progress_here(), err);
+            result = wr_select_from_rows(a, wr_field_level(a), distance_rows, &d, pool,
+                                         wr_progress_here(), err);
     }
     free_room(&d, threads);
     return result;
@@ -510,8 +510,8 @@ static bool build_group(Build *build, int count, WrField *field, WrPool *pool, W
     return true;
 }
 
-WrField *wr_select_build(const WrField *like, float level, WrSelectRows make, void *ctx,
-                         WrPool *pool, const WrProgress *progress, WrError *err)
+WrField *wr_select_from_rows(const WrField *like, float level, WrSelectRows make, void *ctx,
+                             WrPool *pool, const WrProgress *progress, WrError *err)
 {
     Build build = { .make = make,
                     .ctx = ctx,
@@ -586,7 +586,7 @@ WrField *wr_select_height(const WrField *field, double low, double high, double 
     Band band = { .field = field, .low = low, .high = high, .soft = soft };
     if (!check_band(&band, "height", err)) return NULL;
     float level = in_band(&band, wr_field_level(field));
-    return wr_select_build(field, level, height_rows, &band, pool, wr_progress_here(), err);
+    return wr_select_from_rows(field, level, height_rows, &band, pool, wr_progress_here(), err);
 }
 
 static bool slope_rows(void *ctx, int worker, int j, int rows, float *out)
@@ -629,8 +629,8 @@ WrField *wr_select_slope(const WrField *field, double relief, double low, double
     band.scratch = wr_try_alloc(threads * (WR_TILE + 2) * band.pitch, sizeof *band.scratch,
                                 "selection by slope", err);
     if (!band.scratch) return NULL;
-    WrField *result = wr_select_build(field, in_band(&band, 0.0), slope_rows, &band, pool,
-                                      wr_progress_here(), err);
+    WrField *result = wr_select_from_rows(field, in_band(&band, 0.0), slope_rows, &band, pool,
+                                          wr_progress_here(), err);
     wr_free(band.scratch);
     return result;
 }

@@ -13,8 +13,8 @@ typedef bool (*WrSelectRows)(void *ctx, int worker, int j, int rows, float *out)
 /* A table like `like`, at `level`, with rows by `make`, which runs on the pool's threads with at most
  * WR_TILE rows at a time. Tiles equal to the level stay NULL. NULL and "cancelled" if progress, which
  * may be NULL, is cancelled. */
-WrField *wr_select_build(const WrField *like, float level, WrSelectRows make, void *ctx,
-                         WrPool *pool, const WrProgress *progress, WrError *err);
+WrField *wr_select_from_rows(const WrField *like, float level, WrSelectRows make, void *ctx,
+                             WrPool *pool, const WrProgress *progress, WrError *err);
 
 /* Coordinates of shapes are integers in 1/65536 texel, x to the right, y down, from the table's top
    left corner: sums and differences are exact, so a roll by whole texels changes no bit. */

@@ -415,7 +415,7 @@ static WrField *select_polygon(const WrField *like, const WrSelectVertex *vertic
         sweep.work[i].area = wr_alloc((size_t)sweep.width, sizeof *sweep.work[i].area);
         sweep.work[i].whole = wr_alloc((size_t)sweep.width + 1, sizeof *sweep.work[i].whole);
     }
-    WrField *field = wr_select_build(like, 0.0f, polygon_rows, &sweep, pool, NULL, err);
+    WrField *field = wr_select_from_rows(like, 0.0f, polygon_rows, &sweep, pool, NULL, err);
     for (int i = 0; i < threads; i++) free_work(&sweep.work[i]);
     wr_free(sweep.work);
     wr_free(sweep.sides);
@@ -503,7 +503,7 @@ WrField *wr_select_rectangle(const WrField *like, WrSelectPoint a, WrSelectPoint
                     wr_alloc((size_t)height, sizeof *r.down) };
     cover_axis(width, wr_field_wrap_u(like), low.x, high.x, r.across);
     cover_axis(height, wr_field_wrap_v(like), low.y, high.y, r.down);
-    WrField *field = wr_select_build(like, 0.0f, rectangle_rows, &r, pool, NULL, err);
+    WrField *field = wr_select_from_rows(like, 0.0f, rectangle_rows, &r, pool, NULL, err);
     wr_free(r.across);
     wr_free(r.down);
     return field;

@@ -193,7 +193,7 @@ static double noise_at(const WrNoiseMaker *maker, const double *p, double *slope
     return wr_octaves_warped_at(&maker->plan, warp, maker->warp_amount, p, slope);
 }
 
-void wr_noise_maker_at(const WrNoiseMaker *maker, double u, double v, WrNoiseReading *reading)
+void wr_noise_maker_sample(const WrNoiseMaker *maker, double u, double v, WrNoiseReading *reading)
 {
     double place[2] = { u - maker->origin[0], v - maker->origin[1] }, d[WR_NOISE_AXES] = { 0 };
     double p[WR_NOISE_AXES] = { place[0], place[1], maker->slice };

@@ -35,4 +35,4 @@ bool wr_noise_maker(const WrGenerator *row, const WrParamValue *values, int widt
                     WrNoiseMaker *maker, WrError *err);
 
 /* Evaluates one point in double. */
-void wr_noise_maker_at(const WrNoiseMaker *maker, double u, double v, WrNoiseReading *reading);
+void wr_noise_maker_sample(const WrNoiseMaker *maker, double u, double v, WrNoiseReading *reading);

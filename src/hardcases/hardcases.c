@@ -161,7 +161,7 @@ WrVec3 wr_hard_perturbed_wide(WrHardGauge *gauge, int set, WrBumpMode mode,
     return (WrVec3){ strip->bx[0], strip->by[0], strip->bz[0] };
 }
 
-WrSurfacePoint wr_hard_widen(const WrSurfacePointf *at)
+WrSurfacePoint wr_hard_point_to_double(const WrSurfacePointf *at)
 {
     return (WrSurfacePoint){ .p = wr_hard_vec(at->p),
                              .pu = wr_hard_vec(at->pu),

@@ -773,7 +773,7 @@ static void check_steep(WrHardGauge *g, int i)
     const double size = most[i / 3 % 3];
     Sample s = sample_of(g, i);
     s.single.n_u = s.single.n_v = (WrVec3f){ 0, 0, 0 }; /* F = 0 */
-    s.at = wr_hard_widen(&s.single);
+    s.at = wr_hard_point_to_double(&s.single);
     s.at.n_u = s.at.n_v = zero;
     const WrVec3 d = wr_bump_d(s.at.n_unit, s.at.pu, s.at.pv, a, b);
     for (int set = 0; set < g->sets; set++) {
@@ -999,7 +999,7 @@ static bool hc22(WrHardGauge *g, WrError *err)
         turned.pu = s.single.pv;
         turned.pv = s.single.pu;
         turned.n_unit = v3f_neg(s.single.n_unit);
-        const WrSurfacePoint wide = wr_hard_widen(&s.single);
+        const WrSurfacePoint wide = wr_hard_point_to_double(&s.single);
         const WrVec3 n = v3_scale(wide.n_unit, wide.n_len);
         const WrVec3 want =
             v3_unit(v3_sub(wr_bump_d(wide.n_unit, wide.pu, wide.pv, fu, fv), n), zero);

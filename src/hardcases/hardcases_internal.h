@@ -73,7 +73,7 @@ WrVec3 wr_hard_perturbed_f(WrHardGauge *gauge, int set, WrBumpMode mode, const W
 WrVec3 wr_hard_perturbed_wide(WrHardGauge *gauge, int set, WrBumpMode mode,
                               const WrSurfacePoint *at, WrHardSlope slope);
 /* The point converted to double, for formulas on float's own numbers. */
-WrSurfacePoint wr_hard_widen(const WrSurfacePointf *at);
+WrSurfacePoint wr_hard_point_to_double(const WrSurfacePointf *at);
 /* The float point without the rounding of its computation: doubles rounded once. */
 WrSurfacePointf wr_hard_narrow(const WrSurfacePoint *at);
 

@@ -394,7 +394,7 @@ static bool hc59(WrHardGauge *g, WrError *err)
         double t[3], slope[3], want_slope[3];
         uint32_t c[3];
         for (int a = 0; a < 3; a++) t[a] = c[a] = (uint32_t)(16 * wr_hard_random(g));
-        const double want = wr_noise_prescribed(&noise, c, want_slope);
+        const double want = wr_noise_lattice_value(&noise, c, want_slope);
         wr_hard_near(g, WR_HARD_DOUBLE, wr_noise_at(&noise, t, slope), want);
         for (int a = 0; a < noise.dim; a++)
             wr_hard_near(g, WR_HARD_DOUBLE, slope[a], want_slope[a]);

@@ -1210,7 +1210,7 @@ static bool hc10(WrHardGauge *g, WrError *err)
         upright(g, WR_HARD_DOUBLE, at.n_unit, at.pv, 0x1p-52);
         for (int set = 0; set < g->sets; set++) {
             WrSurfacePointf atf = wr_hard_point(g, set, &shape, 0x1p-33, 0, u, v);
-            at = wr_hard_widen(&atf);
+            at = wr_hard_point_to_double(&atf);
             upright(g, WR_HARD_FLOAT, at.n_unit, at.pu, 0x1p-23);
             upright(g, WR_HARD_FLOAT, at.n_unit, at.pv, 0x1p-23);
         }
@@ -1267,7 +1267,7 @@ static bool hc11(WrHardGauge *g, WrError *err)
         leans(g, WR_HARD_DOUBLE, &at, 0x1p-52);
         for (int set = 0; set < g->all; set++) {
             const WrSurfacePointf atf = wr_hard_point(g, set, &shape, unit, 0, u, v);
-            at = wr_hard_widen(&atf);
+            at = wr_hard_point_to_double(&atf);
             leans(g, WR_HARD_FLOAT, &at, 0x1p-23);
         }
     }

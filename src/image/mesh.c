@@ -164,7 +164,7 @@ bool wr_mesh_read(const char *path, WrMesh *out, WrError *err)
     return read_file(path, false, out, err);
 }
 
-bool wr_mesh_read_whole(const char *path, WrMesh *out, WrError *err)
+bool wr_mesh_read_attributes(const char *path, WrMesh *out, WrError *err)
 {
     return read_file(path, true, out, err);
 }

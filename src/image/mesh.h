@@ -47,7 +47,7 @@ bool wr_mesh_read(const char *path, WrMesh *out, WrError *err);
 bool wr_mesh_read_bytes(const char *name, const void *bytes, size_t length, WrMesh *out,
                         WrError *err);
 /* Both functions with normals, texture coordinates and parts. */
-bool wr_mesh_read_whole(const char *path, WrMesh *out, WrError *err);
+bool wr_mesh_read_attributes(const char *path, WrMesh *out, WrError *err);
 bool wr_mesh_read_whole_bytes(const char *name, const void *bytes, size_t length, WrMesh *out,
                               WrError *err);
 void wr_mesh_fini(WrMesh *mesh);

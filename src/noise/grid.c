@@ -56,7 +56,8 @@ static void fill_row(const WrNoiseKernels *kern, const WrNoise *noise,
     }
     for (int k = 0; k < columns->points; k++) {
         double slope[2];
-        row->f[k] = (float)wr_noise_prescribed(noise, (uint32_t[]){ columns->index[k], y }, slope);
+        row->f[k] =
+            (float)wr_noise_lattice_value(noise, (uint32_t[]){ columns->index[k], y }, slope);
         row->gx[k] = (float)slope[0];
         row->gy[k] = (float)slope[1];
     }

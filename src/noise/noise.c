@@ -209,7 +209,7 @@ static double prescribed_by_data(const WrNoise *noise, const uint32_t *c, double
     return lattice->values[at];
 }
 
-double wr_noise_prescribed(const WrNoise *noise, const uint32_t *c, double *slope)
+double wr_noise_lattice_value(const WrNoise *noise, const uint32_t *c, double *slope)
 {
     switch (noise->lattice.source) {
     case WR_LATTICE_DATA: return prescribed_by_data(noise, c, slope);
@@ -277,7 +277,7 @@ static double cells(const WrNoise *noise, const double *t, double *slope)
     for (int k = 0; k < 1 << dim; k++) {
         uint32_t c[WR_NOISE_AXES];
         for (int a = 0; a < dim; a++) c[a] = k >> a & 1 ? far[a] : near[a];
-        corner[k].f = wr_noise_prescribed(noise, c, corner[k].d);
+        corner[k].f = wr_noise_lattice_value(noise, c, corner[k].d);
         for (int a = 0; a < dim; a++)
             corner[k].f += corner[k].d[a] * (k >> a & 1 ? x[a] - 1.0 : x[a]);
     }

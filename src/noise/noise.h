@@ -89,7 +89,7 @@ double wr_noise_at(const WrNoise *noise, const double *t, double *slope);
 
 /* The prescribed value and slope[dim] of a lattice at index c (within one period, each below
  * period[a]). Only for the kinds with cells. value's slopes are 0. */
-double wr_noise_prescribed(const WrNoise *noise, const uint32_t *c, double *slope);
+double wr_noise_lattice_value(const WrNoise *noise, const uint32_t *c, double *slope);
 
 /* An upper bound of |f|: the table above, or for data max |f_k| + max |g_k| sqrt(d)/2. */
 double wr_noise_bound(const WrNoise *noise);

@@ -130,7 +130,7 @@ bool wr_scene_turn_shows_backs(const WrScene *scene)
     for (int i = 0; i < wr_scene_object_count(scene); i++) {
         const WrScene *object = wr_scene_object(scene, i);
         if (object->hidden || object->still) continue;
-        WrScene *part = wr_scene_part(scene, i, 1);
+        WrScene *part = wr_scene_object_alone(scene, i, 1);
         const bool shows = object_shows(part);
         wr_scene_free(part);
         if (shows) return true;

@@ -218,7 +218,7 @@ static bool reach_all(Reach *r, const WrScene *scene, double turn_from, double t
     for (int i = 0; i < wr_scene_object_count(scene); i++) {
         if (!wr_scene_fits(scene, i)) continue;
         Turns turns;
-        WrScene *part = wr_scene_part(scene, i, 1);
+        WrScene *part = wr_scene_object_alone(scene, i, 1);
         const bool good = place_turns(part, turn_from, turn_to, &turns, err);
         if (good) reach_object(r, part, &turns);
         wr_scene_free(part);

@@ -510,7 +510,7 @@ bool wr_scene_shows(const WrScene *scene, int i, double aspect)
     if (object->hidden) return false;
     if (!object->still || object->shape.kind != WR_SURFACE_plane || scene->other_count == 0)
         return true;
-    WrScene *part = wr_scene_part(scene, i, aspect);
+    WrScene *part = wr_scene_object_alone(scene, i, aspect);
     const bool placed = wr_scene_place(part, 0, aspect, &place, NULL);
     wr_scene_free(part);
     if (!placed) return true;
@@ -520,7 +520,7 @@ bool wr_scene_shows(const WrScene *scene, int i, double aspect)
                               : v3_dot(front, v3_sub(place.eye, place.position)) >= 0;
 }
 
-WrScene *wr_scene_part(const WrScene *scene, int i, double aspect)
+WrScene *wr_scene_object_alone(const WrScene *scene, int i, double aspect)
 {
     WrScene *part = under(scene, wr_scene_object(scene, i));
     wr_scene_hold_camera(part, scene, aspect);

@@ -57,4 +57,4 @@ void wr_scene_hold_camera(WrScene *scene, const WrScene *like, double aspect);
 
 /* Object i alone at its position: with the scene's lights, background and dials, and a camera whose eye
    is that of the scene in a picture of that aspect. Used to render a single object. */
-WrScene *wr_scene_part(const WrScene *scene, int i, double aspect);
+WrScene *wr_scene_object_alone(const WrScene *scene, int i, double aspect);

@@ -418,7 +418,7 @@ WrSceneView wr_scene_view(const WrScene *scene)
     return view;
 }
 
-void wr_scene_set_view(WrScene *scene, const WrSceneView *view)
+void wr_scene_set_pose(WrScene *scene, const WrSceneView *view)
 {
     scene->camera = view->camera;
     if (!view->of_one || scene->other_count > 0) return;

@@ -187,7 +187,7 @@ bool wr_cell_size_given(const WrCellSize *cell); /* true if not 1,1 scene units 
 double wr_scene_relief(const WrScene *scene); /* height of F = 1 in the unit of the cell's size */
 
 WrSceneView wr_scene_view(const WrScene *scene);
-void wr_scene_set_view(WrScene *scene, const WrSceneView *view);
+void wr_scene_set_pose(WrScene *scene, const WrSceneView *view);
 
 /* The scene of an empty document: the unit plane facing the viewer, blinn / central, one light from the
    upper left. The caller owns it. */

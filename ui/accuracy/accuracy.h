@@ -131,7 +131,7 @@ void wr_accuracy_free(WrApp *app);
 /* Fetch finished work and start due work; once before each frame. */
 void wr_accuracy_update(WrApp *app);
 /* True if a measurement is running or due; alternating pictures do not count. */
-bool wr_accuracy_under_way(const WrApp *app);
+bool wr_accuracy_pending(const WrApp *app);
 /* clock of the next necessary update; 0: only after events */
 double wr_accuracy_next_time(const WrApp *app);
 bool wr_accuracy_works(WrApp *app);       /* a progress bar is visible */
@@ -140,7 +140,7 @@ bool wr_accuracy_rests(const WrApp *app); /* nothing is dragged, drawn or rotati
 /* True if there is a ladder for the table and the scene, except for the dials. */
 bool wr_accuracy_plot_fits(const WrApp *app);
 /* The rung with the scene's dials in a fitting ladder, or -1. */
-int wr_accuracy_rung(const WrApp *app);
+int wr_accuracy_current_rung(const WrApp *app);
 bool wr_accuracy_busy(WrApp *app, WrWorkKind kind, double *fraction);
 
 /* ---- accuracy_set.c: dials of A, changed by commands, and of B ---- */

@@ -103,7 +103,7 @@ bool wr_accuracy_plot_fits(const WrApp *app)
     return app->accuracy->fits;
 }
 
-int wr_accuracy_rung(const WrApp *app)
+int wr_accuracy_current_rung(const WrApp *app)
 {
     look_for_fit(app->accuracy);
     return app->accuracy->rung;
@@ -224,7 +224,7 @@ static WrAccuracyMoment moment(const WrApp *app)
                            .error_known = a->error_of == a->state,
                            .busy = a->measuring };
     if (m.rests && !m.busy && m.plot_open)
-        m.plot_known = a->plot_failed == a->state || wr_accuracy_rung(app) >= 0;
+        m.plot_known = a->plot_failed == a->state || wr_accuracy_current_rung(app) >= 0;
     return m;
 }
 
@@ -351,7 +351,7 @@ static double next_work(const WrApp *app)
     return due;
 }
 
-bool wr_accuracy_under_way(const WrApp *app)
+bool wr_accuracy_pending(const WrApp *app)
 {
     const WrAccuracy *a = app->accuracy;
     return a->measuring || wr_job_busy(a->looker, NULL, NULL) ||

@@ -25,14 +25,14 @@ bool wr_accuracy_flicker(double now, double since, double *next)
     return fmod(count, 2) != 0;
 }
 
-double wr_accuracy_split_at(double x, double left, double width, double margin)
+double wr_accuracy_split_from_pointer(double x, double left, double width, double margin)
 {
     const double least = width > 2 * margin ? margin / width : 0.5;
     const double share = width > 0 ? (x - left) / width : 0.5;
     return share < least ? least : share > 1 - least ? 1 - least : share;
 }
 
-void wr_accuracy_fit(int width, int height, int longest, int *out_width, int *out_height)
+void wr_accuracy_picture_size(int width, int height, int longest, int *out_width, int *out_height)
 {
     const int longer = width > height ? width : height;
     const double scale = longer > longest ? (double)longest / longer : 1;

@@ -36,7 +36,7 @@ WrAccuracyNext wr_accuracy_next(const WrAccuracyMoment *moment, double *due);
 bool wr_accuracy_flicker(double now, double since, double *next);
 
 /* Fraction of the view left of the divider for a pointer at x, limited so that the divider stays reachable. */
-double wr_accuracy_split_at(double x, double left, double width, double margin);
+double wr_accuracy_split_from_pointer(double x, double left, double width, double margin);
 
 /* Size of a picture with the same aspect ratio and a longer side of at most `longest`. */
-void wr_accuracy_fit(int width, int height, int longest, int *out_width, int *out_height);
+void wr_accuracy_picture_size(int width, int height, int longest, int *out_width, int *out_height);

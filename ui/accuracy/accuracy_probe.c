@@ -81,7 +81,7 @@ static bool probe_nearest(WrWork *work)
     for (int i = 0; good && i < wr_scene_object_count(work->scene); i++) {
         const double aspect = (double)work->width / work->height;
         if (!wr_scene_shows(work->scene, i, aspect)) continue;
-        WrScene *part = wr_scene_part(work->scene, i, aspect);
+        WrScene *part = wr_scene_object_alone(work->scene, i, aspect);
         const WrField *field = fields && fields[i] ? fields[i] : work->field;
         WrProbe seen;
         good = wr_reference_probe(field, part, work->width, work->height, work->turn_deg, work->x,

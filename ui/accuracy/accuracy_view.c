@@ -227,7 +227,8 @@ bool wr_accuracy_on_line(const WrApp *app, double x, double y)
 void wr_accuracy_drag_line(WrApp *app, double x)
 {
     const SDL_Rect *room = &app->layout->patch;
-    app->accuracy->split = wr_accuracy_split_at(x, room->x, room->w, 12.0 * wr_gui_scale());
+    app->accuracy->split =
+        wr_accuracy_split_from_pointer(x, room->x, room->w, 12.0 * wr_gui_scale());
     wr_app_redraw(app);
 }
 

@@ -215,7 +215,8 @@ static bool measure_error(WrWork *work, WrPool *pool, const WrProgress *progress
 {
     WrFrame frame;
     WrFrameRequest request = request_of(work, progress);
-    wr_accuracy_fit(work->width, work->height, WR_ERROR_SIDE, &request.width, &request.height);
+    wr_accuracy_picture_size(work->width, work->height, WR_ERROR_SIDE, &request.width,
+                             &request.height);
     work->measured_w = request.width;
     work->measured_h = request.height;
     float *normals = wr_alloc((size_t)request.width * (size_t)request.height, 3 * sizeof *normals);
@@ -240,7 +241,8 @@ static bool climb(WrWork *work, const WrProgress *progress)
                                 .budget = LADDER_BUDGET,
                                 .axis = WR_AXIS_COUNT,
                                 .progress = (WrProgress *)progress };
-    wr_accuracy_fit(work->width, work->height, WR_LADDER_SIDE, &request.width, &request.height);
+    wr_accuracy_picture_size(work->width, work->height, WR_LADDER_SIDE, &request.width,
+                             &request.height);
     return wr_ladder_measure(&request, &work->ladder, &work->err);
 }
 
@@ -253,13 +255,15 @@ static bool beside(WrWork *work, const WrProgress *progress)
                                   .threads = 1,
                                   .isa = work->tools->isa,
                                   .progress = progress };
-    wr_accuracy_fit(work->width, work->height, WR_ERROR_SIDE, &request.width, &request.height);
+    wr_accuracy_picture_size(work->width, work->height, WR_ERROR_SIDE, &request.width,
+                             &request.height);
     return wr_illusion_measure(&request, &work->illusion, &work->err);
 }
 
 static bool draw_map(WrWork *work, WrPool *pool, const WrProgress *progress)
 {
-    wr_accuracy_fit(work->width, work->height, WR_MAP_SIDE, &work->measured_w, &work->measured_h);
+    wr_accuracy_picture_size(work->width, work->height, WR_MAP_SIDE, &work->measured_w,
+                             &work->measured_h);
     work->values = wr_alloc((size_t)work->measured_w * (size_t)work->measured_h, sizeof(float));
     return wr_reference_map(wr_tables_at_hand(work->tables, work->scene, work->field), work->scene,
                             work->measured_w, work->measured_h, work->turn_deg, work->map, pool,

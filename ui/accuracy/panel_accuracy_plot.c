@@ -196,7 +196,7 @@ static void field(WrApp *app)
     WrPlot plot = { 0 };
     const bool axes = a->plot && wr_plot_init(&a->plot->ladder, &plot);
     const bool old = axes && !wr_accuracy_plot_fits(app);
-    const int present = axes && !old ? wr_accuracy_rung(app) : -1;
+    const int present = axes && !old ? wr_accuracy_current_rung(app) : -1;
     WrPad pad = wr_gui_pad_begin("pareto", 0, wr_gui_px(PLOT_UNITS));
     int clicked = -1;
     a->plot_hot = -1;

@@ -74,32 +74,32 @@ static void look_from(WrApp *app, WrSide side)
     wr_app_run_linef(app, "camera from %s", wr_side_names[side]);
 }
 
-void wr_act_from_front(WrApp *app)
+void wr_act_view_from_front(WrApp *app)
 {
     look_from(app, WR_SIDE_FRONT);
 }
 
-void wr_act_from_back(WrApp *app)
+void wr_act_view_from_back(WrApp *app)
 {
     look_from(app, WR_SIDE_BACK);
 }
 
-void wr_act_from_left(WrApp *app)
+void wr_act_view_from_left(WrApp *app)
 {
     look_from(app, WR_SIDE_LEFT);
 }
 
-void wr_act_from_right(WrApp *app)
+void wr_act_view_from_right(WrApp *app)
 {
     look_from(app, WR_SIDE_RIGHT);
 }
 
-void wr_act_from_top(WrApp *app)
+void wr_act_view_from_top(WrApp *app)
 {
     look_from(app, WR_SIDE_TOP);
 }
 
-void wr_act_from_bottom(WrApp *app)
+void wr_act_view_from_bottom(WrApp *app)
 {
     look_from(app, WR_SIDE_BOTTOM);
 }

@@ -193,7 +193,7 @@ static bool is_hand(const SDL_Event *event)
 static void handle(WrApp *app, const SDL_Event *event)
 {
     WrPenEvent pen;
-    wr_busy_tend(app);
+    wr_busy_update(app);
     if (is_hand(event)) app->fitted = true;
     if (event->type == app->ready_event) return; /* wr_patch_update fetches the picture */
     if (event->type == app->rest_event) {
@@ -425,7 +425,7 @@ static void take_events(WrApp *app)
 
 void wr_app_step(WrApp *app)
 {
-    wr_busy_tend(app);
+    wr_busy_update(app);
     if (wr_busy_is_young(app)) SDL_Delay(YOUNG_MS);
     else take_events(app);
     tell_refused(app);

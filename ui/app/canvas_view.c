@@ -179,7 +179,7 @@ void wr_canvas_view_overlay(WrApp *app)
     wr_gui_draw_unclip();
     if (room->w > wr_gui_px(140)) wr_canvas_chip(app);
     wr_panel_symmetry(app);
-    if (room->w > wr_gui_px(240)) wr_panel_seam(app);
+    if (room->w > wr_gui_px(240)) wr_panel_seam_meter(app);
 }
 
 /* ---- the view ---- */

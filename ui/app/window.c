@@ -96,7 +96,7 @@ static void choose_display(void)
 /* Without a display SDL falls back to a driver without output; such a window could be neither seen nor closed. */
 static bool has_display(void)
 {
-    if (!wr_display_unseen(SDL_GetHint(SDL_HINT_VIDEODRIVER), SDL_GetCurrentVideoDriver()))
+    if (!wr_display_no_output(SDL_GetHint(SDL_HINT_VIDEODRIVER), SDL_GetCurrentVideoDriver()))
         return true;
     SDL_SetError(
         "there is no display (neither DISPLAY nor WAYLAND_DISPLAY names one that answers); "
@@ -107,7 +107,7 @@ static bool has_display(void)
 static void tell_display(WrApp *app)
 {
     const WrDisplayEnv env = wr_display_env();
-    app->display_word = wr_display_word(&env, SDL_GetCurrentVideoDriver());
+    app->display_word = wr_display_driver_note(&env, SDL_GetCurrentVideoDriver());
     if (app->display_word) fprintf(stderr, "wrinkle: %s\n", app->display_word);
 }
 

@@ -374,7 +374,7 @@ static bool look_at(WrCanvas *canvas, const WrField *field, const WrField *secon
     canvas->dirty.count = 0;
     canvas->flooded = false;
     for (int k = 0; k < canvas->fields; k++)
-        if (!wr_cells_look(canvas->cells[k], fields[k], level, note_dirty, canvas)) whole = true;
+        if (!wr_cells_update(canvas->cells[k], fields[k], level, note_dirty, canvas)) whole = true;
     return whole || canvas->flooded;
 }
 

@@ -82,8 +82,8 @@ static bool same_frame(const WrField *a, const WrField *b)
            wr_field_wrap_v(a) == wr_field_wrap_v(b);
 }
 
-bool wr_cells_look(WrCanvasCells *cells, const WrField *field, int level, WrTileVisitor changed,
-                   void *ctx)
+bool wr_cells_update(WrCanvasCells *cells, const WrField *field, int level, WrTileVisitor changed,
+                     void *ctx)
 {
     bool same = cells->field && same_frame(cells->field, field);
     WrField *share = wr_field_share(field);

@@ -15,8 +15,8 @@ void wr_cells_free(WrCanvasCells *cells);
 /* Update to `field` (shared, kept until the next call) at `level`. Blocks of unchanged tiles are kept; changed(tx,
  * ty, ctx) is called for each tile that may have changed. Returns false, without calls, if everything may have
  * changed (another size or level). */
-bool wr_cells_look(WrCanvasCells *cells, const WrField *field, int level, WrTileVisitor changed,
-                   void *ctx);
+bool wr_cells_update(WrCanvasCells *cells, const WrField *field, int level, WrTileVisitor changed,
+                     void *ctx);
 
 /* The block of a tile: [side * side] means, side = 64 >> level, row by row; NULL if the whole tile holds *flat.
  * Blocks not computed before `deadline` (wr_clock_seconds) are rough: single texels instead of means; wr_cells_rough

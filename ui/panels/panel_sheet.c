@@ -298,7 +298,7 @@ static void numbers(const WrApp *app, WrSheetState *sheet)
              wr_words("Heights %.4g to %.4g, %.3g %% clipped; all files up to %s; seam %s"),
              look->histogram.low, look->histogram.high,
              100.0 * (double)look->histogram.outside / texels, bytes,
-             wr_words(wr_certificate_word(wr_certificate_order(&look->seam))));
+             wr_words(wr_certificate_word(wr_certificate_continuity(&look->seam))));
     wr_gui_as_it_is(true); /* assembled from translated parts */
     wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_TEXT, line, wr_gui_available());
     wr_gui_as_it_is(false);

@@ -47,7 +47,7 @@ static void say_parts(const WrChoice *choice, WrText *text)
     }
 }
 
-void wr_chosen_from(const WrChoice *choice, WrChosen *out)
+void wr_choice_summary(const WrChoice *choice, WrChosen *out)
 {
     const WrScene *slopes = NULL, *normal = NULL, *samples = NULL;
     *out = (WrChosen){ .any = choice->count > 0, .met = choice->met, .kept = choice->studies == 0 };

@@ -16,4 +16,4 @@ typedef struct WrChosen {
     double finest[WR_DIAL_COUNT];
 } WrChosen;
 
-void wr_chosen_from(const WrChoice *choice, WrChosen *out);
+void wr_choice_summary(const WrChoice *choice, WrChosen *out);

@@ -18,7 +18,7 @@ WrPatchPicks *wr_patch_picks_new(const WrScene *scene, double turn_deg, int widt
     for (int i = 0; i < picks->count; i++) {
         const double aspect = height > 0 ? (double)width / height : 1;
         if (!wr_scene_shows(scene, i, aspect)) continue;
-        WrScene *part = wr_scene_part(scene, i, aspect);
+        WrScene *part = wr_scene_object_alone(scene, i, aspect);
         picks->pick[i] = wr_patch_pick_new(part, turn_deg, width, height, err);
         wr_scene_free(part);
         if (picks->pick[i]) continue;

@@ -197,7 +197,7 @@ static bool by_tolerance(WrPreview *preview, const WrFrameRequest *wanted, WrPre
     request.map = wanted->map;
     if (request.map && !wr_choice_frame(preview->renderer, &request, choice, frame, err))
         return false;
-    wr_chosen_from(choice, &out->chosen);
+    wr_choice_summary(choice, &out->chosen);
     wr_chosen_write(choice, &request, &text);
     out->kept = wr_strdup(wr_text_get(&text));
     wr_text_fini(&text);

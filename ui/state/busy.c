@@ -214,13 +214,13 @@ void wr_busy_settle(WrApp *app)
     /* Work with a waiting caller is finished by that caller, not here. */
     while (app->busy ? !wr_busy_refuses(app) && app->busy->after : app->waits->items.count > 0) {
         if (app->busy) app->roster->step(app);
-        wr_busy_tend(app);
+        wr_busy_update(app);
     }
 }
 
 /* ---- for the main loop ---- */
 
-void wr_busy_tend(WrApp *app)
+void wr_busy_update(WrApp *app)
 {
     WrBusy *busy = app->busy;
     WrError err = { "" };

@@ -78,7 +78,7 @@ void wr_busy_take_back(WrApp *app, WrBusyLate *late, const char *text);
 /* True in the first moment of a command: events stay in the queue, so that they keep their order. */
 bool wr_busy_is_young(const WrApp *app);
 /* Finish completed work and run queued actions. Called before each event. */
-void wr_busy_tend(WrApp *app);
+void wr_busy_update(WrApp *app);
 /* Handle an event while a command runs: true if it must not reach the widgets. */
 bool wr_busy_event(WrApp *app, const SDL_Event *event);
 /* Handle it after the widgets: true if the event only moved a component's view. */

@@ -26,7 +26,7 @@ const char *wr_display_driver(const WrDisplayEnv *env)
     return said(env->x11) ? "x11,wayland" : "wayland,x11";
 }
 
-bool wr_display_unseen(const char *asked, const char *opened)
+bool wr_display_no_output(const char *asked, const char *opened)
 {
     static const char *const unseen[] = { "dummy", "offscreen", "evdev" };
     if (!opened || (asked && strstr(asked, opened))) return false;
@@ -35,7 +35,7 @@ bool wr_display_unseen(const char *asked, const char *opened)
     return false;
 }
 
-const char *wr_display_word(const WrDisplayEnv *env, const char *opened)
+const char *wr_display_driver_note(const WrDisplayEnv *env, const char *opened)
 {
     const bool native = opened && strcmp(opened, "wayland") == 0;
     if (!is_wayland(env) || !opened || (!native && strcmp(opened, "x11") != 0)) return NULL;

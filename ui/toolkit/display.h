@@ -16,6 +16,6 @@ WrDisplayEnv wr_display_env(void);
 const char *wr_display_driver(const WrDisplayEnv *env);
 /* True if SDL has opened a driver without output that was not requested. asked: SDL's hint for the driver, or
    NULL. */
-bool wr_display_unseen(const char *asked, const char *opened);
+bool wr_display_no_output(const char *asked, const char *opened);
 /* Message on the chosen driver and its effect on pens; NULL: none. In English; static. */
-const char *wr_display_word(const WrDisplayEnv *env, const char *opened);
+const char *wr_display_driver_note(const WrDisplayEnv *env, const char *opened);

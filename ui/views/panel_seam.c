@@ -69,7 +69,7 @@ static void measure(WrApp *app)
     app->seam_key = key;
 }
 
-void wr_panel_seam(WrApp *app)
+void wr_panel_seam_meter(WrApp *app)
 {
     const SDL_Rect *room = &app->layout->canvas;
     measure(app);

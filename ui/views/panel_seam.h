@@ -2,4 +2,4 @@
 #pragma once
 #include "ui/state/app_state.h"
 
-void wr_panel_seam(WrApp *app); /* on the canvas */
+void wr_panel_seam_meter(WrApp *app); /* on the canvas */

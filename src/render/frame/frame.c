@@ -721,7 +721,7 @@ static void start_keep(WrRenderer *renderer, const WrFrameRequest *request, Fram
     job->tile.seen = &renderer->keep;
 }
 
-void wr_frame_shown(WrRenderer *renderer)
+void wr_frame_mark_current(WrRenderer *renderer)
 {
     if (renderer->sighting) renderer->sight.whole = true;
     if (renderer->keep.patches) wr_dirty_field(&renderer->keep, renderer->looked);
@@ -752,7 +752,7 @@ static bool single_frame(WrRenderer *renderer, const WrFrameRequest *request, Wr
         wr_dirty_fini(&renderer->keep);
         return wr_fail(err, "cancelled");
     }
-    wr_frame_shown(renderer);
+    wr_frame_mark_current(renderer);
     wr_frame_account(renderer, prepared, started, frame);
     if (renderer->steady->use == WR_RELIGHT_NOTE) renderer->steady->whole = true;
     return true;

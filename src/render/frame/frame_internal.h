@@ -136,7 +136,7 @@ WrTileJob wr_frame_canvas(WrRenderer *renderer, const WrFrameRequest *request);
 /* A job with target, tile size and everything that tiles fetch. */
 WrTileJob wr_frame_job(WrRenderer *renderer, const WrFrameRequest *request);
 /* Marks the picture as up to date with the table. */
-void wr_frame_shown(WrRenderer *renderer);
+void wr_frame_mark_current(WrRenderer *renderer);
 int wr_frame_tiles(const WrTileJob *tile); /* tiles of the picture */
 /* Renders the tiles. False if cancelled. */
 bool wr_frame_run(WrRenderer *renderer, FrameJob *job);

@@ -92,7 +92,7 @@ static void bring_parts(WrRenderer *renderer, const WrFrameRequest *request)
         take_renderer(group, group->count, i, renderer);
         Part *part = &group->parts[group->count++];
         wr_scene_free(part->scene);
-        part->scene = wr_scene_part(scene, i, aspect);
+        part->scene = wr_scene_object_alone(scene, i, aspect);
         part->object = i;
     }
     for (int i = group->count; i < group->made; i++) free_part(&group->parts[i]);
@@ -314,7 +314,7 @@ bool wr_group_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame
         drop_keeps(renderer);
         return wr_fail(err, "cancelled");
     }
-    for (int i = 0; i < group->count; i++) wr_frame_shown(group->parts[i].renderer);
+    for (int i = 0; i < group->count; i++) wr_frame_mark_current(group->parts[i].renderer);
     group->last = *request;
     group->whole = true;
     wr_frame_account(renderer, prepared, started, frame);

@@ -18,7 +18,7 @@ void wr_code_bins_fill(uint32_t bins[WR_CODE_BINS + 1]);
 
 /* Position among the bins; NaN gives 0. Separate from wr_code_at: a loop that clamps and indexes at once does
    not vectorise. */
-static inline float wr_code_place(float x)
+static inline float wr_srgb_bin_position(float x)
 {
     x = x > 0.0f ? x : 0.0f;
     x = x < 1.0f ? x : 1.0f;

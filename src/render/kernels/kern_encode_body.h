@@ -10,9 +10,9 @@ ALWAYS int note_places(Places *to, int i, float r, float g, float b)
 {
     const float kr = r - r == 0.0f ? r : 0.0f, kg = g - g == 0.0f ? g : 0.0f;
     const float kb = b - b == 0.0f ? b : 0.0f;
-    to->r[i] = wr_code_place(kr);
-    to->g[i] = wr_code_place(kg);
-    to->b[i] = wr_code_place(kb);
+    to->r[i] = wr_srgb_bin_position(kr);
+    to->g[i] = wr_srgb_bin_position(kg);
+    to->b[i] = wr_srgb_bin_position(kb);
     return (kr == r ? 0 : 1) + (kg == g ? 0 : 1) + (kb == b ? 0 : 1);
 }
 

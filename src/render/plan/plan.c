@@ -152,7 +152,7 @@ void wr_settle_samples(WrPlan *plan, const WrPlanRequest *ask)
     plan->samples = run ? dials->samples : 1;
     const bool adaptive =
         dials->aa == WR_AA_ADAPTIVE && !ask->facts.lively && !unbounded(ask) &&
-        (plan->grain == WR_SOLID_TEXTURE_OFF || wr_solid_texture_bounded(ask->scene));
+        (plan->grain == WR_SOLID_TEXTURE_OFF || wr_solid_texture_resolution_known(ask->scene));
     plan->sampling = !run ? WR_SAMPLING_ONE : adaptive ? WR_SAMPLING_ADAPTIVE : WR_SAMPLING_ALL;
     if (!run) return;
     plan->spread = dials->spread;

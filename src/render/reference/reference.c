@@ -475,7 +475,7 @@ static bool make_set(Set *set, const WrReferenceRequest *request, WrPool *pool, 
     for (int i = 0; i < wr_scene_object_count(scene) && good; i++) {
         if (!wr_scene_shows(scene, i, (double)request->width / request->height)) continue;
         const WrField *own = request->fields ? request->fields[i] : NULL;
-        WrScene *part = wr_scene_part(scene, i, (double)request->width / request->height);
+        WrScene *part = wr_scene_object_alone(scene, i, (double)request->width / request->height);
         set->part[set->count] = part;
         good = wr_reference_stage_init(&set->stage[set->count++], own ? own : request->field, part,
                                        request->turn_deg, request->width, request->height, true,

@@ -82,7 +82,8 @@ static bool walk_object(const WrReferenceRequest *request, int i, Row *rows, WrP
 {
     const WrField *own = request->fields ? request->fields[i] : NULL;
     const WrField *field = own ? own : request->field;
-    WrScene *part = wr_scene_part(request->scene, i, (double)request->width / request->height);
+    WrScene *part =
+        wr_scene_object_alone(request->scene, i, (double)request->width / request->height);
     WrReferenceStage *stage = wr_alloc(1, sizeof *stage);
     part->material.shadow = false;
     const bool good = wr_reference_stage_init(stage, field, part, request->turn_deg, request->width,

@@ -57,7 +57,7 @@ static int codes_by_table(const uint32_t *bins, const WrStrip *strip, bool grey,
         uint32_t code[3];
         for (int c = 0; c < 3; c++) {
             const bool good = wr_is_finite_f(from[c][k]);
-            code[c] = wr_code_at(bins, wr_code_place(good ? from[c][k] : 0.0f));
+            code[c] = wr_code_at(bins, wr_srgb_bin_position(good ? from[c][k] : 0.0f));
             odd += !good;
         }
         out[k] = wr_code_pack(code[0], code[1], code[2]);

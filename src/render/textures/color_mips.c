@@ -60,11 +60,11 @@ static void make_row(int j, int worker, void *ctx)
     (void)worker;
     const Job *job = ctx;
     const WrPyramidLevel *to = &job->tint->pyramid.level[job->level], *from = to - 1;
-    const WrShare v = wr_pyramid_share(j, from->height, to->height);
+    const WrShare v = wr_pyramid_box_weights(j, from->height, to->height);
     float *out = row_of(job->tint, job->level, j);
     if (wr_progress_stopped()) return;
     for (int i = 0; i < to->width; i++) {
-        const WrShare u = wr_pyramid_share(i, from->width, to->width);
+        const WrShare u = wr_pyramid_box_weights(i, from->width, to->width);
         double sum[3] = { 0 };
         for (int b = 0; b < v.count; b++) {
             const float *in = row_of(job->tint, job->level - 1, v.from + b) + 4 * u.from;

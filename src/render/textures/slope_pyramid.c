@@ -159,7 +159,7 @@ static void read_level(const WrPyramid *pyramid, int level, int i0, int i1, int 
         }
 }
 
-WrShare wr_pyramid_share(int i, int n, int m)
+WrShare wr_pyramid_box_weights(int i, int n, int m)
 {
     WrShare s = { (int)((int64_t)i * n / m), 0, { 0 } };
     int last = (int)(((int64_t)(i + 1) * n + m - 1) / m); /* one past the end */
@@ -205,15 +205,15 @@ static void make_row(const Job *job, int i0, int i1, int j)
 {
     const WrPyramid *pyramid = job->pyramid;
     const WrPyramidLevel *to = &pyramid->level[job->level], *from = to - 1;
-    const WrShare v = wr_pyramid_share(j, from->height, to->height);
-    WrShare first = wr_pyramid_share(i0, from->width, to->width);
-    WrShare last = wr_pyramid_share(i1 - 1, from->width, to->width);
+    const WrShare v = wr_pyramid_box_weights(j, from->height, to->height);
+    WrShare first = wr_pyramid_box_weights(i0, from->width, to->width);
+    WrShare last = wr_pyramid_box_weights(i1 - 1, from->width, to->width);
     const int a = first.from, b = last.from + last.count;
     Cell *source = wr_alloc((size_t)(b - a) * (size_t)v.count, sizeof *source);
     if (job->level == 1) read_table(job->field, a, b, v.from, v.from + v.count, source);
     else read_level(pyramid, job->level - 1, a, b, v.from, v.from + v.count, source);
     for (int i = i0; i < i1; i++) {
-        WrShare u = wr_pyramid_share(i, from->width, to->width);
+        WrShare u = wr_pyramid_box_weights(i, from->width, to->width);
         Cell cell = gather(source + (u.from - a), (size_t)(b - a), &u, &v);
         store(pyramid, &cell, texel(pyramid, job->level, i, j));
     }

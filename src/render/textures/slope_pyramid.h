@@ -87,7 +87,7 @@ typedef struct WrShare {
         count; /* 1..3: n is at most 3 where m is 1, else n/m < 3 takes a part at either end */
     double weight[4];
 } WrShare;
-WrShare wr_pyramid_share(int i, int n, int m);
+WrShare wr_pyramid_box_weights(int i, int n, int m);
 /* Index of a texel of the apron: wrapped, or clamped to the edge. */
 int wr_pyramid_fold(int i, int n, WrWrap wrap);
 /* Allocates the levels of that kind for a picture of width x height, uninitialised; frees the old ones. */

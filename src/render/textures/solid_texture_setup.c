@@ -15,7 +15,7 @@
 /* Texels per band of the pattern: if two of them lie along a pixel, a band is 1.5 pixels wide. */
 #define FINE 3
 
-bool wr_solid_texture_bounded(const WrScene *scene)
+bool wr_solid_texture_resolution_known(const WrScene *scene)
 {
     const WrInversion how = wr_surfaces[scene->shape.kind]->inversion;
     int columns, rows;
@@ -47,7 +47,8 @@ void wr_solid_texture_texels(const WrScene *scene, double texels[2])
 {
     double along[2] = { 0, 0 };
     texels[0] = texels[1] = 0;
-    if (scene->grain.kind == WR_SOLID_TEXTURE_OFF || !wr_solid_texture_bounded(scene)) return;
+    if (scene->grain.kind == WR_SOLID_TEXTURE_OFF || !wr_solid_texture_resolution_known(scene))
+        return;
     for (int k = 0; k < LOOKS * LOOKS; k++) {
         WrSurfacePoint at;
         wr_surface_at(&scene->shape, 0, (double)(k % LOOKS) / (LOOKS - 1),

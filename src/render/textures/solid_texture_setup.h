@@ -10,7 +10,7 @@
 typedef struct WrScene WrScene;
 
 /* True if the resolution is known for the scene's surface: u and v have closed formulas over one piece. */
-bool wr_solid_texture_bounded(const WrScene *scene);
+bool wr_solid_texture_resolution_known(const WrScene *scene);
 /* Size, along u and v, of a picture as fine as the texture at its finest place: three texels for the narrowest
    possible band. Where u and v are denser than elsewhere this is more than necessary. */
 void wr_solid_texture_texels(const WrScene *scene, double texels[2]);

@@ -102,7 +102,7 @@ int wr_outline_tips(const WrTileJob *job, WrRasterVertex tips[WR_OUTLINE_TIPS])
     return count;
 }
 
-WrClipVertex wr_raster_clip_vertex(const WrView *view, WrVec3 p, double u, double v)
+WrClipVertex wr_raster_camera_vertex(const WrView *view, WrVec3 p, double u, double v)
 {
     WrVec3 w = v3_sub(p, view->eye);
     return (WrClipVertex){ v3_dot(w, view->right), v3_dot(w, view->up), v3_dot(w, view->forward), u,
@@ -133,7 +133,7 @@ static WrRasterVertex project(const WrView *view, const WrClipVertex *c)
 
 bool wr_raster_project(const WrView *view, WrVec3 p, double u, double v, WrRasterVertex *out)
 {
-    WrClipVertex c = wr_raster_clip_vertex(view, p, u, v);
+    WrClipVertex c = wr_raster_camera_vertex(view, p, u, v);
     double reach = WR_GUARD * (view->perspective ? c.depth : 1.0);
     *out = (WrRasterVertex){ 0 };
     if (!(c.depth >= view->near) || !(fabs(c.x) <= reach * view->half_w) ||
@@ -150,7 +150,7 @@ static int32_t within_int(double x)
 
 bool wr_raster_bound(const WrView *view, WrVec3 p, int32_t *x, int32_t *y)
 {
-    const WrClipVertex c = wr_raster_clip_vertex(view, p, 0, 0);
+    const WrClipVertex c = wr_raster_camera_vertex(view, p, 0, 0);
     *x = *y = 0;
     if (!(c.depth >= view->near)) return false;
     const double inv = view->perspective ? 1.0 / c.depth : 1.0;

@@ -19,7 +19,7 @@ typedef struct WrClipVertex {
     double x, y, depth, u, v;
 } WrClipVertex;
 
-WrClipVertex wr_raster_clip_vertex(const WrView *view, WrVec3 p, double u, double v);
+WrClipVertex wr_raster_camera_vertex(const WrView *view, WrVec3 p, double u, double v);
 /* Projects a vertex. False if it is in front of the near plane or more than WR_GUARD views outside: then `out`
    contains zeros and the triangle has to be clipped. */
 #define WR_GUARD 2.0

@@ -222,8 +222,8 @@ static void raster_out(const WrViewTriangles *from, const WrView *view, int32_t 
 {
     WrClipVertex corner[3];
     for (int k = 0; k < 3; k++)
-        corner[k] =
-            wr_raster_clip_vertex(view, v3_scale(corner_at(from->source, i, k), view->scale), 0, 0);
+        corner[k] = wr_raster_camera_vertex(
+            view, v3_scale(corner_at(from->source, i, k), view->scale), 0, 0);
     wr_raster_clipped_marked(view, corner, (float)i, tile);
 }
 

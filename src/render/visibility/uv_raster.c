@@ -263,8 +263,8 @@ static void raster_clipped(const WrViewMesh *mesh, const WrView *view, const int
     WrClipVertex corner[3];
     for (int k = 0; k < 3; k++) {
         size_t at = (size_t)ij[k][1] * (size_t)(mesh->mu + 1) + (size_t)ij[k][0];
-        corner[k] = wr_raster_clip_vertex(view, (WrVec3){ mesh->x[at], mesh->y[at], mesh->z[at] },
-                                          (double)ij[k][0] / mesh->mu, (double)mesh->v[ij[k][1]]);
+        corner[k] = wr_raster_camera_vertex(view, (WrVec3){ mesh->x[at], mesh->y[at], mesh->z[at] },
+                                            (double)ij[k][0] / mesh->mu, (double)mesh->v[ij[k][1]]);
     }
     wr_raster_clipped(view, corner, tile);
 }
