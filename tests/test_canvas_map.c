@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "field/field.h"
-#include "ui/canvas/canvas_map.h"
+#include "ui/canvas/canvas_derived_map.h"
 
 #include <SDL.h>
 

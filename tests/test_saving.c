@@ -4,7 +4,7 @@
 #include "test_render_scenes.h"
 
 #include "accuracy/effect_savings.h"
-#include "accuracy/tolerance.h"
+#include "accuracy/tolerance_search.h"
 
 #define SIDE 48
 

@@ -1,12 +1,12 @@
 /* test_surface_points.h - shared helpers of the surface tests: the formulas in both precisions, and members of a
    point by index. */
 #pragma once
-#include "surface/formula.h"
+#include "surface/precision.h"
 #include "surface/surface.h"
 
 /* The same formulas in single precision. */
 #define WR_FORMULA_FLOAT
-#include "surface/formula.h"
+#include "surface/precision.h"
 #define WR_SURFACE_FORMULAS
 #include "surface/surface_list.h"
 #undef WR_SURFACE_FORMULAS

@@ -3,7 +3,7 @@
 #include "test.h"
 #include "test_session_help.h"
 
-#include "accuracy/tolerance.h"
+#include "accuracy/tolerance_search.h"
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/text.h"

@@ -2,7 +2,7 @@
 #include "test.h"
 #include "field/scheme_list.h"
 
-#include "accuracy/tolerance.h"
+#include "accuracy/tolerance_search.h"
 #include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"

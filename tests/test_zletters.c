@@ -2,7 +2,7 @@
 #include "test.h"
 
 #include "base/error.h"
-#include "generate/zbuffer_letters.h"
+#include "generate/zbuffer_extrusion.h"
 
 static double implicit_plate(double depth, double bevel, WrZBevel kind, const double q[3])
 {

@@ -4,7 +4,7 @@
    Levels are 1, 2, 4, 8 and 16 samples a side. Each block climbs as far as necessary: the change from one level
    to the next gives an estimate of both errors, since errors fall by a known order. */
 #pragma once
-#include "accuracy/tolerance.h"
+#include "accuracy/tolerance_search.h"
 #include "render/frame/frame.h"
 #include "scene/scene.h"
 
@@ -143,26 +143,26 @@ bool wr_study_probe(Study *study, bool *worse, WrError *err);
    each raised by a floor that adds up to half of all predictions. shares, squares: sum of the ratios, and of
    their squares. */
 
-/* ---- tolerance.c ---- */
+/* ---- tolerance_search.c ---- */
 
 /* Chooses the cheapest pair and level for each block that together meet the tolerance, by the current estimates;
    for a time limit, in prices, the most accurate that it allows. free_pairs: blocks may change their pairs. */
 /* Cost of the picks, in prices, and their error. */
 double wr_study_cost(const Study *study);
 
-/* ---- tolerance.c ---- */
+/* ---- tolerance_search.c ---- */
 
 /* Price of one sample: nanoseconds on the machine that the table was measured on; proportional elsewhere. */
 double wr_price_sample(const WrScene *scene, WrScheme scheme, WrBumpMode mode);
 /* Additional price of a frame of that many samples: passes over its pixels. */
 double wr_price_pass(int64_t pixels);
 
-/* ---- tolerance.c ---- */
+/* ---- tolerance_search.c ---- */
 
 /* Seconds per price on this machine with that many threads: measured once and stored in a file, so that the same
    time limit gives the same dials. The renderer's last picture is lost. */
 
-/* ---- tolerance.c ---- */
+/* ---- tolerance_search.c ---- */
 
 /* Kinds of blocks for descriptions: outlines, and insides by the size of the change by 2 x 2 samples. A part's
    `kinds` has two bits for each. */

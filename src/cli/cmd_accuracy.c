@@ -2,7 +2,7 @@
 #include "accuracy/ladder.h"
 #include "accuracy/ladder_internal.h"
 #include "accuracy/report.h"
-#include "accuracy/tolerance.h"
+#include "accuracy/tolerance_search.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"

@@ -1,5 +1,5 @@
 #include "accuracy/effect_savings.h"
-#include "accuracy/tolerance.h"
+#include "accuracy/tolerance_search.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"

@@ -11,7 +11,7 @@
 #include "document/object_tables.h"
 #include "document/document_file.h"
 #include "field/field.h"
-#include "generate/noise_rows.h"
+#include "generate/noise_generators.h"
 #include "scene/texture_sample.h"
 #include "scene/objects.h"
 #include "scene/scene.h"

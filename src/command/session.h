@@ -7,7 +7,7 @@
    read snapshots of it. */
 #pragma once
 #include "accuracy/effect_savings.h"
-#include "accuracy/tolerance.h"
+#include "accuracy/tolerance_search.h"
 #include "base/file_identity.h"
 
 #include <stdbool.h>

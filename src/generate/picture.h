@@ -82,7 +82,7 @@ WrImage *wr_picture_read(const WrParams *params, const char *channels, WrImageRe
     extern const WrParam wr_params_##name[];                                                       \
     bool wr_picture_##name(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,    \
                            WrError *err)
-WR_PICTURE(photo);   /* picture_rows.c */
+WR_PICTURE(photo);   /* picture_generators.c */
 WR_PICTURE(normals); /* normals.c */
-WR_PICTURE(paste);   /* picture_rows.c */
+WR_PICTURE(paste);   /* picture_generators.c */
 #undef WR_PICTURE

@@ -1,4 +1,4 @@
-#include "image/mesh_formats.h"
+#include "image/mesh_readers.h"
 
 #include "base/error.h"
 #include "base/memory.h"

@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "image/assimp.h"
 #include "image/mesh_build.h"
-#include "image/mesh_formats.h"
+#include "image/mesh_readers.h"
 #include "image/module_path.h"
 
 #include <math.h>

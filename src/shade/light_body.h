@@ -1,6 +1,6 @@
 /* light_body.h - formulas of light and reflection at one sample, for both precisions and every kernel.
 
-   Uses the names of surface/formula.h for one precision, or those of the kernels
+   Uses the names of surface/precision.h for one precision, or those of the kernels
    (render/kernels/kern_body.h): REAL, VEC, K_, R_INLINE, v_dot, r_sqrt, r_pow_below. Only ?:, no
    branches, so that loops over samples vectorise. No include guard: compiled once per precision. The
    reference renderer intentionally has its own formulas.

@@ -1,6 +1,6 @@
 /* expression_body.h - evaluation of a program over n samples, with derivatives, in either precision.
 
-   No include guard (formula.h). Second-order dual numbers: f with its derivatives f_u, f_v, f_uu, f_uv,
+   No include guard (precision.h). Second-order dual numbers: f with its derivatives f_u, f_v, f_uu, f_uv,
    f_vv.
 
      g(f)      g' f_u,  g'' f_u^2 + g' f_uu,  g'' f_u f_v + g' f_uv, ...

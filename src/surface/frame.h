@@ -1,7 +1,7 @@
 /* frame.h - the unit frame from N and its derivatives, for surfaces whose unit normal has no closed
    form.
 
-   No include guard: compiled once per precision (formula.h).
+   No include guard: compiled once per precision (precision.h).
 
      n = N / |N|     n_u = (N_u - n (n . N_u)) / |N|     n_v the same with N_v
 

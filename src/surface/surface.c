@@ -8,7 +8,7 @@
 
 #include "base/text.h"
 #include "surface/data.h"
-#include "surface/formula.h"
+#include "surface/precision.h"
 #define WR_SURFACE_FORMULAS
 #include "surface/surface_list.h"
 #undef WR_SURFACE_FORMULAS

@@ -1,7 +1,7 @@
 /* surface_list.h - the list of all surfaces: a new one needs its file and its two lines here.
 
    With WR_X(name) defined it expands to the names; with WR_SURFACE_FORMULAS defined it includes the
-   formulas (see formula.h). */
+   formulas (see precision.h). */
 #ifdef WR_X
 WR_X(plane)
 WR_X(bent)

@@ -3,7 +3,7 @@
 #include "ui/app/canvas_chip.h"
 #include "base/enum_rows.h"
 #include "ui/canvas/canvas.h"
-#include "ui/canvas/canvas_map.h"
+#include "ui/canvas/canvas_derived_map.h"
 #include "ui/canvas/view.h"
 #include "ui/state/action_list.h"
 #include "ui/state/app_state.h"

@@ -22,7 +22,7 @@ typedef enum WrCanvasColours {
     WR_CANVAS_COLOURS
 } WrCanvasColours;
 
-/* Displayed content: the table, or a map of it (canvas_map.h). */
+/* Displayed content: the table, or a map of it (canvas_derived_map.h). */
 typedef enum WrCanvasShown {
     WR_CANVAS_HEIGHTS,
     WR_CANVAS_OCCLUSION,

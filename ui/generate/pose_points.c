@@ -8,7 +8,7 @@
 #include "ui/state/session_view.h"
 #include "ui/generate/generate_state.h"
 #include "ui/toolkit/gui.h"
-#include "ui/views/overlay.h"
+#include "ui/views/overlay_marks.h"
 
 #include "base/text.h"
 #include "field/field.h"

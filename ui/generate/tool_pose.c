@@ -11,7 +11,7 @@
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 #include "ui/tools/tool.h"
-#include "ui/views/overlay.h"
+#include "ui/views/overlay_marks.h"
 
 #include "base/exactmath.h"
 #include "document/document.h"

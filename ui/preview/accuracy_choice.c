@@ -1,6 +1,6 @@
 #include "ui/preview/accuracy_choice.h"
 
-#include "accuracy/tolerance.h"
+#include "accuracy/tolerance_search.h"
 #include "field/scheme_list.h"
 #include "base/text.h"
 #include "field/scheme.h"

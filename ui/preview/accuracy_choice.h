@@ -1,6 +1,6 @@
 /* accuracy_choice.h - dials that a tolerance chose for a picture, for display in the window. */
 #pragma once
-#include "accuracy/tolerance.h"
+#include "accuracy/tolerance_search.h"
 #include "scene/dials.h"
 
 #include <stdbool.h>

@@ -4,7 +4,7 @@
 #include "ui/preview/picture_heatmap.h"
 #include "ui/jobs/thread.h"
 
-#include "accuracy/tolerance.h"
+#include "accuracy/tolerance_search.h"
 #include "base/array.h"
 #include "base/error.h"
 #include "base/memory.h"

@@ -11,11 +11,11 @@
 #include "ui/state/roster.h"
 #include "ui/state/session_view.h"
 #include "ui/state/settings.h"
-#include "ui/tools/brush_line.h"
+#include "ui/tools/brush_command_text.h"
 #include "ui/toolkit/words.h"
 #include "ui/tools/brush_strength.h"
 #include "ui/tools/preset_browser.h"
-#include "ui/views/overlay.h"
+#include "ui/views/overlay_marks.h"
 
 #include "base/array.h"
 #include "base/error.h"

@@ -12,7 +12,7 @@
 #include "ui/toolkit/gui.h"
 #include "ui/input/stroke_smoothing.h"
 #include "ui/tools/brush_outline.h"
-#include "ui/tools/option.h"
+#include "ui/tools/option_row.h"
 #include "ui/tools/stroke_input.h"
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_rows.h"

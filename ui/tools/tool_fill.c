@@ -7,10 +7,10 @@
 #include "ui/state/settings.h"
 #include "ui/toolkit/gui.h"
 #include "ui/tools/brush_strength.h"
-#include "ui/tools/option.h"
+#include "ui/tools/option_row.h"
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_rows.h"
-#include "ui/views/overlay.h"
+#include "ui/views/overlay_marks.h"
 
 #include "base/text.h"
 #include "brush/brush.h"

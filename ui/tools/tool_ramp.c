@@ -10,11 +10,11 @@
 #include "ui/state/settings.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
-#include "ui/tools/option.h"
+#include "ui/tools/option_row.h"
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_rows.h"
 #include "ui/tools/tool_shape.h"
-#include "ui/views/overlay.h"
+#include "ui/views/overlay_marks.h"
 
 #include "base/text.h"
 #include "base/enum_rows.h"

@@ -11,11 +11,11 @@
 #include "ui/state/session_view.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
-#include "ui/tools/option.h"
+#include "ui/tools/option_row.h"
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_rows.h"
 #include "ui/views/grid.h"
-#include "ui/views/overlay.h"
+#include "ui/views/overlay_marks.h"
 
 #include "base/exactmath.h"
 #include "base/text.h"

@@ -21,7 +21,7 @@
 #define R_EACH _Pragma("omp simd")
 #endif
 #ifdef WR_KERN_DOUBLE
-#include "surface/formula.h"
+#include "surface/precision.h"
 #undef r_sincos_turns
 #define r_sincos_turns wr_sincos_turns_r
 #undef r_exp2
@@ -61,7 +61,7 @@
 #define WR_FORMULA_FLOAT /* only the formulas, without the surfaces' rows */
 #else
 #define WR_FORMULA_FLOAT
-#include "surface/formula.h"
+#include "surface/precision.h"
 #define r_atan2_turns wr_atan2_turns_f
 #define r_pow_below wr_pow_below_f
 #define r_scale_down wr_scale_down_f

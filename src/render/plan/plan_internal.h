@@ -86,7 +86,7 @@ static inline bool still(const WrScene *scene)
 }
 
 /* Functions of WrEffectInfo's rows. They are in plan_light.c, plan_light.c, plan_light.c,
-   plan_visibility.c, plan.c, plan.c, plan.c and plan_maps.c. */
+   plan_visibility.c, plan.c, plan.c, plan.c and plan_textures.c. */
 typedef WrVerdict WrDecide(const WrPlan *plan, const WrPlanRequest *ask, const char **why);
 typedef void WrSettle(WrPlan *plan, const WrPlanRequest *ask);
 WrDecide wr_decide_back, wr_decide_depth, wr_decide_newton, wr_decide_perspective, wr_decide_again,

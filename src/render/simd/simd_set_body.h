@@ -15,7 +15,7 @@
 #include "render/simd/simd_sphere_rows_body.h"
 #include "render/simd/simd_sphere_body.h"
 #include "render/simd/simd_fetch_body.h"
-#include "render/simd/simd_filter_body.h"
+#include "render/simd/simd_sphere_filter_body.h"
 #include "render/simd/simd_encode_body.h"
 
 const WrWide WR_WIDE_TABLE = { narrow,       wide_shade,     wide_smooth,       wide_paint,

@@ -1,4 +1,4 @@
-/* formula.h - macros to compile each surface's formulas in double (surface.c) and in single precision
+/* precision.h - macros to compile each surface's formulas in double (surface.c) and in single precision
    (kernels).
 
    In the render kernels formulas must have no branches and library calls so that loops over them

@@ -1,6 +1,6 @@
 /* Option row: brush parameters shared by several tools, and layout of a tool's options. Options that do not fit are
    in a popup at the row's end. */
-#include "ui/tools/option.h"
+#include "ui/tools/option_row.h"
 
 #include "base/enum_rows.h"
 #include "ui/state/action.h"

@@ -1,4 +1,4 @@
-/* mesh_formats.h - readers of mesh files: OBJ, PLY, STL and the triangles of glTF.
+/* mesh_readers.h - readers of mesh files: OBJ, PLY, STL and the triangles of glTF.
    Private to this module. */
 #pragma once
 #include <stdbool.h>

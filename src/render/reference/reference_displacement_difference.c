@@ -1,4 +1,4 @@
-#include "render/reference/reference_displacement_change.h"
+#include "render/reference/reference_displacement_difference.h"
 
 #include "base/error.h"
 #include "base/memory.h"

@@ -1,4 +1,4 @@
-/* noise_rows.h - the generator family "noise": its parameters converted to a sum, for tables and single
+/* noise_generators.h - the generator family "noise": its parameters converted to a sum, for tables and single
    points.
 
      F(u,v) = level + amplitude N(p),   p = (u, v) - origin

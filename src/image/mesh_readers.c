@@ -1,5 +1,5 @@
 /* Readers of OBJ, PLY and STL files. */
-#include "image/mesh_formats.h"
+#include "image/mesh_readers.h"
 
 #include "base/error.h"
 #include "base/memory.h"

@@ -1,4 +1,4 @@
-/* reference_displacement_change.h - difference between displacement and bump mapping: screen position and light
+/* reference_displacement_difference.h - difference between displacement and bump mapping: screen position and light
    of surface points. Both at the same u and v, in double, without shadows. */
 #pragma once
 #include "render/reference/reference.h"

@@ -1,5 +1,5 @@
 /* Choice under a tolerance: blocks get finer levels until it is met. */
-#include "accuracy/tolerance.h"
+#include "accuracy/tolerance_search.h"
 
 #include "accuracy/tolerance_internal.h"
 #include "base/cpu.h"

@@ -1,5 +1,5 @@
 /* Saving of settings while the window is open: after changes, at most once per second, between drags. */
-#include "ui/app/settings_sync.h"
+#include "ui/app/settings_autosave.h"
 #include "ui/state/app_state.h"
 #include "ui/state/input_router.h"
 #include "ui/state/settings.h"

@@ -1,4 +1,4 @@
-/* tolerance.h - choice of the cheapest dials for each block of a picture under an error tolerance, with the
+/* tolerance_search.h - choice of the cheapest dials for each block of a picture under an error tolerance, with the
    resulting picture.
 
    The whole picture is rendered with one sample a pixel and with 2 x 2. The change in each block of
@@ -9,7 +9,7 @@
    if their errors exceed the estimates, all blocks of their kind climb.
 
    So no error is measured directly: a setting's error is estimated from the change to the next finer one, the
-   finest from the change before it. Cost is counted work (tolerance.c), never time: the same table, scene,
+   finest from the change before it. Cost is counted work (tolerance_search.c), never time: the same table, scene,
    size and tolerance give the same dials, on any machine and any number of threads. Only `time=` needs the speed
    of the machine, which is measured once and stored.
 
@@ -34,7 +34,7 @@
      tolerance_estimate.c);
    - outlines and creases parallel to the pixels' rows or columns, also between two blocks (tolerance_estimate.c);
    - the greatest error of a pixel is estimated less surely than the rms: for max= estimates stay below 0.75 of the
-     tolerance, for the rms below 0.93 (MARGIN_MAX, MARGIN_RMS in tolerance.c).
+     tolerance, for the rms below 0.93 (MARGIN_MAX, MARGIN_RMS in tolerance_search.c).
    Details smaller than a pixel in the middle of a block that neither 1 sample nor 2 x 2 meet remain undetected
    unless a probe meets them. The measurements in samples/accuracy are older than these three. */
 #pragma once

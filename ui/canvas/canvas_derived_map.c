@@ -1,4 +1,4 @@
-#include "ui/canvas/canvas_map.h"
+#include "ui/canvas/canvas_derived_map.h"
 #include "ui/jobs/job.h"
 
 #include "base/error.h"

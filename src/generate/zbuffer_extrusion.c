@@ -1,6 +1,6 @@
 /* Extruded outlines: distances by a grid of edge lists, ray intersections by steps limited by the
    distance. */
-#include "generate/zbuffer_letters.h"
+#include "generate/zbuffer_extrusion.h"
 
 #include "base/array.h"
 #include "base/error.h"

@@ -1,4 +1,4 @@
-#include "generate/noise_rows.h"
+#include "generate/noise_generators.h"
 
 #include "base/error.h"
 #include "base/memory.h"

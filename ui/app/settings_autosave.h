@@ -1,4 +1,4 @@
-/* settings_sync.h - loading of settings at the start and saving after changes. */
+/* settings_autosave.h - loading of settings at the start and saving after changes. */
 #pragma once
 #include "ui/state/app_state.h"
 

@@ -1,4 +1,4 @@
-/* option.h - option row below the menu, filled by the current tool. */
+/* option_row.h - option row below the menu, filled by the current tool. */
 #pragma once
 #include "ui/state/app_state.h"
 

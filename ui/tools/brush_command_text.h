@@ -1,4 +1,4 @@
-/* brush_line.h - brush arguments of a command line, shared by stroke, dab, shape and flood. No window needed. */
+/* brush_command_text.h - brush arguments of a command line, shared by stroke, dab, shape and flood. No window needed. */
 #pragma once
 #include <stdbool.h>
 

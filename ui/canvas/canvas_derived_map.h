@@ -1,4 +1,4 @@
-/* canvas_map.h - map of the table (field/maps.h) for display on the canvas: computed in the background; after an edit
+/* canvas_derived_map.h - map of the table (field/maps.h) for display on the canvas: computed in the background; after an edit
    only tiles within its reach are updated. Tested without a window. All calls are from the window's thread. */
 #pragma once
 #include "field/maps.h"

@@ -1,4 +1,4 @@
-/* overlay.h - lines and marks on the canvas, on every copy of the cell. */
+/* overlay_marks.h - lines and marks on the canvas, on every copy of the cell. */
 #pragma once
 #include "ui/state/app_state.h"
 #include "ui/toolkit/theme.h"

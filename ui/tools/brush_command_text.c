@@ -1,4 +1,4 @@
-#include "ui/tools/brush_line.h"
+#include "ui/tools/brush_command_text.h"
 #include "ui/state/line.h"
 
 #include "base/text.h"

@@ -1,4 +1,4 @@
-/* zbuffer_letters.h - extruded outlines with a rounded or chamfered upper edge: three-dimensional
+/* zbuffer_extrusion.h - extruded outlines with a rounded or chamfered upper edge: three-dimensional
    letters.
    Private to this module.
 

@@ -1,5 +1,5 @@
 /* Lines and marks on the canvas, on every visible copy of the cell. */
-#include "ui/views/overlay.h"
+#include "ui/views/overlay_marks.h"
 #include "ui/canvas/view.h"
 #include "ui/state/app_state.h"
 #include "ui/state/session_view.h"
