@@ -11,7 +11,7 @@ commands=$2/compile_commands.json
 common=(-D_GNU_SOURCE -DWR_SOURCE_DIR='""' -DWR_BINARY_DIR='""' -fsyntax-only -fopenmp-simd -Wall -Wextra -Wshadow
         -Werror -Isrc -I. -Itests)
 c_only=(-std=c17 -Wpedantic -Wstrict-prototypes -Wmissing-prototypes)
-read -ra libraries < <(pkg-config --cflags sdl2 freetype2 cmocka imgui)
+read -ra libraries < <(pkg-config --cflags sdl2 freetype2 cmocka imgui dbus-1)
 bad=0 count=0 compiled=0
 
 # What files of either language include, looked up once. Headers of the C++ part of the window are no C, nor what they include.
