@@ -42,7 +42,7 @@ static void the_word_says_what_becomes_of_pens(void **state)
         const char *opened, *has; /* NULL: no message */
     } rows[] = {
         { { NULL, ":0", NULL, "x11" }, "x11", NULL },
-        { { NULL, ":1", "wayland-0", "wayland" }, "x11", "goes through XWayland" },
+        { { NULL, ":1", "wayland-0", "wayland" }, "x11", "runs on XWayland" },
         { { NULL, ":1", "wayland-0", "wayland" }, "wayland", "opened no window" },
         { { NULL, NULL, "wayland-0", "wayland" }, "wayland", "no XWayland" },
         { { "wayland", ":1", "wayland-0", NULL }, "wayland", "SDL_VIDEODRIVER opens" },
