@@ -602,11 +602,11 @@ static void metal_black(Stage *stage)
 static void surround(Stage *stage, float step, double strength)
 {
     WrImage *image = wr_image_new(8, 4, 3, NULL);
-    WrEnvironmentMapTold told;
+    WrEnvironmentMapChanges changes;
     for (int i = 0; i < 8 * 4 * 3; i++) image->data[i] = 0.3f + step * (float)(i / 3 % 8);
     image->type = WR_PIXEL_F32;
     WrEnvironment *to = &stage->scene->environment;
-    wr_environment_set(to, WR_ENVIRONMENT_MAP_FILE, wr_environment_map_new(image, &told, NULL),
+    wr_environment_set(to, WR_ENVIRONMENT_MAP_FILE, wr_environment_map_new(image, &changes, NULL),
                        "sky", NULL);
     to->strength = strength;
     wr_image_free(image);

@@ -248,11 +248,11 @@ static void wood_of_no_amplitude(Stage *stage)
 static void constant_surroundings(Stage *stage)
 {
     WrImage *image = wr_image_new(4, 2, 3, NULL);
-    WrEnvironmentMapTold told;
+    WrEnvironmentMapChanges changes;
     for (int i = 0; i < 24; i++) image->data[i] = 0.37f;
     image->type = WR_PIXEL_F32;
     wr_environment_set(&stage->scene->environment, WR_ENVIRONMENT_MAP_FILE,
-                       wr_environment_map_new(image, &told, NULL), "sky", NULL);
+                       wr_environment_map_new(image, &changes, NULL), "sky", NULL);
     stage->scene->environment.strength = 0.7;
     wr_image_free(image);
 }

@@ -14,7 +14,7 @@ typedef double Sky(WrVec3 d, int c);
 /* An environment of w x h texels; data: radiance of each direction. */
 static WrEnvironmentMap *surroundings(int w, int h, Sky *sky)
 {
-    WrEnvironmentMapTold told;
+    WrEnvironmentMapChanges changes;
     WrError err = { "" };
     WrImage *image = wr_image_new(w, h, 3, &err);
     image->type = WR_PIXEL_F32;
@@ -23,7 +23,7 @@ static WrEnvironmentMap *surroundings(int w, int h, Sky *sky)
             for (int c = 0; c < 3; c++)
                 image->data[3 * (j * w + i) + c] =
                     (float)sky(wr_environment_map_direction((i + 0.5) / w, 1 - (j + 0.5) / h), c);
-    WrEnvironmentMap *s = wr_environment_map_new(image, &told, &err);
+    WrEnvironmentMap *s = wr_environment_map_new(image, &changes, &err);
     wr_image_free(image);
     if (!s) fail_msg("%s", err.text);
     return s;
@@ -203,25 +203,25 @@ static void places_are_the_directions_inverse(void **state)
 }
 
 /* HC114: invalid values of a file are converted to valid light and reported. */
-static void what_is_no_light_is_told(void **state)
+static void invalid_light_is_replaced_and_counted(void **state)
 {
     (void)state;
     static const float numbers[] = { NAN, -3, INFINITY, 1e30f, -INFINITY, 2.5f };
     WrImage *image = wr_image_new(3, 2, 1, NULL);
-    WrEnvironmentMapTold told;
+    WrEnvironmentMapChanges changes;
     memcpy(image->data, numbers, sizeof numbers);
     image->type = WR_PIXEL_F32;
-    WrEnvironmentMap *s = wr_environment_map_new(image, &told, NULL);
-    assert_int_equal(told.lost, 3); /* in each of the three colours */
-    assert_int_equal(told.below, 6);
-    assert_int_equal(told.above, 6);
+    WrEnvironmentMap *s = wr_environment_map_new(image, &changes, NULL);
+    assert_int_equal(changes.not_numbers, 3); /* in each of the three colours */
+    assert_int_equal(changes.negative, 6);
+    assert_int_equal(changes.too_large, 6);
     const float *got = s->image->data;
     assert_true(got[0] == 0 && got[3] == 0 && got[6] == 1e9f && got[9] == 1e9f && got[15] == 2.5f);
     for (int i = 0; i < WR_HARMONICS; i++) assert_true(isfinite(s->harmonic[i][2]));
     wr_environment_map_free(s);
     image->type = WR_PIXEL_U8;
     image->data[0] = 0.5f;
-    s = wr_environment_map_new(image, &told, NULL);
+    s = wr_environment_map_new(image, &changes, NULL);
     assert_near((double)s->image->data[0], 0.21404114, 1e-6); /* decoded from sRGB */
     wr_environment_map_free(s);
     wr_image_free(image);
@@ -425,12 +425,12 @@ static Shot turned_by(double turn_deg, int columns, const WrField *field)
 {
     WrEnvironmentMap *from = surroundings(128, 64, speckled);
     WrImage *image = wr_image_new(128, 64, 3, NULL);
-    WrEnvironmentMapTold told;
+    WrEnvironmentMapChanges changes;
     image->type = WR_PIXEL_F32;
     for (int i = 0; i < 128 * 64; i++)
         memcpy(image->data + 3 * i, from->image->data + 3 * (i / 128 * 128 + (i + columns) % 128),
                3 * sizeof(float));
-    WrScene *scene = scene_under(wr_environment_map_new(image, &told, NULL), 0, 0);
+    WrScene *scene = scene_under(wr_environment_map_new(image, &changes, NULL), 0, 0);
     scene->environment.turn_deg = turn_deg;
     Shot shot = shoot(scene, field, 31, 27, 1, "auto", false);
     wr_scene_free(scene);
@@ -465,7 +465,7 @@ int main(void)
         cmocka_unit_test(a_sun_is_within_the_bounds),
         cmocka_unit_test(poles_and_seam_are_continuous),
         cmocka_unit_test(places_are_the_directions_inverse),
-        cmocka_unit_test(what_is_no_light_is_told),
+        cmocka_unit_test(invalid_light_is_replaced_and_counted),
         cmocka_unit_test(diffuse_light_is_the_integral),
         cmocka_unit_test(lobes_have_their_closed_forms),
         cmocka_unit_test(reflections_are_the_integral),

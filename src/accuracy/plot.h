@@ -35,6 +35,7 @@ double wr_plot_round_up(double value);
 char *wr_plot_number(double value, char *text);
 
 #define WR_PLOT_TICKS 16 /* most ticks of an axis */
+#define WR_PLOT_LINE 64  /* most points of a canvas's line */
 
 typedef struct WrPlot {
     const WrLadder *ladder; /* borrowed */
@@ -63,11 +64,13 @@ typedef enum WrPlotInk {
 } WrPlotInk;
 
 typedef struct WrPlotCanvas {
-    void *ctx;
+    void *ctx;         /* passed to the functions; borrowed */
     double unit;       /* width of a thin line, pixels */
     double text;       /* height of a line of text, pixels */
     int times, errors; /* ticks that fit, 2 to WR_PLOT_TICKS */
+    /* a polyline of up to WR_PLOT_LINE points; width in pixels */
     void (*line)(void *ctx, const WrPlotSpot *points, int count, double width, WrPlotInk ink);
+    /* a point of that series; radius in pixels */
     void (*mark)(void *ctx, WrPlotSpot at, double radius, WrPlotInk series);
     void (*ring)(void *ctx, WrPlotSpot at, double radius, double width);
     /* anchor 0: begins at x, 0.5: centred, 1: ends at x; y is the middle of the line */

@@ -46,22 +46,23 @@ static const struct {
     uint32_t rgb;
     int corners; /* 0: a disc */
     double turn; /* of the first corner from the right, turns clockwise */
-} looks[] = { { 0x0072b2, 0, 0 },    { 0xd55e00, 4, 0.125 }, { 0x009e73, 3, 0.75 },
-              { 0xcc79a7, 3, 0.25 }, { 0xb8a000, 6, 0.25 },  { 0xe69f00, 4, 0 },
-              { 0x56b4e9, 5, 0.75 } };
-_Static_assert(WR_LENGTH(looks) == WR_AXIS_COUNT + 1, "a mark for each axis and for combinations");
+} series_marks[] = { { 0x0072b2, 0, 0 },    { 0xd55e00, 4, 0.125 }, { 0x009e73, 3, 0.75 },
+                     { 0xcc79a7, 3, 0.25 }, { 0xb8a000, 6, 0.25 },  { 0xe69f00, 4, 0 },
+                     { 0x56b4e9, 5, 0.75 } };
+_Static_assert(WR_LENGTH(series_marks) == WR_AXIS_COUNT + 1,
+               "a mark for each axis and for combinations");
 
 static uint32_t colour_of(WrPlotInk ink)
 {
     static const uint32_t colours[WR_PLOT_SERIES] = {
         [WR_PLOT_GRID] = 0xdedede, [WR_PLOT_REFERENCE] = 0x707070, [WR_PLOT_FRONT] = 0x303030
     };
-    return ink < WR_PLOT_SERIES ? colours[ink] : looks[ink - WR_PLOT_SERIES].rgb;
+    return ink < WR_PLOT_SERIES ? colours[ink] : series_marks[ink - WR_PLOT_SERIES].rgb;
 }
 
 static void line(void *ctx, const WrPlotSpot *points, int count, double width, WrPlotInk ink)
 {
-    WrVectorDrawingPoint at[64];
+    WrVectorDrawingPoint at[WR_PLOT_LINE];
     for (int i = 0; i < count; i++)
         at[i] = (WrVectorDrawingPoint){ (float)points[i].x, (float)points[i].y };
     wr_vector_drawing_colour(ctx, ink == WR_PLOT_GRID ? 1 : width, colour_of(ink));
@@ -78,8 +79,8 @@ static WrPlotSpot around(WrPlotSpot middle, double radius, double turns)
 /* A polygon is its outline around the disc that fits into it. */
 static void mark(void *ctx, WrPlotSpot at, double radius, WrPlotInk ink)
 {
-    const int corners = looks[ink - WR_PLOT_SERIES].corners;
-    const double turn = looks[ink - WR_PLOT_SERIES].turn;
+    const int corners = series_marks[ink - WR_PLOT_SERIES].corners;
+    const double turn = series_marks[ink - WR_PLOT_SERIES].turn;
     const double inner = corners == 0 ? 1 : around((WrPlotSpot){ 0 }, 1, 0.5 / corners).x;
     WrPlotSpot outline[7];
     for (int i = 0; i <= corners; i++)

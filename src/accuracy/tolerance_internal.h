@@ -100,20 +100,13 @@ typedef struct Study {
 
 /* The scene with a pair's and a level's dials; the caller frees it. */
 WrScene *wr_study_scene(const Study *study, int pair, int level);
-/* Content of a block, by its pictures, and of the pixels next to it: NOTHING, OBJECT or both; also counts its
-   pixels covered in the first picture. */
-/* Renders the blocks of study->mask at a level with a pair. keep: stores their pictures of that level; else into
-   `out`, BLOCK_FLOATS for each of them in order, or, if that is NULL too, only into study->frame. */
 /* Climb: each wanted block is rendered at the next level, with its pair. */
 bool wr_study_climb(Study *study, const unsigned char *wanted, WrError *err);
 /* Measures the change by another pair, with one sample a pixel. */
 bool wr_study_formula(Study *study, int pair, WrError *err);
 /* Composes each block's picture at its pick, rendered if missing, in study->frame. */
 bool wr_study_compose(Study *study, WrError *err);
-/* Compares a block's pictures of a level and the one below: sets block->change and block->side of that level. */
 void wr_study_fini(Study *study);
-
-/* ---- tolerance_estimate.c ---- */
 
 /* After wr_study_begin: renders the second level with the best pair where necessary; sets all blocks' pictures
    and contents. */
@@ -127,8 +120,6 @@ bool wr_study_best_is_cheaper(const Study *study, const WrTolerance *tolerance);
 /* Then uses it: all blocks at the finest level, with the error estimated from its change. */
 bool wr_study_take_best(Study *study, WrError *err);
 
-/* ---- tolerance_estimate.c ---- */
-
 /* Error of a block at a level with a pair: squares summed over pixels and channels, and the largest. Above the
    block's own level it is predicted. */
 Change wr_study_off(const Study *study, const Block *block, int pair, int level);
@@ -139,30 +130,16 @@ void wr_study_learn(Study *study);
 /* Renders a few blocks of each pick at a much finer level: if their errors exceed the estimates, those of all of
    their kind are raised. *worse: the result may change picks. */
 bool wr_study_probe(Study *study, bool *worse, WrError *err);
-/* Factor that corrects predictions, with a safety margin, from the actual errors divided by the predicted ones,
-   each raised by a floor that adds up to half of all predictions. shares, squares: sum of the ratios, and of
-   their squares. */
 
 /* ---- tolerance_search.c ---- */
 
-/* Chooses the cheapest pair and level for each block that together meet the tolerance, by the current estimates;
-   for a time limit, in prices, the most accurate that it allows. free_pairs: blocks may change their pairs. */
 /* Cost of the picks, in prices, and their error. */
 double wr_study_cost(const Study *study);
-
-/* ---- tolerance_search.c ---- */
 
 /* Price of one sample: nanoseconds on the machine that the table was measured on; proportional elsewhere. */
 double wr_price_sample(const WrScene *scene, WrScheme scheme, WrBumpMode mode);
 /* Additional price of a frame of that many samples: passes over its pixels. */
 double wr_price_pass(int64_t pixels);
-
-/* ---- tolerance_search.c ---- */
-
-/* Seconds per price on this machine with that many threads: measured once and stored in a file, so that the same
-   time limit gives the same dials. The renderer's last picture is lost. */
-
-/* ---- tolerance_search.c ---- */
 
 /* Kinds of blocks for descriptions: outlines, and insides by the size of the change by 2 x 2 samples. A part's
    `kinds` has two bits for each. */

@@ -5,9 +5,10 @@
 #include <stdarg.h>
 #include <string.h>
 
-_Static_assert(sizeof(WrError) == WR_ERROR_TEXT + WR_ERROR_MESSAGE, "the text and its message");
+_Static_assert(sizeof(WrError) == WR_ERROR_TEXT + WR_ERROR_MESSAGE,
+               "a WrError holds text and message");
 
-/* The message is behind the NUL of the text, so that it is copied with it and WrError stays one string. */
+/* The message follows the NUL of the text, so that a copy of WrError has both and `text` stays a plain string. */
 static void store(WrError *err, const char *text, const char *message)
 {
     const size_t length = strlen(text);
@@ -47,7 +48,7 @@ const char *wr_error_message(const WrError *err)
     const size_t length = strlen(err->text), rest = sizeof err->text - 1 - length;
     const char *message = err->text + length + 1;
     char text[WR_ERROR_TEXT];
-    /* A text that was written or changed by others has no message. */
+    /* A text that other code wrote or changed has no message, or that of an older text. */
     if (rest == 0 || !message[0] || !memchr(message, '\0', rest)) return err->text;
     return strcmp(wr_message_print(message, NULL, text, sizeof text), err->text) == 0 ? message
                                                                                       : err->text;

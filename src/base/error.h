@@ -8,8 +8,8 @@
 extern "C" {
 #endif
 
-/* One English sentence: the failure, the value, the remedy. Owned by the caller; untouched on success. Behind the
-   sentence's NUL stands its message, the format and the values (base/message.h): read it by wr_error_message. */
+/* One English sentence: the failure, the value, the remedy. Owned by the caller; untouched on success. After the NUL
+   of the sentence follows the same as a message (base/message.h), which wr_error_message returns. */
 #define WR_ERROR_TEXT 512     /* bytes of the sentence, with its NUL */
 #define WR_ERROR_MESSAGE 1024 /* bytes of the message, with its NUL */
 typedef struct WrError {
@@ -23,9 +23,9 @@ typedef struct WrError {
  * err may be NULL. A message that is too long is cut at a whole UTF-8 character. */
 bool wr_fail(WrError *err, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* The format and the values, for translation (wr_message_print); the text if there are none, because the message was
-   too long or the text was written by other means. Valid as long as err is unchanged. As a value of %s of another error
-   it is nested: wr_fail(err, "%s: %s", path, wr_error_message(&inner)). */
+/* Returns the error as a message for translation (wr_message_print), or as plain text if the message was too long or
+   the text was not written by the functions of this header. Valid as long as err is unchanged. Errors are nested by %s:
+   wr_fail(err, "%s: %s", path, wr_error_message(&inner)). */
 const char *wr_error_message(const WrError *err);
 
 /* Inserts "prefix" before an existing message (file, line, command). */

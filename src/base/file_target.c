@@ -315,16 +315,16 @@ static const struct {
 
 const char *wr_file_why(int error, char text[WR_FILE_WHY])
 {
-    const char *said = strerror(error), *help = NULL;
+    const char *reason = strerror(error), *help = NULL;
     const uint64_t limit = wr_process_file_limit();
     for (size_t i = 0; i < sizeof helps / sizeof *helps; i++)
         if (helps[i].error == error) help = helps[i].help;
     if (error == EFBIG && limit != WR_LIMIT_NONE) {
-        snprintf(text, WR_FILE_WHY, "%s: at most %llu bytes are allowed here (ulimit -f)", said,
+        snprintf(text, WR_FILE_WHY, "%s: at most %llu bytes are allowed here (ulimit -f)", reason,
                  (unsigned long long)limit);
         return text;
     }
-    snprintf(text, WR_FILE_WHY, "%s%s%s", said, help ? ": " : "", help ? help : "");
+    snprintf(text, WR_FILE_WHY, "%s%s%s", reason, help ? ": " : "", help ? help : "");
     return text;
 }
 

@@ -9,54 +9,54 @@
 #define BEGIN '\2'
 #define NEXT '\37'
 #define END '\3'
-#define VALUES 16    /* of one format */
-#define DEEPEST 12   /* nested messages */
-#define FORMAT 512   /* bytes */
-#define LONGEST 4096 /* bytes of a message that is appended to a text */
-#define NUMBER 400   /* bytes: %f of the largest double has 316 */
-#define EXCERPT 1200 /* bytes of a value that is looked up, and of %.40s */
+#define VALUES 16    /* most values of a format */
+#define DEEPEST 12   /* most levels of nested messages */
+#define FORMAT 512   /* bytes of a format that is printed */
+#define LONGEST 4096 /* bytes of a message that wr_message_addf appends */
+#define NUMBER 400   /* bytes of a number: %f of the largest double has 316 */
+#define EXCERPT 1200 /* bytes of a value that is translated or has a width or precision */
 
 /* ---- bounded output ---- */
 
-typedef struct Sink {
+typedef struct Buffer {
     char *text;
     size_t size, length;
     bool full;
-} Sink;
+} Buffer;
 
-static Sink sink_of(char *text, size_t size)
+static Buffer buffer_of(char *text, size_t size)
 {
     if (size > 0) text[0] = '\0';
-    return (Sink){ text, size, 0, size == 0 };
+    return (Buffer){ text, size, 0, size == 0 };
 }
 
-static void put_bytes(Sink *sink, const char *text, size_t length)
+static void put_bytes(Buffer *buffer, const char *text, size_t length)
 {
-    if (sink->full) return;
-    const size_t room = sink->size - 1 - sink->length;
+    if (buffer->full) return;
+    const size_t room = buffer->size - 1 - buffer->length;
     if (length > room) {
-        sink->full = true;
+        buffer->full = true;
         length = room;
         for (int i = 0; i < 3 && length > 0 && ((unsigned char)text[length] & 0xC0) == 0x80; i++)
             length--;
     }
-    memcpy(sink->text + sink->length, text, length);
-    sink->length += length;
-    sink->text[sink->length] = '\0';
+    memcpy(buffer->text + buffer->length, text, length);
+    buffer->length += length;
+    buffer->text[buffer->length] = '\0';
 }
 
 static bool is_mark(char c)
 {
-    return c == BEGIN || c == NEXT || c == END;
+    return c != '\0' && strchr(WR_MESSAGE_MARKS, c);
 }
 
-/* Marks without a message are left out of plain text. */
-static void put(Sink *sink, const char *text, size_t length)
+/* Appends plain text: marks are left out. */
+static void put(Buffer *buffer, const char *text, size_t length)
 {
     for (const char *at = text, *end = text + length; at < end; at++) {
         const char *start = at;
         while (at < end && !is_mark(*at)) at++;
-        put_bytes(sink, start, (size_t)(at - start));
+        put_bytes(buffer, start, (size_t)(at - start));
     }
 }
 
@@ -66,8 +66,8 @@ static void put(Sink *sink, const char *text, size_t length)
 typedef struct Conversion {
     const char *start, *end;
     int place;            /* N, from 1; 0: the next value */
-    int width, precision; /* -1: none, -2: an argument */
-    bool left;            /* the flag - */
+    int width, precision; /* -1: none, -2: * (an argument) */
+    bool left;            /* flag "-" */
     char length;          /* h, l, q for ll, z, t, j, L; 0: none */
     char type;
 } Conversion;
@@ -121,7 +121,7 @@ static bool has_mark(Span text)
     return false;
 }
 
-/* True if every mark has its partner: the text may be a value. */
+/* True if every BEGIN has its END and no NEXT is outside of them: the text can be a value. */
 static bool is_whole(Span text)
 {
     int depth = 0;
@@ -133,13 +133,14 @@ static bool is_whole(Span text)
     return depth == 0;
 }
 
-/* The format and values of the message that begins at `at`; returns its end. */
+/* Reads the format and values of the message that begins at `at`; a cut message ends at `end`. Returns the end of the
+   message. */
 static const char *read_message(const char *at, const char *end, Span *format, Span values[VALUES],
                                 int *count)
 {
     const char *from = ++at;
     int depth = 0;
-    *count = -1; /* the format is read */
+    *count = -1; /* the format comes first */
     for (;; at++) {
         const bool over = at == end || (depth == 0 && *at == END);
         if (over || (depth == 0 && *at == NEXT)) {
@@ -154,20 +155,20 @@ static const char *read_message(const char *at, const char *end, Span *format, S
     }
 }
 
-static void print_span(Sink *sink, Span text, const WrMessageWords *words, int depth);
+static void print_span(Buffer *buffer, Span text, const WrMessageWords *words, int depth);
 
-static void print_value(Sink *sink, Span value, const WrMessageWords *words, int depth)
+static void print_value(Buffer *buffer, Span value, const WrMessageWords *words, int depth)
 {
     char whole[EXCERPT];
     if (words && value.length < sizeof whole && !has_mark(value)) {
         memcpy(whole, value.at, value.length);
         whole[value.length] = '\0';
-        const char *said = words->value(whole);
-        put(sink, said, strlen(said));
-    } else print_span(sink, value, words, depth + 1);
+        const char *translated = words->value(whole);
+        put(buffer, translated, strlen(translated));
+    } else print_span(buffer, value, words, depth + 1);
 }
 
-static void print_message(Sink *sink, Span format, const Span *values, int count,
+static void print_message(Buffer *buffer, Span format, const Span *values, int count,
                           const WrMessageWords *words, int depth)
 {
     char english[FORMAT];
@@ -177,52 +178,52 @@ static void print_message(Sink *sink, Span format, const Span *values, int count
     int next = 0;
     for (const char *at = words ? words->format(english) : english; *at;) {
         const size_t literal = strcspn(at, "%");
-        put(sink, at, literal);
+        put(buffer, at, literal);
         at += literal;
         if (!*at) return;
         const Conversion c = conversion_at(at);
         at = c.end;
         if (c.type == '%') {
-            put(sink, "%", 1);
+            put(buffer, "%", 1);
             continue;
         }
         const int i = c.place ? c.place - 1 : next++;
-        if (i >= count) put(sink, c.start, (size_t)(c.end - c.start));
-        else if (c.type != 's' || c.precision != 0) print_value(sink, values[i], words, depth);
+        if (i >= count) put(buffer, c.start, (size_t)(c.end - c.start));
+        else if (c.type != 's' || c.precision != 0) print_value(buffer, values[i], words, depth);
     }
 }
 
-static void print_span(Sink *sink, Span text, const WrMessageWords *words, int depth)
+static void print_span(Buffer *buffer, Span text, const WrMessageWords *words, int depth)
 {
     const char *at = text.at, *end = text.at + text.length;
     while (at < end && depth <= DEEPEST) {
         const char *plain = at;
         while (at < end && *at != BEGIN) at++;
-        put(sink, plain, (size_t)(at - plain));
+        put(buffer, plain, (size_t)(at - plain));
         if (at == end) return;
         Span format, values[VALUES];
         int count;
         at = read_message(at, end, &format, values, &count);
-        print_message(sink, format, values, count, words, depth);
+        print_message(buffer, format, values, count, words, depth);
     }
 }
 
 const char *wr_message_print(const char *message, const WrMessageWords *words, char *out,
                              size_t size)
 {
-    Sink sink = sink_of(out, size);
+    Buffer buffer = buffer_of(out, size);
     const Span whole = { message, strlen(message) };
-    if (has_mark(whole)) print_span(&sink, whole, words, 0);
-    else print_value(&sink, whole, words, 0);
+    if (has_mark(whole)) print_span(&buffer, whole, words, 0);
+    else print_value(&buffer, whole, words, 0);
     return out;
 }
 
 /* ---- writing a message ---- */
 
 typedef struct Writer {
-    Sink plain, marked;
-    bool bare; /* the format is %s: the message is the value */
-    bool lost; /* the message cannot be written */
+    Buffer plain, marked; /* the text and the message */
+    bool bare;            /* the format is "%s": the message is the value itself */
+    bool lost;            /* a value has unpaired marks: there is no message */
 } Writer;
 
 static void write_value(Writer *w, Span value)
@@ -233,7 +234,7 @@ static void write_value(Writer *w, Span value)
     put_bytes(&w->marked, value.at, value.length);
 }
 
-/* With a width or a precision: plain text, as its bytes beyond the precision must not be read. */
+/* Writes a %s that has a width or a precision. Its value is plain text: bytes beyond the precision must not be read. */
 static void write_limited(Writer *w, const Conversion *c, const char *text)
 {
     char value[EXCERPT];
@@ -241,11 +242,11 @@ static void write_limited(Writer *w, const Conversion *c, const char *text)
     size_t length = 0;
     while (length < limit && text[length]) length++;
     const size_t width = c->width < 0 ? 0 : (size_t)c->width;
-    Sink sink = sink_of(value, sizeof value);
-    if (c->left) put(&sink, text, length);
-    for (size_t i = length; i < width; i++) put(&sink, " ", 1);
-    if (!c->left) put(&sink, text, length);
-    write_value(w, (Span){ value, sink.length });
+    Buffer buffer = buffer_of(value, sizeof value);
+    if (c->left) put(&buffer, text, length);
+    for (size_t i = length; i < width; i++) put(&buffer, " ", 1);
+    if (!c->left) put(&buffer, text, length);
+    write_value(w, (Span){ value, buffer.length });
 }
 
 static void write_string(Writer *w, const Conversion *c, const char *text)
@@ -258,7 +259,7 @@ static void write_string(Writer *w, const Conversion *c, const char *text)
 /* The argument of a conversion. */
 typedef struct Argument {
     enum { WHOLE, REAL, STRING, POINTER, UNKNOWN } kind;
-    intmax_t whole; /* bits of an unsigned number, too */
+    intmax_t whole; /* the bits of a signed or unsigned number */
     double real;
     const void *pointer;
 } Argument;
@@ -289,7 +290,7 @@ static intmax_t next_unsigned(char length, va_list *args)
 
 static Argument next_argument(const Conversion *c, va_list *args)
 {
-    const bool narrow = c->length == 'h'; /* printf converts the argument: rare, not done here */
+    const bool narrow = c->length == 'h'; /* needs a conversion to short or char: not handled */
     if (c->type && strchr("di", c->type) && !narrow)
         return (Argument){ .kind = WHOLE, .whole = next_signed(c->length, args) };
     if (c->type && strchr("uoxX", c->type) && !narrow)
@@ -304,15 +305,16 @@ static Argument next_argument(const Conversion *c, va_list *args)
     return (Argument){ .kind = UNKNOWN };
 }
 
-/* A number or pointer, by the C library: %, the flags, * for width and precision, the length j and the type. */
+/* Writes a number, character or pointer. snprintf formats numbers: the format is rebuilt of %, the flags,
+   * for width and precision, the length j and the type. */
 static void write_number(Writer *w, const Conversion *c, const Argument *a)
 {
     char text[NUMBER], format[32] = "%";
     size_t n = 1;
     for (const char *at = c->start + 1; *at && strchr("-+ #0'", *at) && n < 8; at++)
         format[n++] = *at;
-    const bool wide = a->kind == WHOLE && c->type != 'c';
-    snprintf(format + n, sizeof format - n, "*.*%s%c", wide ? "j" : "", c->type);
+    const bool integer = a->kind == WHOLE && c->type != 'c';
+    snprintf(format + n, sizeof format - n, "*.*%s%c", integer ? "j" : "", c->type);
     const int width = c->width < 0 ? 0 : c->width, precision = c->precision;
     int length = -1;
 #pragma GCC diagnostic push
@@ -321,14 +323,14 @@ static void write_number(Writer *w, const Conversion *c, const Argument *a)
         text[0] = (char)a->whole;
         length = 1;
     } else if (c->type == 'p') length = snprintf(text, sizeof text, "%p", a->pointer);
-    else if (wide) length = snprintf(text, sizeof text, format, width, precision, a->whole);
+    else if (integer) length = snprintf(text, sizeof text, format, width, precision, a->whole);
     else length = snprintf(text, sizeof text, format, width, precision, a->real);
 #pragma GCC diagnostic pop
     const size_t most = sizeof text - 1;
     write_value(w, (Span){ text, length < 0 ? 0 : (size_t)length < most ? (size_t)length : most });
 }
 
-/* Width or precision of *; a negative width means the flag -, a negative precision none. */
+/* Reads the arguments of *. A negative width sets the flag -, a negative precision means none. */
 static void read_stars(Conversion *c, va_list *args)
 {
     if (c->width == -2) {
@@ -340,7 +342,7 @@ static void read_stars(Conversion *c, va_list *args)
     if (c->precision < 0) c->precision = -1;
 }
 
-/* False at a conversion that is not handled. */
+/* Writes text and message. Returns false at a conversion that is not handled. */
 static bool write_all(Writer *w, const char *format, va_list *args)
 {
     for (const char *at = format; *at;) {
@@ -366,7 +368,7 @@ static bool write_all(Writer *w, const char *format, va_list *args)
 void wr_message_format(char *plain, size_t plain_size, char *out, size_t out_size,
                        const char *format, va_list args)
 {
-    Writer w = { sink_of(plain, plain_size), sink_of(out, out_size),
+    Writer w = { buffer_of(plain, plain_size), buffer_of(out, out_size),
                  .bare = strcmp(format, "%s") == 0 };
     va_list copy;
     va_copy(copy, args);

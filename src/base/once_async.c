@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define LOOK_MS 20 /* interval between cancellation checks of a waiting thread */
+#define CHECK_MS 20 /* interval between cancellation checks of a waiting thread */
 
 /* State of the process: number of initialisations that are running. */
 static WrMutex lock = WR_MUTEX_READY;
@@ -34,55 +34,55 @@ void wr_once_async_watch_end(void)
 }
 
 /* Called with the lock held; releases it during the work. */
-static void work_here(WrOnceAsync *aside)
+static void work_here(WrOnceAsync *once)
 {
     WrError why = { "" };
     wr_mutex_unlock(&lock);
-    bool good = aside->work(aside->ctx, &why);
+    bool good = once->work(once->ctx, &why);
     wr_mutex_lock(&lock);
-    aside->why = why;
-    aside->done = good;
-    aside->busy = false;
+    once->why = why;
+    once->done = good;
+    once->busy = false;
     under_way--;
     wr_cond_wake_all(&changed);
 }
 
-static void *thread_main(void *aside)
+static void *thread_main(void *once)
 {
     wr_mutex_lock(&lock);
-    work_here(aside);
+    work_here(once);
     wr_mutex_unlock(&lock);
     return NULL;
 }
 
 /* Called with the lock held. Signals are handled by the existing threads only. here: run on this
  * thread, which is also the fallback if no thread can be started. */
-static void begin(WrOnceAsync *aside, bool here)
+static void begin(WrOnceAsync *once, bool here)
 {
-    if (aside->done || aside->busy) return;
-    aside->busy = true;
+    if (once->done || once->busy) return;
+    once->busy = true;
     under_way++;
-    if (here || !wr_thread_begin_aside(thread_main, aside)) work_here(aside);
+    if (here || !wr_thread_begin_detached(thread_main, once)) work_here(once);
 }
 
-void wr_once_async_begin(WrOnceAsync *aside)
+void wr_once_async_begin(WrOnceAsync *once)
 {
     wr_once_async_watch_end();
     wr_mutex_lock(&lock);
-    begin(aside, false);
+    begin(once, false);
     wr_mutex_unlock(&lock);
 }
 
-bool wr_once_async_wait(WrOnceAsync *aside, WrError *err)
+bool wr_once_async_wait(WrOnceAsync *once, WrError *err)
 {
     bool stopped = false;
     wr_once_async_watch_end();
     wr_mutex_lock(&lock);
-    begin(aside, wr_progress_here() == NULL);
-    while (aside->busy && !(stopped = wr_progress_stopped()))
-        wr_cond_wait_ms(&changed, &lock, LOOK_MS);
-    bool done = aside->done;
-    if (!done) wr_fail(err, "%s", stopped ? "cancelled" : wr_error_message(&aside->why));
+    begin(once, wr_progress_here() == NULL);
+    while (once->busy && !(stopped = wr_progress_stopped()))
+        wr_cond_wait_ms(&changed, &lock, CHECK_MS);
+    bool done = once->done;
+    if (!done) wr_fail(err, "%s", stopped ? "cancelled" : wr_error_message(&once->why));
     wr_mutex_unlock(&lock);
     return done;
 }

@@ -21,10 +21,10 @@ typedef struct WrOnceAsync {
  *
  * Errors   those of the work, or "cancelled"
  * Threads  any; results of the work are visible after this returned true */
-bool wr_once_async_wait(WrOnceAsync *aside, WrError *err);
+bool wr_once_async_wait(WrOnceAsync *once, WrError *err);
 
 /* Starts the work in advance, unless it is running or done, and returns at once. */
-void wr_once_async_begin(WrOnceAsync *aside);
+void wr_once_async_begin(WrOnceAsync *once);
 
 /* Lets the process exit without waiting for running work; exit handlers that were registered before
  * this call (it may be called several times) are then skipped. The two functions above call it. */

@@ -1,7 +1,7 @@
 #include "base/progress.h"
 
 static _Thread_local const WrProgress *here;
-static _Thread_local int64_t looks;
+static _Thread_local int64_t checks;
 
 bool wr_cancel_asked(const volatile int *cancel)
 {
@@ -34,18 +34,18 @@ const WrProgress *wr_progress_set(const WrProgress *progress)
 
 int64_t wr_progress_checks(void)
 {
-    return looks;
+    return checks;
 }
 
 bool wr_progress_stopped(void)
 {
-    looks++;
+    checks++;
     return wr_progress_cancelled(here);
 }
 
 bool wr_progress_report(double fraction)
 {
-    looks++;
+    checks++;
     return wr_progress_step(here, fraction);
 }
 

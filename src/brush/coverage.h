@@ -57,7 +57,6 @@ typedef struct WrStrokeResolve {
     float *out, *mark;                  /* of the tile; for wr_stroke_resolve */
 } WrStrokeResolve;
 
-/* True if nothing is selected in that tile. */
 /* True if any texel of it may change, judging by coverage and selection. */
 bool wr_stroke_resolve_needed(const WrMaker *maker, const WrStrokeResolve *make);
 /* Opens the tile for writing: sets out and mark. Not for several threads at once. */

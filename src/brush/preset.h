@@ -28,8 +28,6 @@ typedef struct WrTip WrTip;
 
 #define WR_PRESET_BYTES 1048576 /* maximum bytes of a file */
 
-/* Immutable, shared by reference count (atomic). */
-
 /* size: at most WR_PRESET_BYTES. name: the preset's name. folder: of its tip; NULL: a tip is an error. */
 WrPreset *wr_preset_parse(const char *text, size_t size, const char *name, const char *folder,
                           WrError *err);

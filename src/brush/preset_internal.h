@@ -32,8 +32,6 @@ struct WrPreset {
     int skipped; /* unknown settings and inputs, and values limited to their range */
 };
 
-/* A preset with every setting at its fallback, and the library's default curve: opacity by pressure. */
-/* The curve of a setting and an input, NULL if none. */
 /* The largest value of a setting with its curves. */
 double wr_preset_peak(const WrPreset *preset, int setting);
 /* True if it uses a random input, or settings that are random themselves. */

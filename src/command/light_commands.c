@@ -137,19 +137,21 @@ static void print_environment_content(const WrScene *scene, WrText *text)
     print_environment_line(scene, !*scene->environment.sha256, text);
 }
 
-static void note_told(WrSession *session, const char *name, const WrEnvironmentMapTold *told)
+static void note_changes(WrSession *session, const char *name,
+                         const WrEnvironmentMapChanges *changes)
 {
-    if (told->lost)
+    if (changes->not_numbers)
         wr_session_note(session, "%s: %lld numbers that are none became 0", name,
-                        (long long)told->lost);
-    if (told->below)
-        wr_session_note(session, "%s: %lld numbers below 0 became 0", name, (long long)told->below);
-    if (told->above)
+                        (long long)changes->not_numbers);
+    if (changes->negative)
+        wr_session_note(session, "%s: %lld numbers below 0 became 0", name,
+                        (long long)changes->negative);
+    if (changes->too_large)
         wr_session_note(session, "%s: %lld numbers beyond 1e9 became 1e9", name,
-                        (long long)told->above);
-    if (told->reduced > 1)
+                        (long long)changes->too_large);
+    if (changes->reduced > 1)
         wr_session_note(session, "%s: more than %d texels wide: each is the mean of %d x %d", name,
-                        WR_ENVIRONMENT_MAP_WIDTH, told->reduced, told->reduced);
+                        WR_ENVIRONMENT_MAP_WIDTH, changes->reduced, changes->reduced);
 }
 
 /* While a document loads, its embedded picture, else the file's. The caller frees it. */
@@ -173,12 +175,12 @@ static WrImage *find_picture(WrSession *session, WrCall *call, const char *name,
 
 static WrEnvironmentMap *read_file(WrSession *session, WrCall *call, const char *name, WrError *err)
 {
-    WrEnvironmentMapTold told;
+    WrEnvironmentMapChanges changes;
     WrImage *image = find_picture(session, call, name, err);
     if (!image) return NULL;
-    WrEnvironmentMap *light = wr_environment_map_new(image, &told, err);
+    WrEnvironmentMap *light = wr_environment_map_new(image, &changes, err);
     wr_image_free(image);
-    if (light) note_told(session, name, &told);
+    if (light) note_changes(session, name, &changes);
     return light;
 }
 

@@ -93,13 +93,12 @@ typedef struct WrDerivatives WrDerivatives;
 WrDerivatives wr_export_ground(const WrExportJob *job, const WrField *field);
 /* Stores the smallest and largest number of the map in the report. */
 void wr_export_map_range(WrExportJob *job, const char *quantity);
-/* Codes of a map with 0 in the middle, from -full to full. */
 /* Codes of a map's numbers from low to high. */
 void wr_export_codes(WrExportJob *job, double low, double high);
 void wr_export_map_rows(WrExportJob *job, int y, int rows, void *out);
 void wr_export_map_describe(WrExportJob *job);
 
-/* maps.c, maps.c */
+/* maps.c */
 bool wr_export_occlusion_make(WrExportJob *job, WrError *err);
 bool wr_export_horizon_make(WrExportJob *job, WrError *err);
 int wr_export_horizon_channels(const WrExportJob *job, char (*names)[WR_EXPORT_NAME]);

@@ -137,31 +137,32 @@ static void sweep(const WrSkySweep *given, double scale, float *restrict slope)
 #else
 /* Horizon candidate of each lane of row s: the row, its height difference, and the row that may be
  * visible behind it (with its height in the lower half). */
-typedef struct Sight {
+typedef struct Candidate {
     int32_t at[LANES];
     double rise[LANES];
     int64_t next[LANES];
-} Sight;
+} Candidate;
 
 /* Compares the slope to the point in `seen` with that to lane l's candidate; if it is steeper, it
  * becomes the candidate. */
 #define STEEPER(l)                                                                                 \
-    const int32_t c = sight->at[l], n = (int32_t)(seen >> 32);                                     \
+    const int32_t c = candidate->at[l], n = (int32_t)(seen >> 32);                                 \
     const double farther = (double)((int32_t)seen - low[l]);                                       \
-    const int go = farther * (double)(sign * (c - s)) > sight->rise[l] * (double)(sign * (n - s)); \
-    sight->at[l] = go ? n : c;                                                                     \
-    sight->rise[l] = go ? farther : sight->rise[l]
+    const int go =                                                                                 \
+        farther * (double)(sign * (c - s)) > candidate->rise[l] * (double)(sign * (n - s));        \
+    candidate->at[l] = go ? n : c;                                                                 \
+    candidate->rise[l] = go ? farther : candidate->rise[l]
 
 /* One step of the active lanes; true if any lane advanced. `next` is undefined in lanes that have
  * stopped. */
 ALWAYS bool step_on(const int32_t *restrict low, const int64_t *restrict memory, int32_t s,
-                    int32_t sign, Sight *restrict sight, int32_t *restrict on)
+                    int32_t sign, Candidate *restrict candidate, int32_t *restrict on)
 {
 #pragma omp simd
     for (int l = 0; l < LANES; l++) {
-        const int64_t seen = on[l] ? memory[sight->at[l] * LANES + l] : sight->next[l];
+        const int64_t seen = on[l] ? memory[candidate->at[l] * LANES + l] : candidate->next[l];
         STEEPER(l);
-        sight->next[l] = seen;
+        candidate->next[l] = seen;
         on[l] &= go;
     }
     return any(on);
@@ -170,70 +171,72 @@ ALWAYS bool step_on(const int32_t *restrict low, const int64_t *restrict memory,
 /* The first two steps, whose data is known from the previous row: its final candidate, and the row
  * visible behind that. */
 ALWAYS bool step_known(const int32_t *restrict low, const int64_t *restrict last, int32_t s,
-                       int32_t sign, Sight *restrict sight, int32_t *restrict on)
+                       int32_t sign, Candidate *restrict candidate, int32_t *restrict on)
 {
     int32_t went[LANES];
 #pragma omp simd
     for (int l = 0; l < LANES; l++) {
         const int64_t seen = last[l];
         STEEPER(l);
-        sight->next[l] = go ? sight->next[l] : seen;
+        candidate->next[l] = go ? candidate->next[l] : seen;
         went[l] = go;
     }
     if (!any(went)) return false;
 #pragma omp simd
     for (int l = 0; l < LANES; l++) {
-        const int64_t seen = sight->next[l];
+        const int64_t seen = candidate->next[l];
         STEEPER(l);
         on[l] = went[l] & go;
     }
     return any(on);
 }
 
-ALWAYS void note(const int32_t *restrict low, const Sight *restrict sight, int64_t *restrict seen)
+ALWAYS void note(const int32_t *restrict low, const Candidate *restrict candidate,
+                 int64_t *restrict seen)
 {
 #pragma omp simd
     for (int l = 0; l < LANES; l++) {
-        seen[l] = (int64_t)sight->at[l] << 32 | (uint32_t)(low[l] + (int32_t)sight->rise[l]);
+        seen[l] =
+            (int64_t)candidate->at[l] << 32 | (uint32_t)(low[l] + (int32_t)candidate->rise[l]);
     }
 }
 
-ALWAYS void put_slopes(const Sight *restrict sight, int32_t s, int32_t sign, float scale,
+ALWAYS void put_slopes(const Candidate *restrict candidate, int32_t s, int32_t sign, float scale,
                        float *restrict slope)
 {
 #pragma omp simd
     for (int l = 0; l < LANES; l++) {
-        const int32_t away = sign * (sight->at[l] - s);
-        const float best = scale * ((float)(int32_t)sight->rise[l] / (float)(away ? away : 1));
+        const int32_t away = sign * (candidate->at[l] - s);
+        const float best = scale * ((float)(int32_t)candidate->rise[l] / (float)(away ? away : 1));
         slope[l] = best > 0 ? best : 0;
     }
 }
 
 /* Processes row rows[i]; `last` of the previous row is known. */
-ALWAYS void sweep_row(const WrSkySweep *w, int i, int32_t sign, float scale, Sight *restrict sight,
-                      float *restrict slope)
+ALWAYS void sweep_row(const WrSkySweep *w, int i, int32_t sign, float scale,
+                      Candidate *restrict candidate, float *restrict slope)
 {
     const int32_t s = w->rows[i], first = w->rows[i > 0 ? i - 1 : 0];
     const int32_t *low = w->h + s * LANES, *high = w->h + first * LANES;
     int32_t on[LANES];
     for (int l = 0; l < LANES; l++)
-        sight->at[l] = first, sight->rise[l] = (double)(high[l] - low[l]);
+        candidate->at[l] = first, candidate->rise[l] = (double)(high[l] - low[l]);
     if (i == 0) {
-        for (int l = 0; l < LANES; l++) sight->next[l] = (int64_t)s << 32 | (uint32_t)low[l];
-    } else if (step_known(low, w->seen + first * LANES, s, sign, sight, on)) {
-        while (step_on(low, w->seen, s, sign, sight, on)) {
+        for (int l = 0; l < LANES; l++) candidate->next[l] = (int64_t)s << 32 | (uint32_t)low[l];
+    } else if (step_known(low, w->seen + first * LANES, s, sign, candidate, on)) {
+        while (step_on(low, w->seen, s, sign, candidate, on)) {
         }
     }
-    note(low, sight, w->seen + s * LANES);
-    if (i >= w->from) put_slopes(sight, s, sign, scale, slope + s * LANES);
+    note(low, candidate, w->seen + s * LANES);
+    if (i >= w->from) put_slopes(candidate, s, sign, scale, slope + s * LANES);
 }
 
 static void sweep(const WrSkySweep *given, double scale, float *restrict slope)
 {
     const WrSkySweep w = *given;
     const int32_t sign = w.rows[0] > w.rows[w.count - 1] ? 1 : -1;
-    Sight sight;
-    for (int i = 0; i < w.count; i++) sweep_row(&w, i, sign, (float)scale, &sight, slope);
+    Candidate candidate;
+    for (int i = 0; i < w.count; i++) sweep_row(&w, i, sign, (float)scale, &candidate, slope);
 }
 #undef STEEPER
 

@@ -187,11 +187,10 @@ WrField *wr_op_clamp(WrOpJob *job, const double *param)
     return run_tone(job, &tone);
 }
 
-/* ---- noise and displacement by noise ---- */
+/* ---- tiling noise, added to heights or displacing them ---- */
 
-/* Operations with tiling noise: heights with noise added, and heights displaced sideways by noise. The
-   effect on a texel depends on its position in the table, so a rolled table does not give the rolled
-   result.
+/* The effect on a texel depends on its position in the table: the result of a rolled table is not the
+   rolled result.
 
    Warp: out(p) = in(p + amount w(p)), w the two noises divided by their bound, so that no height moves
    by more than `amount` texels along an axis. Between texels, Catmull-Rom (or bilinear) interpolation
@@ -233,7 +232,7 @@ static WrNoiseGrid grid_of(const WrOpJob *job, WrOpBlock b)
                           .count_j = b.count_j };
 }
 
-/* ---- noise ---- */
+/* ---- added noise ---- */
 
 typedef struct Added {
     WrOctavesPlan plan;

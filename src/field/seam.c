@@ -278,13 +278,13 @@ void wr_seam_text(const WrSeamEdge *edge, WrText *text)
                  names[k], edge->across[k], edge->inside[k], edge->ratio[k]);
 }
 
-/* ---- the certificate ---- */
+/* ---- seam continuity: constants ---- */
 
 /* ratio of Catmull-Rom's largest jump between texel centres to that at the centres; see seam.h */
 #define CATMULL_BETWEEN 1.25
-#define FORMULA_LOOKS 1024 /* samples along an edge */
+#define FORMULA_SAMPLES 1024 /* samples along an edge */
 
-/* ---- a table ---- */
+/* ---- seam continuity of a table ---- */
 
 /* The texels about one edge of one axis: `count` lines along it, 4 taps each in a piece. */
 typedef struct Strip {
@@ -439,7 +439,7 @@ WrCertificate wr_certificate_table(const WrField *field, WrScheme scheme, const 
                             wr_seam_measure(field, seam) };
 }
 
-/* ---- a formula ---- */
+/* ---- seam continuity of a formula ---- */
 
 /* The k-th derivative of x^n: its value at 1 minus its value at 0. */
 static double rise(int n, int k)
@@ -461,12 +461,12 @@ static WrCertificateEdge certify_polynomial(const WrAnalytic *analytic, bool in_
 {
     WrCertificateEdge edge = { .ends = false };
     double jump[3] = { 0 }, most = 0.0;
-    for (int l = 0; l <= FORMULA_LOOKS; l++) {
+    for (int l = 0; l <= FORMULA_SAMPLES; l++) {
         double sum[3] = { 0 };
         for (int t = 0; t < analytic->count; t++) {
             const WrAnalyticTerm *term = &analytic->terms[t];
             const int across = in_u ? term->i : term->j, along = in_u ? term->j : term->i;
-            const double value = term->a * power(l * (1.0 / FORMULA_LOOKS), along);
+            const double value = term->a * power(l * (1.0 / FORMULA_SAMPLES), along);
             for (int k = 0; k < 3; k++) sum[k] += value * rise(across, k);
             most = fmax(most, fabs(value));
         }
@@ -489,7 +489,7 @@ WrCertificate wr_certificate_formula(const WrAnalytic *analytic)
     return out;
 }
 
-/* ---- text ---- */
+/* ---- seam continuity as text ---- */
 
 static int lower(int a, int b)
 {

@@ -56,7 +56,6 @@ void wr_zsolid_set_bounds(WrZSolid *solid);
 typedef struct WrZRect {
     double x0, y0, x1, y1; /* texels, closed */
 } WrZRect;
-/* True for a flat torus that is not thin, for which single texels can be selected. */
 /* Squared distances from its axis at which such a torus may change each texel of a square. Valid for
    all of the same height and radii. */
 typedef struct WrZBand {

@@ -589,14 +589,14 @@ static double sun(WrVec3 d)
 /* An environment of w x h texels; owned by the caller. */
 static WrEnvironmentMap *around(int w, int h, Sky *sky, WrError *err)
 {
-    WrEnvironmentMapTold told;
+    WrEnvironmentMapChanges replaced;
     WrImage *image = wr_image_new(w, h, 1, err);
     if (!image) return NULL;
     image->type = WR_PIXEL_F32;
     for (int i = 0; i < w * h; i++)
         image->data[i] =
             (float)sky(wr_environment_map_direction((i % w + 0.5) / w, 1 - (i / w + 0.5) / h));
-    WrEnvironmentMap *made = wr_environment_map_new(image, &told, err);
+    WrEnvironmentMap *made = wr_environment_map_new(image, &replaced, err);
     wr_image_free(image);
     return made;
 }
@@ -725,14 +725,14 @@ static bool hc113(WrHardGauge *g, WrError *err)
 static bool hc114(WrHardGauge *g, WrError *err)
 {
     static const float strange[] = { NAN, -NAN, INFINITY, -INFINITY, 3e38f, -1, -0.0f, 0.5f };
-    WrEnvironmentMapTold told;
+    WrEnvironmentMapChanges replaced;
     WrImage *image = wr_image_new(8, 4, 3, err);
     if (!image) return false;
     image->type = WR_PIXEL_F32;
     for (int i = 0; i < 8 * 4 * 3; i++) image->data[i] = strange[i * 5 / 3 % 8];
     WrEnvLookup m = { 0 };
     const WrEnvironmentBrdf wide = { .lobe = WR_LOBE_FACETS, .alpha = 0.3, .gated = true };
-    WrEnvironmentMap *from = wr_environment_map_new(image, &told, err);
+    WrEnvironmentMap *from = wr_environment_map_new(image, &replaced, err);
     wr_image_free(image);
     const bool good = from && wr_env_lookup_update(&m, from, &wide, 16, g->pool, err);
     for (int i = 0; i < 40 && good; i++) {
@@ -746,7 +746,9 @@ static bool hc114(WrHardGauge *g, WrError *err)
             wr_hard_holds(g, WR_HARD_FLOAT, diffuse >= 0 && diffuse <= 1.01e9);
         }
     }
-    if (good) wr_hard_holds(g, WR_HARD_DOUBLE, told.lost > 0 && told.below > 0 && told.above > 0);
+    if (good)
+        wr_hard_holds(g, WR_HARD_DOUBLE,
+                      replaced.not_numbers > 0 && replaced.negative > 0 && replaced.too_large > 0);
     wr_env_lookup_drop(&m);
     wr_environment_map_free(from);
     return good;

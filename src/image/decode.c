@@ -21,9 +21,7 @@ typedef struct WrPlain WrPlain;
 /* NULL is allowed */
 static void plain_close(WrPlain *plain);
 
-/* ---- simple formats ---- */
-
-/* ---- an open file ---- */
+/* ---- simple formats: an open file ---- */
 
 typedef enum Coding { CODES_8, CODES_16, METRES, DECODED } Coding; /* 16 bits: big-endian */
 
@@ -88,7 +86,7 @@ static bool truncated(WrError *err)
                    "cannot be opened, truncated or damaged (it is shorter than its header says)");
 }
 
-/* ---- PNM ---- */
+/* ---- simple formats: PNM ---- */
 
 /* "P5", width, height, the largest code, one white space; comments from # to the line's end. */
 

@@ -151,9 +151,7 @@ bool wr_gltf_pack(const char *path, WrText *out, bool *packed, WrError *err)
     return good;
 }
 
-/* ---- materials ---- */
-
-/* ---- the file ---- */
+/* ---- materials: the file ---- */
 
 typedef struct Gltf {
     const char *path;

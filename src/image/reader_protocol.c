@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#define LOOK_MS 20 /* interval between cancellation checks */
+#define CHECK_MS 20 /* interval between cancellation checks */
 
 bool wr_wire_send(int channel, WrWireKind kind, const void *bytes, size_t length, int fd)
 {
@@ -20,7 +20,7 @@ bool wr_wire_send(int channel, WrWireKind kind, const void *bytes, size_t length
 static WrWireGot wait_for(int channel, double deadline)
 {
     for (;;) {
-        int timeout = wr_progress_here() ? LOOK_MS : -1;
+        int timeout = wr_progress_here() ? CHECK_MS : -1;
         if (wr_progress_stopped()) return WR_WIRE_GONE;
         if (deadline > 0.0) {
             double left = deadline - wr_clock_seconds();

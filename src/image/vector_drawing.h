@@ -12,23 +12,25 @@ typedef struct WrVectorDrawingPoint {
 
 typedef struct WrVectorDrawing WrVectorDrawing;
 
-/* Creates a drawing of width x height pixels: vectors if `path` ends in svg or pdf, else a picture, whose format
-   must support 8 bits of as many channels: 1, grey, or 3, colours. NULL and an error otherwise, or without memory.
-   The caller owns it. */
+/* Creates a drawing of width x height pixels: vectors if `path` ends in svg or pdf, else a picture.
+   channels: 1 for grey, 3 for colours. NULL and an error if the picture format does not support 8 bits of that many
+   channels, or if memory is exhausted. The caller owns the drawing. */
 WrVectorDrawing *wr_vector_drawing_new(const char *path, int width, int height, int channels,
                                        WrError *err);
-void wr_vector_drawing_free(WrVectorDrawing *ink); /* NULL is fine */
+void wr_vector_drawing_free(WrVectorDrawing *drawing); /* NULL is allowed */
 
-/* Sets width, pixels, and darkness 0..1 of the following lines. */
-void wr_vector_drawing_pen(WrVectorDrawing *ink, double breadth, double darkness);
-/* The same with a colour, sRGB 0xrrggbb, for drawings of 3 channels. */
-void wr_vector_drawing_colour(WrVectorDrawing *ink, double breadth, uint32_t rgb);
+/* Sets the width (pixels) and the darkness (0 white .. 1 black, linear) of the lines and texts that follow. */
+void wr_vector_drawing_pen(WrVectorDrawing *drawing, double pen_width, double darkness);
+/* Sets the width (pixels) and the colour (sRGB 0xrrggbb) of the lines and texts that follow. Drawings of 3
+   channels only. */
+void wr_vector_drawing_colour(WrVectorDrawing *drawing, double pen_width, uint32_t rgb);
 /* Draws a line with round ends through count >= 1 points; two equal points are a disc. */
-void wr_vector_drawing_line(WrVectorDrawing *ink, const WrVectorDrawingPoint *points, int count);
-/* Draws text of that size (em, pixels) with the baseline at y; anchor 0 begins at x, 1 ends there. Black in an SVG
-   file. Pictures omit text if no font is installed. */
-void wr_vector_drawing_word(WrVectorDrawing *ink, const char *word, double x, double y, double size,
-                            double anchor);
+void wr_vector_drawing_line(WrVectorDrawing *drawing, const WrVectorDrawingPoint *points,
+                            int count);
+/* Draws text with its baseline at y. size: em in pixels. anchor: 0 begins at x, 0.5 is centred, 1 ends at x. Text in an
+   SVG file is black. Pictures omit text if no font is installed. */
+void wr_vector_drawing_word(WrVectorDrawing *drawing, const char *word, double x, double y,
+                            double size, double anchor);
 
 /* Writes the file atomically. */
-bool wr_vector_drawing_write(WrVectorDrawing *ink, WrError *err);
+bool wr_vector_drawing_write(WrVectorDrawing *drawing, WrError *err);

@@ -235,12 +235,12 @@ static void fill_orders(Blur *b, const WrEnvironmentBrdf *gloss)
     while (b->orders > 1 && fabs(b->order[b->orders - 1]) < NOTHING) b->orders--;
 }
 
-bool wr_environment_map_blur(const WrEnvironmentMap *surround, const WrEnvironmentBrdf *gloss,
-                             int width, WrPool *pool, float *out, WrError *err)
+bool wr_environment_map_blur(const WrEnvironmentMap *map, const WrEnvironmentBrdf *gloss, int width,
+                             WrPool *pool, float *out, WrError *err)
 {
     const size_t h = (size_t)width / 2;
-    Blur b = { .from = surround, .width = width, .height = width / 2, .out = out };
-    b.places = least_texels(surround->image->width, width);
+    Blur b = { .from = map, .width = width, .height = width / 2, .out = out };
+    b.places = least_texels(map->image->width, width);
     b.sine = wr_alloc(4 * h, sizeof *b.sine);
     b.cosine = b.sine + h, b.weight = b.cosine + h, b.order = b.weight + h;
     fill_rows(&b);

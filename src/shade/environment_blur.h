@@ -17,7 +17,7 @@ typedef struct WrPool WrPool;
 int wr_blur_width(const WrEnvironmentBrdf *gloss, double fine);
 /* out: [width / 2][width][3], nowhere negative. A constant colour is preserved. Errors: out of memory,
  * cancelled. */
-bool wr_environment_map_blur(const WrEnvironmentMap *surround, const WrEnvironmentBrdf *gloss,
-                             int width, WrPool *pool, float *out, WrError *err);
+bool wr_environment_map_blur(const WrEnvironmentMap *map, const WrEnvironmentBrdf *gloss, int width,
+                             WrPool *pool, float *out, WrError *err);
 /* Factors of the lobe for harmonics of order 0 .. count - 1; the first is 1. */
 void wr_blur_orders(const WrEnvironmentBrdf *gloss, int count, double *out);

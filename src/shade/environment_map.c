@@ -17,18 +17,18 @@ const char *const wr_environment_map_labels[WR_ENVIRONMENT_MAP_KINDS] = {
     "None", WR_ENVIRONMENT_SETS(LABEL) "A picture \xe2\x80\xa6"
 };
 
-WrEnvironmentMap *wr_environment_map_share(const WrEnvironmentMap *surround)
+WrEnvironmentMap *wr_environment_map_share(const WrEnvironmentMap *map)
 {
-    WrEnvironmentMap *shared = (WrEnvironmentMap *)surround; /* only the reference count changes */
+    WrEnvironmentMap *shared = (WrEnvironmentMap *)map; /* only the reference count changes */
     if (shared) __atomic_fetch_add(&shared->refs, 1, __ATOMIC_RELAXED);
     return shared;
 }
 
-void wr_environment_map_free(WrEnvironmentMap *surround)
+void wr_environment_map_free(WrEnvironmentMap *map)
 {
-    if (!surround || __atomic_sub_fetch(&surround->refs, 1, __ATOMIC_ACQ_REL) > 0) return;
-    wr_image_free(surround->image);
-    wr_free(surround);
+    if (!map || __atomic_sub_fetch(&map->refs, 1, __ATOMIC_ACQ_REL) > 0) return;
+    wr_image_free(map->image);
+    wr_free(map);
 }
 
 /* ---- directions ---- */
@@ -220,11 +220,11 @@ static double turned(const double a[9], const double q[9], int r, int s)
     return sum;
 }
 
-void wr_environment_map_form(const WrEnvironmentMap *surround, const double a[9], double strength,
+void wr_environment_map_form(const WrEnvironmentMap *map, const double a[9], double strength,
                              int order, double out[3][WR_FORM_TERMS])
 {
     double l[WR_HARMONICS][3] = { { 0 } };
-    memcpy(l, surround->harmonic, (size_t)((order + 1) * (order + 1)) * sizeof *l);
+    memcpy(l, map->harmonic, (size_t)((order + 1) * (order + 1)) * sizeof *l);
     for (int c = 0; c < 3; c++) {
         double k, b[3], q[9], *f = out[c];
         world_form(l, c, &k, b, q);
@@ -240,23 +240,24 @@ void wr_environment_map_form(const WrEnvironmentMap *surround, const double a[9]
 
 /* ---- from pictures ---- */
 
-static float taken(float x, WrEnvironmentMapTold *told)
+static float clamp_value(float x, WrEnvironmentMapChanges *changes)
 {
-    if (isnan(x)) return told->lost++, 0;
-    if (x < 0) return told->below++, 0;
-    if (x > WR_ENVIRONMENT_MAP_MOST) return told->above++, WR_ENVIRONMENT_MAP_MOST;
+    if (isnan(x)) return changes->not_numbers++, 0;
+    if (x < 0) return changes->negative++, 0;
+    if (x > WR_ENVIRONMENT_MAP_MOST) return changes->too_large++, WR_ENVIRONMENT_MAP_MOST;
     return x;
 }
 
-static float channel(const WrImage *image, size_t pixel, int c, WrEnvironmentMapTold *told)
+static float channel(const WrImage *image, size_t pixel, int c, WrEnvironmentMapChanges *changes)
 {
     const int from = image->channels < 3 ? 0 : c;
     const float x = image->data[pixel * (size_t)image->channels + (size_t)from];
-    return taken(image->type == WR_PIXEL_F32 ? x : wr_srgb_decode(x), told);
+    return clamp_value(image->type == WR_PIXEL_F32 ? x : wr_srgb_decode(x), changes);
 }
 
 /* Means of n x n texels, or of fewer at the ends. */
-static void reduce_row(const WrImage *from, int n, int j, WrImage *to, WrEnvironmentMapTold *told)
+static void reduce_row(const WrImage *from, int n, int j, WrImage *to,
+                       WrEnvironmentMapChanges *changes)
 {
     const int below = j * n + n < from->height ? n : from->height - j * n;
     for (int i = 0; i < to->width; i++) {
@@ -267,7 +268,7 @@ static void reduce_row(const WrImage *from, int n, int j, WrImage *to, WrEnviron
                 for (int c = 0; c < 3; c++)
                     sum[c] += (double)channel(
                         from, (size_t)(j * n + y) * (size_t)from->width + (size_t)(i * n + x), c,
-                        told);
+                        changes);
         float *out = to->data + ((size_t)j * (size_t)to->width + (size_t)i) * 3;
         for (int c = 0; c < 3; c++) out[c] = (float)(sum[c] / (beside * below));
     }
@@ -292,8 +293,8 @@ static void find_poles(WrEnvironmentMap *s)
     }
 }
 
-/* Owns the picture. */
-static WrEnvironmentMap *surround_of(WrImage *image, WrError *err)
+/* Takes ownership of the picture, also on failure. */
+static WrEnvironmentMap *new_map(WrImage *image, WrError *err)
 {
     WrEnvironmentMap *s = wr_alloc(1, sizeof *s);
     s->refs = 1;
@@ -306,23 +307,23 @@ static WrEnvironmentMap *surround_of(WrImage *image, WrError *err)
     return NULL;
 }
 
-WrEnvironmentMap *wr_environment_map_new(const WrImage *image, WrEnvironmentMapTold *told,
+WrEnvironmentMap *wr_environment_map_new(const WrImage *image, WrEnvironmentMapChanges *changes,
                                          WrError *err)
 {
     const int n = (image->width + WR_ENVIRONMENT_MAP_WIDTH - 1) / WR_ENVIRONMENT_MAP_WIDTH;
     const int w = (image->width + n - 1) / n, h = (image->height + n - 1) / n;
     WrImage *to = wr_image_new(w, h, 3, err);
     if (!to) return NULL;
-    *told = (WrEnvironmentMapTold){ .reduced = n };
+    *changes = (WrEnvironmentMapChanges){ .reduced = n };
     for (int j = 0; j < h; j++) {
         if (wr_progress_stopped()) {
             wr_image_free(to);
             wr_fail(err, "cancelled");
             return NULL;
         }
-        reduce_row(image, n, j, to, told);
+        reduce_row(image, n, j, to, changes);
     }
-    return surround_of(to, err);
+    return new_map(to, err);
 }
 
 /* ---- built-in sets ---- */
@@ -402,5 +403,5 @@ WrEnvironmentMap *wr_environment_map_built(WrEnvironmentMapKind kind, WrError *e
             float *out = to->data + ((size_t)j * (size_t)to->width + (size_t)i) * 3;
             for (int c = 0; c < 3; c++) out[c] = (float)rgb[c];
         }
-    return surround_of(to, err);
+    return new_map(to, err);
 }

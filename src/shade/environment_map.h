@@ -49,28 +49,27 @@ typedef struct WrEnvironmentMap {
 } WrEnvironmentMap;
 
 /* Changes made to a file's numbers. */
-typedef struct WrEnvironmentMapTold {
-    /* NaN, replaced by 0; negative, replaced by 0; beyond WR_ENVIRONMENT_MAP_MOST */
-    int64_t lost, below, above;
+typedef struct WrEnvironmentMapChanges {
+    /* numbers replaced: NaN by 0, negative ones by 0, larger ones and infinity by WR_ENVIRONMENT_MAP_MOST */
+    int64_t not_numbers, negative, too_large;
     int reduced; /* side in texels of the averaged blocks; 1: none */
-} WrEnvironmentMapTold;
+} WrEnvironmentMapChanges;
 
 /* Creates a map from any picture, which is unchanged: codes are decoded from sRGB, alpha is ignored.
  * Errors: out of memory, cancelled. */
-WrEnvironmentMap *wr_environment_map_new(const WrImage *image, WrEnvironmentMapTold *told,
+WrEnvironmentMap *wr_environment_map_new(const WrImage *image, WrEnvironmentMapChanges *changes,
                                          WrError *err);
 /* A built-in set; kind: not off and not file. */
 WrEnvironmentMap *wr_environment_map_built(WrEnvironmentMapKind kind, WrError *err);
-WrEnvironmentMap *wr_environment_map_share(const WrEnvironmentMap *surround); /* NULL is allowed */
-void wr_environment_map_free(WrEnvironmentMap *surround);                     /* NULL is allowed */
+WrEnvironmentMap *wr_environment_map_share(const WrEnvironmentMap *map); /* NULL is allowed */
+void wr_environment_map_free(WrEnvironmentMap *map);                     /* NULL is allowed */
 
 /* The direction of u, v, and the inverse; the zero vector maps to the middle. */
 WrVec3 wr_environment_map_direction(double u, double v);
 void wr_environment_map_place(WrVec3 direction, double *u, double *v);
 /* The light at a position of the picture, and from a direction of any length. */
-void wr_environment_map_at_place(const WrEnvironmentMap *surround, double u, double v,
-                                 double rgb[3]);
-void wr_environment_map_at(const WrEnvironmentMap *surround, WrVec3 direction, double rgb[3]);
+void wr_environment_map_at_place(const WrEnvironmentMap *map, double u, double v, double rgb[3]);
+void wr_environment_map_at(const WrEnvironmentMap *map, WrVec3 direction, double rgb[3]);
 
 /* Row-major rotation from world directions to the picture's, for surroundings turned about the world's
    y by any angle; whole turns are subtracted exactly (HC116). */
@@ -82,5 +81,5 @@ void wr_environment_map_turn(double turn_deg, double out[9]);
    row-major, from the space of n to the picture's directions. order: 0, 1 or 2: higher orders are
    dropped. For surroundings that are nowhere negative the error is -19/480 to 3/32 of the integral of L
    at most, and the result may be negative. */
-void wr_environment_map_form(const WrEnvironmentMap *surround, const double axes[9],
-                             double strength, int order, double out[3][WR_FORM_TERMS]);
+void wr_environment_map_form(const WrEnvironmentMap *map, const double axes[9], double strength,
+                             int order, double out[3][WR_FORM_TERMS]);

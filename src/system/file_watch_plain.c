@@ -9,7 +9,7 @@
 #include <string.h>
 #include <time.h>
 
-#define LOOK_SECONDS 0.5
+#define CHECK_SECONDS 0.5
 
 struct WrWatch {
     WrFileInfo last;
@@ -63,7 +63,7 @@ WrWatchEnd wr_watch_wait(WrWatch *watch, double seconds)
         for (WrWatch *one = watch; one; one = one->more)
             if (has_changed(one)) return WR_WATCH_CHANGED;
         if (!(seconds > 0)) return WR_WATCH_NOTHING;
-        const double rest = seconds < LOOK_SECONDS ? seconds : LOOK_SECONDS;
+        const double rest = seconds < CHECK_SECONDS ? seconds : CHECK_SECONDS;
         const struct timespec nap = { (time_t)rest, (long)((rest - (double)(time_t)rest) * 1e9) };
         if (nanosleep(&nap, NULL) != 0) return WR_WATCH_NOTHING; /* interrupted */
         seconds -= rest;

@@ -60,7 +60,7 @@ void wr_thread_join(WrThread thread)
     pthread_join(thread.it, NULL);
 }
 
-bool wr_thread_begin_aside(WrThreadMain run, void *arg)
+bool wr_thread_begin_detached(WrThreadMain run, void *arg)
 {
     sigset_t all, before;
     pthread_t thread;

@@ -47,7 +47,7 @@ bool wr_thread_begin(WrThread *thread, WrThreadMain run,
                      void *arg); /* false: no thread available */
 void wr_thread_join(WrThread thread);
 /* Starts a detached thread without signals; threads that it starts inherit that. */
-bool wr_thread_begin_aside(WrThreadMain run, void *arg);
+bool wr_thread_begin_detached(WrThreadMain run, void *arg);
 
 /* Lowers the priority of the calling thread and of threads it starts. Does nothing where priorities
    apply only to processes. */

@@ -21,11 +21,11 @@ void wr_env_lookup_drop(WrEnvLookup *mirror)
     *mirror = (WrEnvLookup){ 0 };
 }
 
-static bool holds(const WrEnvLookup *mirror, const WrEnvironmentMap *surround,
+static bool holds(const WrEnvLookup *mirror, const WrEnvironmentMap *map,
                   const WrEnvironmentBrdf *gloss, double fine)
 {
     const WrEnvironmentBrdf *own = &mirror->gloss;
-    if (mirror->source != surround) return false;
+    if (mirror->source != map) return false;
     if (!gloss) return own->lobe == WR_LOBE_NONE;
     return own->lobe == gloss->lobe && own->alpha == gloss->alpha && own->power == gloss->power &&
            own->gated == gloss->gated && mirror->fine == fine;
@@ -82,16 +82,16 @@ static bool fill_blurred(WrEnvLookup *mirror, const WrEnvironmentBrdf *gloss, Wr
     return good;
 }
 
-bool wr_env_lookup_update(WrEnvLookup *mirror, const WrEnvironmentMap *surround,
+bool wr_env_lookup_update(WrEnvLookup *mirror, const WrEnvironmentMap *map,
                           const WrEnvironmentBrdf *gloss, double fine, WrPool *pool, WrError *err)
 {
-    if (holds(mirror, surround, gloss, fine)) return true;
+    if (holds(mirror, map, gloss, fine)) return true;
     wr_env_lookup_drop(mirror);
-    mirror->source = wr_environment_map_share(surround);
+    mirror->source = wr_environment_map_share(map);
     mirror->fine = fine;
     if (gloss) mirror->gloss = *gloss;
-    mirror->width = surround->image->width, mirror->height = surround->image->height;
-    if (gloss ? fill_blurred(mirror, gloss, pool, err) : fill(mirror, surround->image->data, err))
+    mirror->width = map->image->width, mirror->height = map->image->height;
+    if (gloss ? fill_blurred(mirror, gloss, pool, err) : fill(mirror, map->image->data, err))
         return true;
     wr_env_lookup_drop(mirror);
     return false;

@@ -25,7 +25,7 @@ typedef struct WrEnvLookup {
 
 /* Updates the table. gloss NULL: sharp. fine: as in wr_blur_width. Errors: no memory, cancelled; the table is
    then empty. */
-bool wr_env_lookup_update(WrEnvLookup *mirror, const WrEnvironmentMap *surround,
+bool wr_env_lookup_update(WrEnvLookup *mirror, const WrEnvironmentMap *map,
                           const WrEnvironmentBrdf *gloss, double fine, WrPool *pool, WrError *err);
 void wr_env_lookup_drop(WrEnvLookup *mirror);
 

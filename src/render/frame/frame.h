@@ -79,8 +79,7 @@ typedef struct WrFrameRequest {
     /* Effects to force on or off, whatever the scene needs: [WR_EFFECT_COUNT]; NULL: none. */
     const WrForce *force;
     bool full; /* run even the effects that the plan could leave out without changing the picture */
-    bool
-        staged; /* without the hand-written SIMD loops of several stages, to measure what they save */
+    bool staged; /* without the fused SIMD kernels (simd_kernels.h), to measure their gain */
     const volatile int *cancel; /* may be NULL; non-zero: return early, false, err "cancelled" */
 } WrFrameRequest;
 

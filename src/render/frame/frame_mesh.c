@@ -5,7 +5,6 @@
 #include "field/field.h"
 #include "field/scheme.h"
 #include "render/frame/frame_internal.h"
-#include "render/pipeline/pipeline.h"
 #include "render/tessellation/displacement_lookup.h"
 #include "scene/scene.h"
 #include "surface/patches.h"

@@ -1,5 +1,4 @@
-/* tile_internal.h - functions shared by tiles of one object and tiles of several.
-   Private to tile.c and tile.c. */
+/* tile_internal.h - functions shared by tiles of one object and tiles of several. Private to the renderer. */
 #pragma once
 #include "render/frame/tile.h"
 
@@ -28,10 +27,7 @@ static inline const WrBehind *wr_tile_behind(const WrTileJob *job, int x, int y)
 /* Writes the background of a row that is stored once, except its samples [from, to). */
 void wr_tile_behind_strip(const WrTileJob *job, const WrSink *sink, int from, int to,
                           WrTileScratch *scratch);
-/* Draws all samples of a tile in the grid of k x k samples a pixel. */
 /* The part of the tile that the object may cover; w or h 0: none. */
 WrTilePart wr_tile_touched(const WrTileJob *job, WrTilePart part);
-/* Sets the cost bits that every pixel of the tile has, whatever it shows. */
-/* Clears the tile; of codes only those beside `part`, because each is written once. */
 /* Depth in front of the whole object: anything nearer hides all of it (E52). */
 float wr_tile_hidden_from(const WrTileJob *job);

@@ -85,8 +85,7 @@ static inline bool still(const WrScene *scene)
     return scene->replicate_u == 0 && scene->replicate_v == 0;
 }
 
-/* Functions of WrEffectInfo's rows. They are in plan_light.c, plan_light.c, plan_light.c,
-   plan_visibility.c, plan.c, plan.c, plan.c and plan_textures.c. */
+/* Functions of WrEffectInfo's rows. They are in plan.c, plan_light.c, plan_textures.c and plan_visibility.c. */
 typedef WrVerdict WrDecide(const WrPlan *plan, const WrPlanRequest *ask, const char **why);
 typedef void WrSettle(WrPlan *plan, const WrPlanRequest *ask);
 WrDecide wr_decide_back, wr_decide_depth, wr_decide_newton, wr_decide_perspective, wr_decide_again,
@@ -100,9 +99,9 @@ WrDecide wr_decide_back, wr_decide_depth, wr_decide_newton, wr_decide_perspectiv
     wr_decide_samples, wr_decide_bound, wr_decide_kept, wr_decide_widened, wr_decide_faced,
     wr_decide_faint;
 WrSettle wr_settle_filter, wr_settle_depth, wr_settle_newton, wr_settle_tint, wr_settle_normals,
-    wr_settle_facets, wr_settle_facets, wr_settle_model, wr_settle_cast, wr_settle_occlusion,
-    wr_settle_harmonics, wr_settle_blur, wr_settle_displaced, wr_settle_parallax, wr_settle_exact,
-    wr_settle_curvature, wr_settle_grain, wr_settle_samples, wr_settle_kept, wr_settle_faint;
+    wr_settle_facets, wr_settle_model, wr_settle_cast, wr_settle_occlusion, wr_settle_harmonics,
+    wr_settle_blur, wr_settle_displaced, wr_settle_parallax, wr_settle_exact, wr_settle_curvature,
+    wr_settle_grain, wr_settle_samples, wr_settle_kept, wr_settle_faint;
 
 /* The formula that bends the normal: the scene's, or the exact one of a displaced surface. */
 WrBumpMode wr_plan_normal(const WrPlan *plan, const WrPlanRequest *ask);

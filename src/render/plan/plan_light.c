@@ -1,13 +1,10 @@
-/* Plan rows of light: diffuse reflection, highlights, and the reflection model. */
+/* Plan rows of light: diffuse reflection, highlights, the reflection model, the energy that highlights leave to
+   diffuse light, and runs that may skip highlights. */
 #include "field/horizon.h"
 #include "render/plan/plan_internal.h"
 #include "render/shadows/shadow_rays.h"
 #include "scene/scene.h"
 #include "shade/environment_blur.h"
-
-/* ---- plan reflection ---- */
-
-/* Plan rows of microfacet highlights, of the energy they leave to diffuse light, and of runs that may skip them. */
 
 /* ---- energy left for diffuse light ---- */
 

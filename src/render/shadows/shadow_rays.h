@@ -70,15 +70,7 @@ typedef struct WrShadowRays {
 
 /* True if the scene has such shadows, of a lamp that is on. */
 bool wr_shadow_rays_asked(const WrScene *scene);
-/* Computes only the body's size. field: table of F for a displaced surface; NULL with a formula. moves: a
-   displaced surface is intersected as displaced, else its base. */
-/* Builds the geometry. Call body_size before, with the same field. Errors: no memory. */
 void wr_shadow_rays_body_fini(WrShadowRaysBody *body);
-/* True if that ray hits the torus. */
-/* tree_bring builds the tree of boxes around body->triangles; tree_meets intersects a ray with it. Errors: no
-   memory. */
-/* Builds facets of a surface that has no closed form, or is displaced, into body->triangles; adds their error to
-   body->lift. */
 
 /* Arguments of wr_shadow_rays_prepare: finds which of `count` objects (scenes of one each, and their bodies) can
    hide a lamp from object `at`; those come first in the result. Only these bodies are built, or, with `all`, all

@@ -99,10 +99,6 @@ ALWAYS WideInt w_whole(Wide a)
 {
     return _mm512_cvttps_epi32(a);
 }
-ALWAYS Wide w_number(WideInt a)
-{
-    return _mm512_cvtepi32_ps(a);
-}
 ALWAYS WideInt w_load_int(const int32_t *from)
 {
     return _mm512_loadu_si512(from);
@@ -160,21 +156,6 @@ ALWAYS Wide w_nearest(Wide a)
 ALWAYS Wide w_off_nearest(Wide a)
 {
     return _mm512_reduce_ps(a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
-}
-/* a and not b. */
-ALWAYS WideMask w_but(WideMask a, WideMask b)
-{
-    return a & (WideMask)~b;
-}
-/* The mask with those bits. */
-ALWAYS WideMask w_mask(unsigned of)
-{
-    return (WideMask)of;
-}
-/* a b + c, rounded once. */
-ALWAYS Wide w_fma(Wide a, Wide b, Wide c)
-{
-    return _mm512_fmadd_ps(a, b, c);
 }
 #else
 #define WIDE 8
@@ -269,10 +250,6 @@ ALWAYS WideInt w_whole(Wide a)
 {
     return _mm256_cvttps_epi32(a);
 }
-ALWAYS Wide w_number(WideInt a)
-{
-    return _mm256_cvtepi32_ps(a);
-}
 ALWAYS WideInt w_load_int(const int32_t *from)
 {
     return _mm256_loadu_si256((const __m256i *)from);
@@ -334,18 +311,6 @@ ALWAYS Wide w_nearest(Wide a)
 ALWAYS Wide w_off_nearest(Wide a)
 {
     return a - w_nearest(a);
-}
-ALWAYS WideMask w_but(WideMask a, WideMask b)
-{
-    return _mm256_andnot_ps(b, a);
-}
-ALWAYS WideMask w_mask(unsigned of)
-{
-    return w_lanes(of);
-}
-ALWAYS Wide w_fma(Wide a, Wide b, Wide c)
-{
-    return _mm256_fmadd_ps(a, b, c);
 }
 #endif
 
