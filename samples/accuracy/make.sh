@@ -313,7 +313,7 @@ tell_hard_cases() {
     jq -r '"`wrinkle accuracy --hard-cases` measures \(.cases | length) cases: \(.pass) pass, \(.fail) fail, \(.waits) concern future effects.",
         (.cases[] | select(.verdict == "fail") | "- \(.id), \(.what): fails.")' "$keep/hard.json" >>"$temporary/page"
     say ''
-    bash "$here/../../tests/mutate.sh" "$here/../.." tell >>"$temporary/page"
+    bash "$here/../../tests/repository/mutate.sh" "$here/../.." tell >>"$temporary/page"
 }
 
 # ---- the page ----

@@ -2,7 +2,7 @@
 
    They are free of branches and library calls, so that compilers vectorise them, and use only + - * /
    sqrt and integer operations, so that every processor returns the same bits (the build forbids
-   contraction). Polynomials: interpolation at Chebyshev nodes, checked in tests/test_base.c. */
+   contraction). Polynomials: interpolation at Chebyshev nodes, checked in tests/base/test_base.c. */
 #pragma once
 #include <math.h>
 #include <stdbool.h>

@@ -388,7 +388,7 @@ WrArg *wr_call_arg(const WrCall *call, const char *name)
     static double zeros[4]; /* default of a tuple; read only */
     static const WrArg none = { .choice = -1, .numbers = zeros };
     int i = arg_index(call, name);
-    WR_ASSERT(i >= 0); /* tests/arguments.sh checks every name passed here */
+    WR_ASSERT(i >= 0); /* tests/repository/arguments.sh checks every name passed here */
     if (i >= 0) return (WrArg *)&call->args[i];
     return (WrArg *)&none;
 }

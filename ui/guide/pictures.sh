@@ -21,8 +21,8 @@ done
 mkdir -p "$out"
 out=$(cd "$out" && pwd) program=$(readlink -f "$program") screenshot=$(readlink -m "$screenshot")
 folder=$(mktemp -d) || exit 1
-# shellcheck source=tests/window_help.sh
-source "$source/tests/window_help.sh"
+# shellcheck source=tests/window/window_help.sh
+source "$source/tests/window/window_help.sh"
 serve
 
 # picture FILE GEOMETRY [WIDTH]: a part of the window, made so wide, as small as a file can be.

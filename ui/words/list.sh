@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # list.sh FILE: the window's texts as gettext's template: those that its source gives to widgets, messages and wr_words. The
-# tables' are besides what a walk through the window asks for (tests/test_ui_words.c prints those that a language lacks).
+# tables' are besides what a walk through the window asks for (tests/ui/test_ui_words.c prints those that a language lacks).
 # What a language lacks of them: msgcmp ui/words/de.po FILE
 # list.sh FILE errors: the formats of errors and notes of src/ and ui/ (wr_fail and others); those of commands that run
 # without a window, and of the hard cases, are left out.

@@ -1,0 +1,279 @@
+/* Layers as commands: their composite, order, and merging. */
+#include "test.h"
+#include "session_help.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "command/session.h"
+#include "document/blend.h"
+#include "document/document.h"
+#include "field/field.h"
+
+/* ---- the composite ---- */
+
+static double value(const WrField *field, int i, int j)
+{
+    return field ? wr_field_get(field, i, j) : 1.0;
+}
+
+/* One layer onto b, as in blend.h, in double precision. */
+static double blend(const WrLayer *layer, double b, int i, int j)
+{
+    double h = wr_field_get(layer->heights, i, j), k = layer->radius;
+    double om = layer->opacity * value(layer->mask, i, j), w = om * value(layer->cover, i, j);
+    double near = fmax(k - fabs(b - h), 0), lift = k > 0 ? near * near / k / 4 : 0;
+    switch (layer->blend) {
+    case WR_BLEND_ADD: return b + om * h;
+    case WR_BLEND_SUBTRACT: return b - om * h;
+    case WR_BLEND_MAX: return b + w * (fmax(b, h) - b);
+    case WR_BLEND_MIN: return b + w * (fmin(b, h) - b);
+    case WR_BLEND_SMOOTH_MAX: return b + w * (fmax(b, h) + lift - b);
+    case WR_BLEND_SMOOTH_MIN: return b + w * (fmin(b, h) - lift - b);
+    case WR_BLEND_REPLACE: return b + w * (h - b);
+    case WR_BLEND_MIX: return b + om * (h - b);
+    default: return b + w * (b * h - b);
+    }
+}
+
+static double composite(const WrDocument *document, int i, int j)
+{
+    double b = 0;
+    for (int k = 0; k < document->layer_count; k++) {
+        bool shown = document->solo < 0 ? document->layers[k].visible : document->solo == k;
+        if (shown) b = blend(&document->layers[k], b, i, j);
+    }
+    return b;
+}
+
+/* 20 layers with a few float roundings each, of heights up to about 10. */
+static void check_composite(const WrSession *session)
+{
+    const WrField *f = wr_document_field(doc(session));
+    for (int j = 0; j < wr_field_height(f); j++)
+        for (int i = 0; i < wr_field_width(f); i++)
+            assert_near(wr_field_get(f, i, j), composite(doc(session), i, j), 2e-5);
+}
+
+static void the_composite_is_what_the_formulas_give_for_all_blends_and_edits(void **state)
+{
+    (void)state;
+    WrSession *s = session_of((const char *[]){ "table 130x70", "grid cells=5x3 width=7 low=0.25",
+                                                "select ellipse centre=0.5,0.5 radii=0.4,0.3",
+                                                "select feather by=3", NULL });
+    for (int blend_mode = 0; blend_mode < WR_BLEND_COUNT; blend_mode++) {
+        char line[128];
+        snprintf(line, sizeof line, "layer add blend=%s opacity=%g radius=0.5",
+                 wr_blends[blend_mode].name, blend_mode % 2 ? 1.0 : 0.7);
+        must_run(s, line);
+        must_run(s, "dab 0.9,0.1 radius=30 strength=0.8");
+        check_composite(s);
+        must_run(s, "layer mask 2 from=selection");
+        snprintf(line, sizeof line, "stroke points=0,0;%g,1,0.5 radius=9 strength=1.5",
+                 0.1 * blend_mode);
+        must_run(s, line);
+        check_composite(s);
+        must_run(s, "select invert");
+    }
+    const char *const changes[] = { "layer move 3 to=7",
+                                    "layer set 5 visible=off",
+                                    "layer solo 4",
+                                    "layer set 4 opacity=0.3",
+                                    "layer solo off",
+                                    "layer delete 2",
+                                    "layer duplicate 6",
+                                    "layer mask 3 from=black",
+                                    "layer mask 3 from=white",
+                                    "layer mask 3 from=none",
+                                    "layer set 5 blend=subtract visible=on",
+                                    "undo 4",
+                                    "redo 2",
+                                    "layer use 1",
+                                    "fill -1",
+                                    "layer clear" };
+    for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
+        must_run(s, changes[i]);
+        check_composite(s);
+    }
+    wr_session_free(s);
+}
+
+static void a_max_layer_touches_only_what_was_painted_on_it(void **state)
+{
+    (void)state;
+    WrSession *s = session_of((const char *[]){ "table 64x64", "fill -5", "layer add blend=max",
+                                                "dab 0.5,0.5 radius=8 strength=1", NULL });
+    assert_true(f_at(s, 0, 0) == -5);  /* though the layer's 0 is higher */
+    assert_true(f_at(s, 32, 32) == 1); /* fully covered */
+    must_run(s, "fill 2");             /* now it covers everything */
+    assert_true(f_at(s, 0, 0) == 2);
+    must_run(s, "layer clear");
+    assert_true(f_at(s, 0, 0) == -5 && f_at(s, 32, 32) == -5);
+    wr_session_free(s);
+}
+
+static void a_document_of_one_plain_layer_is_that_layer(void **state)
+{
+    (void)state;
+    WrSession *s = session_of((const char *[]){ "table 64x64", "dab 0.5,0.5", NULL });
+    assert_ptr_equal(wr_document_field(doc(s)), doc(s)->layers[0].heights);
+    must_run(s, "layer set 1 opacity=0.5");
+    assert_true(f_at(s, 32, 32) == 0.05f);
+    must_run(s, "layer set 1 opacity=1 visible=off");
+    assert_true(f_at(s, 32, 32) == 0);
+    wr_session_free(s);
+}
+
+/* ---- the stack ---- */
+
+static void check_stack(const WrSession *session, const char *names, int active, int solo)
+{
+    WrText text = { 0 };
+    for (int i = 0; i < doc(session)->layer_count; i++)
+        wr_text_addf(&text, "%s ", doc(session)->layers[i].name);
+    assert_string_equal(wr_text_get(&text), names);
+    assert_int_equal(doc(session)->active + 1, active);
+    assert_int_equal(doc(session)->solo + 1, solo);
+    wr_text_fini(&text);
+}
+
+static void active_and_solo_stay_at_their_layers(void **state)
+{
+    (void)state;
+    WrSession *s = session_of(
+        (const char *[]){ "table 8x8", "layer add a", "layer add b", "layer add c", NULL });
+    check_stack(s, "base a b c ", 4, 0);
+    must_run(s, "layer solo b");
+    must_run(s, "layer use a");
+    must_run(s, "layer move b to=1");
+    check_stack(s, "b base a c ", 3, 1);
+    must_run(s, "layer move 1 to=4");
+    check_stack(s, "base a c b ", 2, 4);
+    must_run(s, "layer add d above=1");
+    check_stack(s, "base d a c b ", 2, 5);
+    must_run(s, "layer delete base");
+    check_stack(s, "d a c b ", 1, 4);
+    must_run(s, "layer delete b");
+    check_stack(s, "d a c ", 1, 0);
+    must_run(s, "layer use c");
+    must_run(s, "layer delete c");
+    check_stack(s, "d a ", 2, 0);
+    must_run(s, "layer duplicate 1");
+    must_run(s, "layer add");
+    must_run(s, "layer rename 4 \"x y\"");
+    check_stack(s, "d d copy layer 4 x y ", 3, 0);
+    wr_session_free(s);
+}
+
+static void layers_that_do_not_exist_are_named_in_the_message(void **state)
+{
+    (void)state;
+    WrSession *s = session_of((const char *[]){ "table 8x8", "layer add a", "layer add a", NULL });
+    must_fail(s, "layer use 4", "layer 4: must be 1..3");
+    must_fail(s, "layer use 0", "layer 0: must be 1..3");
+    must_fail(s, "layer use 99999999999999999999", "must be 1..3");
+    must_fail(s, "layer use b", "no layer is called \"b\"");
+    must_fail(s, "layer use a", "2 layers are called \"a\": say which by its number");
+    must_fail(s, "layer move 1 to=4", "to=4: must be 1..3");
+    must_fail(s, "layer set 1", "nothing to set");
+    must_fail(s, "layer merge 1", "none below");
+    must_fail(s, "layer mask 1 from=selection", "nothing is selected");
+    must_run(s, "layer delete 1");
+    must_run(s, "layer delete 1");
+    must_fail(s, "layer delete 1", "the last layer stays");
+    for (int i = 1; i < WR_LAYERS_MAX; i++) must_run(s, "layer add");
+    must_fail(s, "layer add", "up to 256 layers");
+    must_fail(s, "layer duplicate 1", "up to 256 layers");
+    wr_session_free(s);
+}
+
+/* ---- joining ---- */
+
+static WrSession *stack(const char *lower, const char *upper, bool floor)
+{
+    WrSession *s =
+        session_of((const char *[]){ "table 100x80", "grid cells=4x3 width=9 low=-0.7 high=1.1",
+                                     "dab 0.3,0.3 radius=60 strength=3", NULL });
+    const char *blends[2] = { lower, upper };
+    for (int k = floor ? 0 : 1; k < 2; k++) {
+        char line[96];
+        snprintf(line, sizeof line, "layer add blend=%s opacity=0.8 radius=0.4", blends[k]);
+        must_run(s, line);
+        must_run(s, "dab 0.6,0.5 radius=50 strength=1.7");
+        must_run(s, k ? "dab 0.4,0.4 radius=30 strength=-0.4" : "dab 0.1,0.9 radius=20");
+    }
+    return s;
+}
+
+static void merging_any_two_layers_keeps_the_composite(void **state)
+{
+    (void)state;
+    for (int a = 0; a < WR_BLEND_COUNT; a++)
+        for (int b = 0; b < WR_BLEND_COUNT; b++) {
+            WrSession *s = stack(wr_blends[a].name, wr_blends[b].name, true);
+            WrField *before = wr_field_share(wr_document_field(doc(s)));
+            must_run(s, "layer merge 3");
+            assert_int_equal(doc(s)->layer_count, 2);
+            assert_int_equal(doc(s)->active, 1);
+            for (int j = 0; j < 80; j++)
+                for (int i = 0; i < 100; i++) /* the largest height that meets here is under 8 */
+                    assert_near(f_at(s, i, j), wr_field_get(before, i, j), 8 * 0x1p-21);
+            wr_field_free(before);
+            wr_session_free(s);
+        }
+}
+
+static void merging_onto_the_bottom_and_flattening_keep_every_bit(void **state)
+{
+    (void)state;
+    for (int b = 0; b < WR_BLEND_COUNT; b++) {
+        WrSession *s = stack("", wr_blends[b].name, false);
+        WrField *before = wr_field_share(wr_document_field(doc(s)));
+        must_run(s, "layer merge 2");
+        assert_true(same_field(before, wr_document_field(doc(s))));
+        assert_int_equal(doc(s)->layer_count, 1);
+        wr_field_free(before);
+        wr_session_free(s);
+        s = stack("max", wr_blends[b].name, true);
+        must_run(s, "layer set 1 opacity=0.3");
+        must_run(s, "layer add hidden");
+        must_run(s, "layer set hidden visible=off");
+        before = wr_field_share(wr_document_field(doc(s)));
+        must_run(s, "layer solo 1");
+        must_run(s, "layer flatten");
+        assert_true(same_field(before, wr_document_field(doc(s))));
+        check_stack(s, "base ", 1, 0);
+        wr_field_free(before);
+        wr_session_free(s);
+    }
+}
+
+static void merging_sums_of_layers_goes_with_later_edits_below(void **state)
+{
+    (void)state;
+    WrSession *s = stack("add", "subtract", true);
+    must_run(s, "layer merge 3");
+    must_run(s, "layer use 1");
+    must_run(s, "fill 4");
+    WrSession *t = stack("add", "subtract", true);
+    must_run(t, "layer use 1");
+    must_run(t, "fill 4");
+    for (int j = 0; j < 80; j++)
+        for (int i = 0; i < 100; i++) assert_near(f_at(s, i, j), f_at(t, i, j), 8 * 0x1p-21);
+    wr_session_free(s);
+    wr_session_free(t);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_composite_is_what_the_formulas_give_for_all_blends_and_edits),
+        cmocka_unit_test(a_max_layer_touches_only_what_was_painted_on_it),
+        cmocka_unit_test(a_document_of_one_plain_layer_is_that_layer),
+        cmocka_unit_test(active_and_solo_stay_at_their_layers),
+        cmocka_unit_test(layers_that_do_not_exist_are_named_in_the_message),
+        cmocka_unit_test(merging_any_two_layers_keeps_the_composite),
+        cmocka_unit_test(merging_onto_the_bottom_and_flattening_keep_every_bit),
+        cmocka_unit_test(merging_sums_of_layers_goes_with_later_edits_below),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

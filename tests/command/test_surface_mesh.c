@@ -1,0 +1,285 @@
+/* `surface mesh file=`: notes of a session, storage in both kinds of documents, and an error for a file whose content
+   has changed. */
+#include "test.h"
+#include "test_folder.h"
+#include "session_help.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/hash.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "command/session.h"
+#include "document/document.h"
+#include "image/image.h"
+#include "scene/objects.h"
+#include "scene/scene.h"
+#include "surface/patches.h"
+#include "surface/triangles.h"
+
+#include <unistd.h>
+
+static void note(void *ctx, const char *text)
+{
+    wr_text_addf(ctx, "%s\n", text);
+}
+
+static WrSession *session_with(WrText *notes)
+{
+    const WrSessionOptions options = { .note = note, .note_ctx = notes, .outputs = true };
+    return wr_session_new(&options);
+}
+
+static void write_file(const char *path, const char *text)
+{
+    WrError err;
+    if (!wr_file_write(path, text, strlen(text), &err)) fail_msg("%s", err.text);
+}
+
+static const char roof[] = "v 0 0 0\nv 1 0 1\nv 1 2 1\nv 0 2 0\nv 2 0 0\nv 2 2 0\n"
+                           "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                           "f 1/1 2/2 3/3 4/4\nf 2/1 5/2 6/3 3/4\n";
+
+static const WrScene *scene_in(const WrSession *session)
+{
+    return wr_session_document(session)->scene;
+}
+
+static void a_mesh_is_told_of_and_undone(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    write_file("roof.obj", roof);
+    WrSession *s = session_with(&notes);
+    must_run(s, "surface mesh file=roof.obj");
+    const WrTriangles *mesh = scene_in(s)->triangles;
+    assert_int_equal(mesh->triangle_count, 4);
+    assert_non_null(strstr(wr_text_get(&notes), "roof.obj: 4 triangles, open"));
+    assert_non_null(strstr(wr_text_get(&notes), "100.0% of its texture coordinates are met twice"));
+    assert_non_null(strstr(wr_text_get(&notes), "without a normal"));
+    assert_near(wr_shape_radius(&scene_in(s)->shape), mesh->radius, 0);
+    assert_near(wr_shape_centre(&scene_in(s)->shape).y, 1, 0);
+    must_run(s, "undo");
+    assert_null(scene_in(s)->triangles);
+    assert_int_equal(scene_in(s)->shape.kind, WR_SURFACE_plane);
+    must_run(s, "redo");
+    assert_true(scene_in(s)->triangles == mesh);
+    must_run(s, "surface torus");
+    assert_null(scene_in(s)->triangles);
+    must_run(s, "surface mesh"); /* the square */
+    assert_null(scene_in(s)->triangles);
+    assert_near(wr_shape_radius(&scene_in(s)->shape), sqrt(0.5), 1e-12);
+    wr_session_free(s);
+    wr_text_fini(&notes);
+}
+
+static void documents_carry_it(void **state)
+{
+    (void)state;
+    static const char *const names[] = { "d.exr", "d.ora" };
+    WrText notes = { 0 };
+    WrError err = { "" };
+    for (int i = 0; i < 2; i++) {
+        char line[40];
+        write_file("roof.obj", roof);
+        WrSession *a = session_with(&notes), *b = session_with(&notes);
+        must_run(a, "table 8x8");
+        must_run(a, "surface mesh file=roof.obj");
+        snprintf(line, sizeof line, "save %s", names[i]);
+        must_run(a, line);
+        assert_int_equal(unlink("roof.obj"), 0);
+        if (!wr_session_open(b, names[i], &err)) fail_msg("%s", err.text);
+        const WrTriangles *was = scene_in(a)->triangles, *is = scene_in(b)->triangles;
+        assert_non_null(is);
+        assert_true(is->key == was->key && is->triangle_count == was->triangle_count);
+        assert_memory_equal(&scene_in(a)->shape, &scene_in(b)->shape, sizeof(WrShape));
+        assert_string_equal(scene_in(a)->triangles_sha256, scene_in(b)->triangles_sha256);
+        assert_true(wr_hash_equal(wr_session_hash(a), wr_session_hash(b)));
+        wr_session_free(a);
+        wr_session_free(b);
+    }
+    wr_text_fini(&notes);
+}
+
+/* Of several objects the one with the mesh need not be active; all different meshes are stored, each once. */
+static void objects_share_one(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    WrError err = { "" };
+    write_file("roof.obj", roof);
+    write_file("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    WrSession *a = session_with(&notes), *b = session_with(&notes);
+    must_run(a, "surface mesh file=roof.obj");
+    must_run(a, "object add ball");
+    must_run(a, "surface sphere");
+    must_run(a, "save two.exr");
+    assert_int_equal(unlink("roof.obj"), 0);
+    if (!wr_session_open(b, "two.exr", &err)) fail_msg("%s", err.text);
+    assert_true(wr_hash_equal(wr_session_hash(a), wr_session_hash(b)));
+    wr_session_free(b);
+    write_file("roof.obj", roof);
+    must_run(a, "surface mesh file=flat.obj");
+    must_run(a, "object add plain");
+    must_run(a, "object add again");
+    must_run(a, "surface mesh file=roof.obj");
+    must_run(a, "object choose ball");
+    must_run(a, "save all.exr");
+    must_run(a, "save all.ora");
+    assert_int_equal(unlink("roof.obj") | unlink("flat.obj"), 0);
+    for (int k = 0; k < 2; k++) {
+        b = session_with(&notes);
+        if (!wr_session_open(b, k ? "all.ora" : "all.exr", &err)) fail_msg("%s", err.text);
+        assert_true(wr_hash_equal(wr_session_hash(a), wr_session_hash(b)));
+        for (int i = 0; i < 4; i++) {
+            const WrTriangles *was = wr_scene_object(scene_in(a), i)->triangles;
+            const WrTriangles *is = wr_scene_object(scene_in(b), i)->triangles;
+            assert_true(i == 2 ? !was && !is : was && is && was->key == is->key);
+        }
+        wr_session_free(b);
+    }
+    wr_session_free(a);
+    wr_text_fini(&notes);
+}
+
+/* A hostile picture of several meshes: an error, whatever its header contains. */
+static void damaged_meshes_are_refused(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    write_file("roof.obj", roof);
+    write_file("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    WrSession *a = session_with(&notes);
+    must_run(a, "surface mesh file=roof.obj");
+    must_run(a, "object add ball");
+    must_run(a, "surface mesh file=flat.obj");
+    const float bad[] = { -1, 0, 0.5f, 3, 64, 1e30f, 65536, 16777216 };
+    WrImage *image;
+    WrError err = { "" };
+    assert_true(wr_scene_meshes_to_image(scene_in(a), &image, &err));
+    for (int at = 0; at < 9; at++)
+        for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+            const float was = image->data[at];
+            image->data[at] = bad[k];
+            for (int object = 0; object < 4; object++) {
+                WrTriangles *made = wr_scene_mesh_from_image(image, object, &err);
+                if (object > 1 && made) fail_msg("number %d as %g", at, (double)bad[k]);
+                wr_triangles_free(made);
+            }
+            image->data[at] = was;
+        }
+    WrTriangles *flat = wr_scene_mesh_from_image(image, 1, &err);
+    assert_true(flat && flat->triangle_count == 1);
+    wr_triangles_free(flat);
+    wr_image_free(image);
+    wr_session_free(a);
+    wr_text_fini(&notes);
+}
+
+static void another_content_is_an_error(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    WrError err = { "" };
+    char hex[65], line[120];
+    write_file("roof.obj", roof);
+    assert_true(wr_sha256_file("roof.obj", hex, &err));
+    WrSession *s = session_with(&notes);
+    snprintf(line, sizeof line, "surface mesh file=roof.obj sha256=%s", hex);
+    must_run(s, line);
+    assert_string_equal(scene_in(s)->triangles_sha256, hex);
+    write_file("roof.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    assert_false(wr_session_run(s, line, &err));
+    assert_non_null(strstr(err.text, "another content"));
+    assert_int_equal(scene_in(s)->triangles->triangle_count, 4); /* unchanged */
+    must_run(s, "surface mesh file=roof.obj");
+    assert_non_null(strstr(wr_text_get(&notes), "no texture coordinates"));
+    assert_false(wr_session_run(s, "surface mesh file=nowhere.obj", &err));
+    write_file("bad.obj", "v 0 0 0\nv 1 0 0\nf 1 2 2\n");
+    assert_false(wr_session_run(s, "surface mesh file=bad.obj", &err));
+    assert_false(wr_session_run(s, "surface mesh sha256=00", &err));
+    wr_session_free(s);
+    wr_text_fini(&notes);
+}
+
+static const char slab[] = "2\n3 3\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n0 1 0\n1 1 1\n2 1 1\n3 1 0\n"
+                           "0 2 0\n1 2 1\n2 2 1\n3 2 0\n0 3 0\n1 3 0\n2 3 0\n3 3 0\n"
+                           "3 3\n3 0 0\n4 0 0\n5 0 0\n6 0 0\n3 1 0\n4 1 1\n5 1 1\n6 1 0\n"
+                           "3 2 0\n4 2 1\n5 2 1\n6 2 0\n3 3 0\n4 3 0\n5 3 0\n6 3 0\n";
+
+/* The file is gone by now; the set has another table, and is in another document. */
+static void another_table_without_the_file(WrSession *s)
+{
+    const uint64_t key = scene_in(s)->triangles->key;
+    must_run(s, "surface patches table=joined");
+    const WrTriangles *is = scene_in(s)->triangles;
+    assert_int_equal(is->patches->table, WR_PATCH_JOINED);
+    assert_int_equal(is->patches->count, 2);
+    assert_string_equal(scene_in(s)->triangles_path, "slab.bpt");
+    assert_int_equal(strlen(scene_in(s)->triangles_sha256), 64);
+    must_run(s, "surface patches table=split");
+    assert_true(scene_in(s)->triangles->key == key);
+    must_run(s, "surface sphere");
+    must_fail(s, "surface patches table=own", "belongs to a file=");
+}
+
+/* Patches, and a terrain: read, reported, stored in both kinds of documents with their table. */
+static void patches_and_terrains_are_kept(void **state)
+{
+    (void)state;
+    static const char *const lines[] = { "surface patches file=slab.bpt table=split",
+                                         "surface patches file=slab.bpt table=own",
+                                         "surface terrain file=hills.pgm height=0.4 cells=8" };
+    static const char *const names[] = { "d.exr", "d.ora" };
+    WrText notes = { 0 };
+    WrError err = { "" };
+    for (int i = 0; i < 6; i++) {
+        char line[40];
+        write_file("slab.bpt", slab);
+        write_file("hills.pgm", "P2\n4 3\n255\n0 80 90 10\n20 255 60 0\n5 9 130 70\n");
+        WrSession *a = session_with(&notes), *b = session_with(&notes);
+        must_run(a, "table 8x8");
+        must_run(a, lines[i / 2]);
+        const WrPatches *set = scene_in(a)->triangles->patches;
+        assert_int_equal(set->columns, i / 2 == 2 ? 8 : 2);
+        snprintf(line, sizeof line, "save %s", names[i % 2]);
+        must_run(a, line);
+        assert_int_equal(unlink("slab.bpt"), 0);
+        assert_int_equal(unlink("hills.pgm"), 0);
+        if (!wr_session_open(b, names[i % 2], &err)) fail_msg("%s", err.text);
+        const WrTriangles *is = scene_in(b)->triangles;
+        assert_non_null(is);
+        assert_true(is->key == scene_in(a)->triangles->key && is->patches);
+        assert_int_equal(is->patches->table, set->table);
+        assert_memory_equal(&scene_in(a)->shape, &scene_in(b)->shape, sizeof(WrShape));
+        assert_true(wr_hash_equal(wr_session_hash(a), wr_session_hash(b)));
+        if (i / 2 == 0) another_table_without_the_file(b);
+        wr_session_free(a);
+        wr_session_free(b);
+    }
+    assert_non_null(strstr(wr_text_get(&notes), "2 patches in"));
+    assert_non_null(strstr(wr_text_get(&notes), "1 shared edges; 6 open ones in 1 loops"));
+    assert_non_null(strstr(wr_text_get(&notes), "8 x 8 patches in"));
+    write_file("bad.bpt", "1\n3 3\n0 0 zero\n");
+    WrSession *s = session_with(&notes);
+    must_fail(s, "surface patches file=bad.bpt", "bad.bpt: line 3: \"zero\" is not a coordinate");
+    wr_session_free(s);
+    wr_text_fini(&notes);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(a_mesh_is_told_of_and_undone, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(documents_carry_it, enter_own_folder, leave_own_folder),
+        cmocka_unit_test_setup_teardown(patches_and_terrains_are_kept, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(objects_share_one, enter_own_folder, leave_own_folder),
+        cmocka_unit_test_setup_teardown(damaged_meshes_are_refused, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(another_content_is_an_error, enter_own_folder,
+                                        leave_own_folder),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,5 @@
+wr_test(noise noise)
+wr_test(noise_lattice noise)
+wr_test(noise_octaves noise)
+wr_test(noise_grid noise)
+wr_test(noise_kern noise)

@@ -1,0 +1,139 @@
+/* Displaced surfaces: silhouettes against closed forms, skipped displacement, endless cases. */
+#include "test.h"
+#include "field/scheme_list.h"
+#include "render_scenes.h"
+
+#include "render/kernels/kern.h"
+#include "render/plan/plan.h"
+#include "scene/objects.h"
+
+static WrScene *displaced_of(const char *surface, double height)
+{
+    WrScene *scene = scene_of(surface);
+    scene->displaced = true;
+    scene->height = height;
+    return scene;
+}
+
+/* ---- closed forms ---- */
+
+/* The sphere of radius R + c, seen from d, has a silhouette of radius f (R + c) / sqrt(d^2 - (R + c)^2). */
+static void a_raised_ball_is_a_larger_ball(void **state)
+{
+    (void)state;
+    static const double way[][3] = { { 0.83, 0.137, 4.1 }, { 1.21, -0.31, 5.3 } };
+    for (int k = 0; k < 2; k++) {
+        WrScene *scene = displaced_of("sphere", 0.73);
+        WrField *field = level_field(37, 22, way[k][1] / 0.73);
+        scene->shape.value[0] = way[k][0];
+        look_from(scene, 0, 0, way[k][2]);
+        Shot shot = shoot(scene, field, 301, 301, 2, "auto", false);
+        assert_true(wr_plan_runs(shot.frame.plan, WR_EFFECT_DISPLACED));
+        const double want = seen_radius(scene, 301, way[k][0] + way[k][1], way[k][2]);
+        assert_near(sqrt((double)shot.frame.covered / WR_PI), want, 0.5);
+        put_away(&shot);
+        wr_scene_free(scene);
+        wr_field_free(field);
+    }
+}
+
+/* A plane at distance d that faces the eye and is raised by c grows by d / (d - c), which bump mapping does not
+   show. */
+static void a_raised_plane_comes_nearer(void **state)
+{
+    (void)state;
+    const double c = 0.4173, d = 2.9;
+    WrField *field = level_field(37, 22, c);
+    double side[2];
+    for (int k = 0; k < 2; k++) {
+        WrScene *scene = displaced_of("plane", 1);
+        scene->displaced = k == 1;
+        scene->still = true;
+        look_from(scene, 0, 0, d);
+        Shot shot = shoot(scene, field, 301, 301, 1, "auto", false);
+        side[k] = sqrt((double)shot.frame.covered);
+        put_away(&shot);
+        wr_scene_free(scene);
+    }
+    const double f = 150.5 / tan(35 * WR_PI / 360);
+    assert_near(side[0], f / d, 1);
+    assert_near(side[1], f / (d - c), 1);
+    wr_field_free(field);
+}
+
+/* ---- endless cases (HC125) ---- */
+
+static void no_heights_make_nonsense(void **state)
+{
+    (void)state;
+    static const double height[] = { -1, 1e6 };
+    for (int k = 0; k < 2; k++) {
+        WrField *field = k == 0 ? level_field(37, 22, 1) : random_field(31, 17, 5);
+        WrScene *scene = displaced_of("sphere", height[k]), *base = scene_of("sphere");
+        wr_scene_hold_camera(scene, base, 40.0 / 33); /* from inside, not from afar */
+        Shot shot = shoot(scene, field, 40, 33, 2, "auto", false);
+        for (int i = 0; i < 40 * 33 * 4; i++) assert_true(isfinite(shot.frame.rgba[i]));
+        const char *why = shot.frame.plan->rows[WR_EFFECT_DISPLACED].reason;
+        assert_int_equal(strstr(why, "as many as there may be") != NULL, k == 1);
+        put_away(&shot);
+        wr_scene_free(scene);
+        wr_scene_free(base);
+        wr_field_free(field);
+    }
+}
+
+/* ---- skipped displacement (E50) ---- */
+
+/* Below half a pixel: bit-identical to bump mapping. */
+static void what_nobody_sees_is_bump(void **state)
+{
+    (void)state;
+    WrField *field = random_field(64, 64, 9);
+    WrScene *flat = scene_of("sphere"), *raised = displaced_of("sphere", 0.001);
+    flat->height = 0.001;
+    Shot a = shoot(flat, field, 150, 150, 1, "auto", false);
+    Shot b = shoot(raised, field, 150, 150, 1, "auto", false);
+    assert_false(wr_plan_runs(b.frame.plan, WR_EFFECT_DISPLACED));
+    assert_true(same_picture(&a, &b));
+    put_away(&a);
+    put_away(&b);
+    wr_scene_free(flat);
+    wr_scene_free(raised);
+    wr_field_free(field);
+}
+
+static void the_bits_are_the_same(void **state)
+{
+    (void)state;
+    static const char *const isas[] = { "v1", "v3", "v4" };
+    static const char *const kinds[] = { "torus", "cube", "cone" };
+    WrField *field = random_field(33, 20, 8);
+    for (int i = 0; i < 3; i++) {
+        WrScene *scene = displaced_of(kinds[i], 0.07);
+        scene->scheme = i == 0 ? WR_SCHEME_BSPLINE : WR_SCHEME_CENTRAL;
+        if (i == 1) scene->dials.aa = WR_AA_SUPERSAMPLE, scene->dials.samples = 2;
+        Shot first = shoot(scene, field, 111, 90, 1, "ref", false);
+        assert_true(wr_plan_runs(first.frame.plan, WR_EFFECT_DISPLACED));
+        for (int k = 0; k < 3; k++) {
+            if (!wr_kernels_get(isas[k], false, NULL)) continue;
+            Shot other = shoot(scene, field, 111, 90, 2, isas[k], k == 1);
+            if (!same_picture(&first, &other)) fail_msg("%s, %s", kinds[i], isas[k]);
+            put_away(&other);
+        }
+        put_away(&first);
+        wr_scene_free(scene);
+    }
+    wr_field_free(field);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_raised_ball_is_a_larger_ball),
+        cmocka_unit_test(a_raised_plane_comes_nearer),
+        cmocka_unit_test(no_heights_make_nonsense),
+        cmocka_unit_test(what_nobody_sees_is_bump),
+        cmocka_unit_test(the_bits_are_the_same),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,2 @@
+wr_test(scene scene)
+wr_test(normal_map scene)

@@ -1,0 +1,6 @@
+wr_test(surface surface)
+wr_test(surface_limits surface)
+wr_test(profile surface)
+wr_test(formula surface)
+wr_test(tangents surface)
+wr_test(triangles surface)

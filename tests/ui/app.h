@@ -1,0 +1,86 @@
+/* test_app.h - a complete window without a display, for tests that send events. Include after test.h. */
+#pragma once
+#include "window.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/pool.h"
+#include "command/session.h"
+#include "system/clock.h"
+
+#include "ui/app/loop.h"
+#include "ui/app/app_store.h"
+#include "ui/app/input.h"
+#include "ui/state/app_options.h"
+#include "ui/state/app_state.h"
+#include "ui/state/document.h"
+
+#include <SDL.h>
+
+#define PATIENCE 120.0 /* seconds of waiting before a test fails */
+
+typedef struct Bench {
+    WrPool *pool;
+    WrSession *session;
+    WrAppOptions options;
+    WrApp *app;
+} Bench;
+
+static inline void begin(Bench *bench)
+{
+    WrError err = { "" };
+    SDL_SetHint(SDL_HINT_VIDEODRIVER, "dummy");
+    bench->pool = wr_pool_new(1);
+    bench->session = wr_session_new(&(WrSessionOptions){ .pool = bench->pool, .outputs = true });
+    if (!wr_session_run(bench->session, "table 64x64", &err)) fail_msg("%s", err.text);
+    bench->options = (WrAppOptions){
+        .session = bench->session, .file_given = true, .threads = 1, .width = 900, .height = 700
+    };
+    bench->app = wr_store_new();
+    bench->app->options = &bench->options;
+    bench->app->session = bench->session;
+    if (!wr_app_begin(bench->app, &err)) fail_msg("%s", err.text);
+    double end = wr_clock_seconds() + PATIENCE;
+    while (bench->app->drawn_at == 0.0 && wr_clock_seconds() < end) wr_app_step(bench->app);
+    assert_true(bench->app->drawn_at > 0.0);
+    bench->app->file->clean_revision = wr_session_revision(bench->session);
+}
+
+static inline void finish(Bench *bench)
+{
+    wr_app_end(bench->app);
+    wr_free(bench->app);
+    wr_session_free(bench->session);
+    wr_pool_free(bench->pool);
+}
+
+/* Run until a frame is drawn, even if nothing has changed, and every event is handled: events wait for frames. */
+static inline void draw_again(WrApp *app)
+{
+    const double before = app->drawn_at;
+    double end = wr_clock_seconds() + PATIENCE;
+    while ((app->drawn_at == before || wr_input_waits(app)) && wr_clock_seconds() < end) {
+        app->redraw = 2;
+        SDL_PushEvent(&(SDL_Event){ .type = app->ready_event });
+        wr_app_step(app);
+    }
+}
+
+/* Pointer events as from the system. */
+static inline void push_motion(const WrApp *app, int x, int y)
+{
+    SDL_PushEvent(&(SDL_Event){
+        .motion = {
+            .type = SDL_MOUSEMOTION, .windowID = SDL_GetWindowID(app->window), .x = x, .y = y } });
+}
+
+static inline void push_button(const WrApp *app, bool down, int which, int x, int y)
+{
+    SDL_PushEvent(&(SDL_Event){ .button = { .type = down ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP,
+                                            .windowID = SDL_GetWindowID(app->window),
+                                            .button = (Uint8)which,
+                                            .state = down ? SDL_PRESSED : SDL_RELEASED,
+                                            .clicks = 1,
+                                            .x = x,
+                                            .y = y } });
+}

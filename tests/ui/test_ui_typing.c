@@ -1,0 +1,156 @@
+/* Typing faster than the frame rate: all keys arrive between two frames and must give the same text as key by key.
+   The field is the search for actions. */
+#include "test.h"
+#include "app.h"
+
+#include "ui/state/dialog.h"
+#include "ui/state/layout.h"
+#include "ui/toolkit/gui.h"
+#include "ui/panels/panel_search.h"
+
+#include "document/document.h"
+
+#include <string.h>
+
+static void push_key(Uint32 type, SDL_Scancode code, Uint16 mod)
+{
+    SDL_Keysym keysym = { .scancode = code, .sym = SDL_GetKeyFromScancode(code), .mod = mod };
+    SDL_PushEvent(&(SDL_Event){ .key = { .type = type, .keysym = keysym } });
+}
+
+static void tap(SDL_Scancode code, Uint16 mod)
+{
+    push_key(SDL_KEYDOWN, code, mod);
+    push_key(SDL_KEYUP, code, mod);
+}
+
+/* Send letters as key events and text events. */
+static void type(const char *letters)
+{
+    for (const char *at = letters; *at; at++) {
+        bool upper = *at >= 'A' && *at <= 'Z';
+        Uint16 mod = upper ? KMOD_LSHIFT : 0;
+        SDL_Scancode code = (SDL_Scancode)(SDL_SCANCODE_A + (*at - (upper ? 'A' : 'a')));
+        if (upper) push_key(SDL_KEYDOWN, SDL_SCANCODE_LSHIFT, mod);
+        push_key(SDL_KEYDOWN, code, mod);
+        SDL_Event event = { .text = { .type = SDL_TEXTINPUT } };
+        event.text.text[0] = *at;
+        SDL_PushEvent(&event);
+        push_key(SDL_KEYUP, code, mod);
+        if (upper) push_key(SDL_KEYUP, SDL_SCANCODE_LSHIFT, 0);
+    }
+}
+
+static void chord(SDL_Scancode code)
+{
+    push_key(SDL_KEYDOWN, SDL_SCANCODE_LCTRL, KMOD_LCTRL);
+    tap(code, KMOD_LCTRL);
+    push_key(SDL_KEYUP, SDL_SCANCODE_LCTRL, 0);
+}
+
+static void steps(WrApp *app, int count)
+{
+    for (int i = 0; i < count; i++) draw_again(app);
+}
+
+static void open_search(Bench *bench)
+{
+    begin(bench);
+    wr_dialog_open(bench->app, WR_DIALOG_SEARCH);
+    steps(bench->app, 4);
+    assert_int_equal(bench->app->dialog->now, WR_DIALOG_SEARCH);
+    assert_true(wr_gui_wants_text(bench->app->gui));
+}
+
+static void expect(WrApp *app, const char *text)
+{
+    steps(app, 24); /* more frames than there were keys that need a frame of their own */
+    assert_string_equal(app->finder->text, text);
+}
+
+static void letters_and_keys_keep_their_order(void **state)
+{
+    (void)state;
+    Bench bench;
+    open_search(&bench);
+    type("rast");
+    tap(SDL_SCANCODE_BACKSPACE, 0);
+    tap(SDL_SCANCODE_BACKSPACE, 0);
+    type("dli");
+    tap(SDL_SCANCODE_LEFT, 0);
+    type("oo");
+    tap(SDL_SCANCODE_HOME, 0);
+    tap(SDL_SCANCODE_DELETE, 0);
+    type("b");
+    expect(bench.app, "badlooi");
+    finish(&bench);
+}
+
+static void letters_before_a_chord_are_not_lost(void **state)
+{
+    (void)state;
+    Bench bench;
+    open_search(&bench);
+    type("oak");
+    chord(SDL_SCANCODE_A);
+    type("el");
+    chord(SDL_SCANCODE_A);
+    chord(SDL_SCANCODE_X);
+    type("m");
+    chord(SDL_SCANCODE_V);
+    expect(bench.app, "mel");
+    finish(&bench);
+}
+
+/* A long name with repeated letters and capitals, typed within one frame. */
+static void no_letter_of_many_is_lost(void **state)
+{
+    (void)state;
+    static const char many[] =
+        "MwWLkLkkGKCojaaGinjVbGblkVgzRGewnhrwWwBggMgGKrHMKqJXYHNMYrLvucqyJwNqrqrAxoKxaSNbbMfI"
+        "wNqrqrAxoKxaSNbbMfIOVmKjUtrfXrDCtTNMuIMOKjgkGUiiLuRoDsTeNFQM";
+    Bench bench;
+    open_search(&bench);
+    type(many);
+    expect(bench.app, many);
+    finish(&bench);
+}
+
+static void an_answer_waits_for_the_letters_before_it(void **state)
+{
+    (void)state;
+    Bench bench;
+    open_search(&bench);
+    int layers = wr_session_document(bench.session)->layer_count;
+    type("duplicate");
+    tap(SDL_SCANCODE_RETURN, 0);
+    steps(bench.app, 24);
+    assert_int_equal(bench.app->dialog->now, WR_DIALOG_NONE);
+    assert_int_equal(wr_session_document(bench.session)->layer_count, layers + 1);
+    finish(&bench);
+}
+
+static void nothing_typed_is_no_answer(void **state)
+{
+    (void)state;
+    Bench bench;
+    open_search(&bench);
+    tap(SDL_SCANCODE_RETURN, 0);
+    steps(bench.app, 8);
+    assert_int_equal(bench.app->dialog->now, WR_DIALOG_SEARCH);
+    type("mask");
+    expect(bench.app, "mask");
+    finish(&bench);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(letters_and_keys_keep_their_order),
+        cmocka_unit_test(letters_before_a_chord_are_not_lost),
+        cmocka_unit_test(no_letter_of_many_is_lost),
+        cmocka_unit_test(an_answer_waits_for_the_letters_before_it),
+        cmocka_unit_test(nothing_typed_is_no_answer),
+    };
+    return cmocka_run_group_tests(tests, enter_window, remove_folder);
+}

@@ -1,0 +1,341 @@
+/* window_walk.h - a walk through everything a window without a display can show: tabs, dialogs, tools, generators,
+   kinds of objects, each for one or two frames that are not drawn. Include after test.h. */
+#pragma once
+#include "window.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/pool.h"
+#include "base/enum_rows.h"
+#include "base/text.h"
+#include "brush/preset.h"
+#include "command/session.h"
+#include "field/ops.h"
+#include "generate/generator.h"
+#include "surface/surface.h"
+
+#include "ui/accuracy/accuracy.h"
+#include "ui/app/app.h"
+#include "ui/app/canvas_view.h"
+#include "ui/app/loop.h"
+#include "ui/app/app_store.h"
+#include "ui/state/action.h"
+#include "ui/state/app_options.h"
+#include "ui/state/app_state.h"
+#include "ui/state/dialog.h"
+#include "ui/state/document.h"
+#include "ui/state/input_router.h"
+#include "ui/state/layout.h"
+#include "ui/state/replace.h"
+#include "ui/state/roster.h"
+#include "ui/state/session_view.h"
+#include "ui/state/settings.h"
+#include "ui/generate/generate_state.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/words.h"
+#include "ui/jobs/files.h"
+#include "ui/panels/panel_dynamics.h"
+#include "ui/panels/panel_status.h"
+#include "ui/panels/panels.h"
+#include "ui/patch/patch.h"
+#include "ui/patch/patch_paint.h"
+#include "ui/tools/preset_browser.h"
+#include "ui/tools/tool.h"
+
+#include <SDL.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+/* Opens place `which` of a kind; false past the last, or if it does not exist. */
+typedef struct Walk Walk;
+typedef bool WalkOpen(Walk *walk, int which);
+
+struct Walk {
+    WrApp *app;
+    WrPool *pool;
+    WrSession *session;
+    WrAppOptions options;
+    char where[120]; /* name of the open place */
+    WalkOpen *open;  /* opens it again: open(walk, which) */
+    int which;
+    void (*shown)(Walk *walk); /* called at each place; NULL: a frame is made */
+};
+
+static inline void walk_run(Walk *walk, const char *line)
+{
+    WrError err = { "" };
+    if (!wr_session_run(walk->session, line, &err)) fail_msg("%s: %s", line, err.text);
+}
+
+/* A document that uses all features. */
+static inline void walk_fill(Walk *walk)
+{
+    static const char *const lines[] = { "table 64x48", "surface torus", "layer add",
+                                         "pattern bricks",
+                                         "layer mask 2 from=height low=0.2 high=0.9" };
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) walk_run(walk, lines[i]);
+}
+
+/* That document in a window with the given language. */
+static inline void walk_open(Walk *walk, const char *language)
+{
+    WrError err = { "" };
+    unsetenv("LC_ALL");
+    setenv("LC_MESSAGES", "en_GB.UTF-8", 1);
+    setenv("LANGUAGE", language, 1);
+    memset(walk, 0, sizeof *walk);
+    walk->pool = wr_pool_new(1);
+    const WrSessionOptions how = { .pool = walk->pool, .outputs = true };
+    walk->session = wr_session_new(&how);
+    walk_fill(walk);
+    walk->options = (WrAppOptions){
+        .session = walk->session, .threads = 1, .file_given = true, .width = 1280, .height = 800
+    };
+    SDL_SetHint(SDL_HINT_VIDEODRIVER, "dummy");
+    walk->app = wr_store_new();
+    walk->app->options = &walk->options;
+    walk->app->session = walk->session;
+    if (!wr_app_begin(walk->app, &err)) fail_msg("%s", err.text);
+    wr_gui_reports_all = true;
+    walk->app->hints = walk->app->file->starter = true; /* as at the first start */
+    walk->app->hand->on_canvas = true;
+}
+
+static inline void walk_close(Walk *walk)
+{
+    wr_gui_reports_all = false;
+    wr_app_end(walk->app);
+    wr_free(walk->app);
+    wr_session_free(walk->session);
+    wr_pool_free(walk->pool);
+}
+
+/* All panels show their content. */
+static inline void walk_frame(Walk *walk)
+{
+    WrApp *app = walk->app;
+    int width, height;
+    SDL_GetRendererOutputSize(app->renderer, &width, &height);
+    wr_gui_frame_begin(app->gui, width, height, 0.02);
+    wr_app_draw_parts(app, false);
+    wr_gui_frame_end(app->gui);
+}
+
+static inline void walk_show(Walk *walk, const char *format, const char *what)
+{
+    snprintf(walk->where, sizeof walk->where, format, what);
+    if (walk->shown) walk->shown(walk);
+    else walk_frame(walk);
+}
+
+/* All places of a kind, in turn. */
+static inline void walk_each(Walk *walk, WalkOpen *open, void (*close)(Walk *walk))
+{
+    walk->open = open;
+    for (walk->which = 0; open(walk, walk->which); walk->which++) {
+        if (walk->shown) walk->shown(walk);
+        else walk_frame(walk);
+        if (close) close(walk);
+    }
+    walk->open = NULL;
+}
+
+static inline bool walk_name(Walk *walk, const char *format, const char *what)
+{
+    snprintf(walk->where, sizeof walk->where, format, what);
+    return true;
+}
+
+static inline bool walk_open_tab(Walk *walk, int which)
+{
+    WrApp *app = walk->app;
+    if (which > app->roster->tab_count) return false;
+    app->settings->tab = which;
+    app->accuracy->inspector.shown = which % 2 == 1;
+    return walk_name(walk, "tab %s",
+                     which < app->roster->tab_count ? app->roster->tabs[which].label : "Layers");
+}
+
+static inline void walk_tabs(Walk *walk)
+{
+    walk_each(walk, walk_open_tab, NULL);
+    walk->app->settings->tab = 0;
+}
+
+static inline bool walk_open_tool(Walk *walk, int which)
+{
+    if (which >= walk->app->roster->tool_count) return false;
+    wr_tool_choose(walk->app, which);
+    return walk_name(walk, "tool %s", walk->app->roster->tools[which]->action);
+}
+
+static inline void walk_tools(Walk *walk)
+{
+    walk_each(walk, walk_open_tool, NULL);
+    wr_tool_choose(walk->app, 0);
+}
+
+static inline void walk_close_dialog(Walk *walk)
+{
+    walk_frame(walk); /* its layout is measured */
+    if (walk->app->dialog->now != WR_DIALOG_NONE) wr_dialog_close(walk->app);
+    wr_app_try_end(walk->app); /* as by its Cancel */
+}
+
+/* True for actions that open a dialog: their labels end with dots, but for three. */
+static inline bool walk_opens_dialog(const WrAction *action)
+{
+    static const char *const others[] = { "new", "help", "about" };
+    const size_t length = strlen(action->label);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (strcmp(action->name, others[i]) == 0) return true;
+    return length > 3 && strcmp(action->label + length - 3, "...") == 0;
+}
+
+/* Open each dialog by its action, so that it has its data. */
+static inline bool walk_open_dialog(Walk *walk, int which)
+{
+    for (const WrAction *a = walk->app->roster->actions; a->name; a++) {
+        if (!walk_opens_dialog(a) || which-- > 0) continue;
+        walk->app->file->clean_revision = wr_session_revision(walk->session);
+        wr_action_run(walk->app, a->name);
+        return walk_name(walk, "dialog of %s", a->name);
+    }
+    return false;
+}
+
+static inline bool walk_open_adjust(Walk *walk, int which)
+{
+    char name[64];
+    if (!wr_ops[which].name) return false;
+    snprintf(name, sizeof name, "adjust_%.50s", wr_ops[which].name);
+    wr_action_run(walk->app, name);
+    return walk_name(walk, "dialog of %s", name);
+}
+
+static inline bool walk_open_preset(Walk *walk, int which)
+{
+    return which == 0 && walk_name(walk, "preset %s", "soft");
+}
+
+static inline bool walk_open_curves(Walk *walk, int which)
+{
+    int i = 0; /* of the used ones */
+    for (; i < wr_preset_setting_count(); i++)
+        if (wr_preset_setting(i)->use != WR_SETTING_IGNORED && which-- == 0) break;
+    if (i == wr_preset_setting_count()) return false;
+    wr_dialog_dynamics_open(walk->app, i);
+    return walk_name(walk, "curves of %s", wr_preset_setting(i)->name);
+}
+
+static inline bool walk_open_unsaved(Walk *walk, int which)
+{
+    if (which > 0) return false;
+    wr_dialog_open(walk->app, WR_DIALOG_UNSAVED);
+    return walk_name(walk, "dialog %s", "unsaved");
+}
+
+/* The window's own file dialog, for each purpose. */
+static inline bool walk_open_file(Walk *walk, int which)
+{
+    char title[64];
+    if (which >= WR_FILE_PRESET) return false;
+    wr_files_ask(walk->app->files, (WrFilePurpose)which, NULL, "");
+    wr_dialog_open(walk->app, WR_DIALOG_FILE);
+    snprintf(title, sizeof title, "%d", which);
+    return walk_name(walk, "file dialog of purpose %s", title);
+}
+
+/* The question before a file is replaced, of each kind; the file is in the test's folder. */
+static inline bool walk_open_replace(Walk *walk, int which)
+{
+    char path[600];
+    if (which >= WR_REPLACE_KINDS) return false;
+    snprintf(path, sizeof path, "%.500s/replaced-%d.wrinkle", getenv("XDG_STATE_HOME"), which);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fclose(file);
+    wr_replace_ask(walk->app, (WrReplaceKind)which, WR_FILE_HISTORY, path);
+    return walk_name(walk, "question before %s is replaced", path + strlen(path) - 18);
+}
+
+/* The journal of a program that has ended without saving, and the question that follows. */
+static inline bool walk_open_recover(Walk *walk, int which)
+{
+    if (which > 0) return false;
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        WrSession *session = wr_session_new(&(WrSessionOptions){ .journal = true });
+        _exit(wr_session_run(session, "table 16x16", NULL) ? 0 : 1);
+    }
+    int status;
+    assert_true(waitpid(child, &status, 0) == child && status == 0);
+    wr_dialog_recover_open(walk->app);
+    assert_int_equal(walk->app->dialog->now, WR_DIALOG_RECOVER);
+    return walk_name(walk, "dialog %s", "recover");
+}
+
+static inline void walk_dialogs(Walk *walk)
+{
+    WrApp *app = walk->app;
+    walk_each(walk, walk_open_dialog, walk_close_dialog);
+    walk_each(walk, walk_open_adjust, walk_close_dialog);
+    /* the program's own come first; each has curves */
+    const WrLibrary *library = wr_preset_browser_library(app);
+    if (wr_library_count(library) > 0)
+        wr_preset_browser_choose(app, wr_library_entry(library, 0)->id);
+    assert_non_null(app->shelf->preset);
+    walk_each(walk, walk_open_preset, NULL);
+    walk_each(walk, walk_open_curves, NULL);
+    wr_dialog_close(app);
+    wr_preset_browser_choose(app, WR_ROUND);
+    walk_each(walk, walk_open_unsaved, walk_close_dialog);
+    walk_each(walk, walk_open_file, walk_close_dialog);
+    walk_each(walk, walk_open_replace, walk_close_dialog);
+    walk_each(walk, walk_open_recover, walk_close_dialog);
+}
+
+static inline bool walk_open_generator(Walk *walk, int which)
+{
+    for (const WrFamily *f = wr_families; f->name; f++)
+        for (const WrGenerator *g = f->rows; g->family; g++) {
+            if (which-- > 0) continue;
+            char name[WR_GENERATE_ACTION];
+            wr_generate_action(g, name);
+            wr_action_run(walk->app, name);
+            return walk_name(walk, "generator %s", name);
+        }
+    return false;
+}
+
+static inline void walk_generators(Walk *walk)
+{
+    walk_each(walk, walk_open_generator, NULL);
+    wr_tool_choose(walk->app, 0);
+}
+
+static inline bool walk_open_surface(Walk *walk, int which)
+{
+    if (which >= WR_SURFACE_COUNT) return false;
+    WrError err;
+    char line[64];
+    wr_tab_show(walk->app, "Scene");
+    snprintf(line, sizeof line, "surface %s", wr_surfaces[which]->name);
+    wr_session_run(walk->session, line, &err); /* those that need a file keep the previous state */
+    return walk_name(walk, "surface %s", wr_surfaces[which]->name);
+}
+
+static inline void walk_surfaces(Walk *walk)
+{
+    walk_each(walk, walk_open_surface, NULL);
+}
+
+static inline void walk_all(Walk *walk)
+{
+    walk_tabs(walk);
+    walk_tools(walk);
+    walk_dialogs(walk);
+    walk_generators(walk);
+    walk_surfaces(walk);
+}
