@@ -9,7 +9,6 @@
 #include "system/clock.h"
 
 #include "ui/app/loop.h"
-#include "ui/app/app_store.h"
 #include "ui/app/input.h"
 #include "ui/state/app_options.h"
 #include "ui/state/app_state.h"

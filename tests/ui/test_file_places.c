@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 
-#include "ui/jobs/file_places.h"
+#include "ui/jobs/files.h"
 
 #include <string.h>
 

@@ -6,7 +6,6 @@
 #include "base/progress.h"
 
 #include "ui/jobs/job.h"
-#include "ui/jobs/thread.h"
 
 #include <dlfcn.h>
 #include <errno.h>

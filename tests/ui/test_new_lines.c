@@ -11,7 +11,7 @@
 #include "scene/scene.h"
 #include "surface/surface.h"
 
-#include "ui/state/new_lines.h"
+#include "ui/state/line.h"
 
 #include <string.h>
 

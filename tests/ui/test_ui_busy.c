@@ -17,7 +17,6 @@
 #include "system/clock.h"
 
 #include "ui/app/loop.h"
-#include "ui/app/app_store.h"
 #include "ui/state/app_options.h"
 #include "ui/canvas/view.h"
 #include "ui/state/busy.h"

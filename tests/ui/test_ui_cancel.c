@@ -10,11 +10,10 @@
 #include "system/clock.h"
 
 #include "ui/app/loop.h"
-#include "ui/app/app_store.h"
 #include "ui/state/messages.h"
 #include "ui/state/app_options.h"
 #include "ui/state/busy.h"
-#include "ui/jobs/thread.h"
+#include "ui/jobs/job.h"
 
 #include <stdlib.h>
 #include <string.h>

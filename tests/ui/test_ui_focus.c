@@ -5,7 +5,7 @@
 
 #include "window_walk.h"
 
-#include "ui/state/deferred_actions.h"
+#include "ui/state/action.h"
 #include "ui/toolkit/focus.h"
 
 #define STOPS_MOST 1500

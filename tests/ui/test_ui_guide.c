@@ -10,7 +10,6 @@
 #include "scene/scene.h"
 
 #include "ui/help/guide.h"
-#include "ui/help/guide_run.h"
 #include "ui/state/dialog.h"
 #include "ui/toolkit/focus.h"
 

@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "system/clock.h"
 
-#include "ui/app/app_store.h"
+#include "ui/app/loop.h"
 #include "ui/state/messages.h"
 #include "ui/preview/preview.h"
 

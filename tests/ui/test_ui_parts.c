@@ -11,17 +11,16 @@
 #include "system/clock.h"
 
 #include "ui/canvas/marching_ants.h"
-#include "ui/canvas/canvas_range.h"
-#include "ui/toolkit/gui_icons.h"
+#include "ui/canvas/canvas_colors.h"
+#include "ui/toolkit/theme.h"
 #include "ui/jobs/job.h"
 #include "ui/state/action_list.h"
 #include "ui/state/keys.h"
 #include "ui/state/layout.h"
 #include "ui/preview/rotation.h"
-#include "ui/toolkit/screen.h"
+#include "ui/toolkit/display.h"
 #include "ui/state/search.h"
 #include "ui/state/settings.h"
-#include "ui/canvas/thumb.h"
 #include "ui/tools/preset_overrides.h"
 
 #include <unistd.h>

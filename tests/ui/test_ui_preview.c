@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 #include "ui/preview/overexposure.h"
-#include "ui/preview/picture_upload.h"
+#include "ui/preview/picture.h"
 #include "ui/preview/preview.h"
 
 #define SIDE 96

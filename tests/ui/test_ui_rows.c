@@ -11,7 +11,7 @@
 #include "shade/reflection.h"
 
 #include "ui/state/busy.h"
-#include "ui/state/deferred_actions.h"
+#include "ui/state/action.h"
 #include "ui/state/messages.h"
 #include "ui/toolkit/focus.h"
 

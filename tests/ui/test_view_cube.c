@@ -4,7 +4,6 @@
 #include "base/vec.h"
 
 #include "ui/preview/rotation.h"
-#include "ui/preview/view_cube.h"
 
 static WrRotation random_rotation(TestRandom *r)
 {

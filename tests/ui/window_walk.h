@@ -18,7 +18,6 @@
 #include "ui/app/app.h"
 #include "ui/app/canvas_view.h"
 #include "ui/app/loop.h"
-#include "ui/app/app_store.h"
 #include "ui/state/action.h"
 #include "ui/state/app_options.h"
 #include "ui/state/app_state.h"

@@ -143,7 +143,7 @@ bool wr_accuracy_plot_fits(const WrApp *app);
 int wr_accuracy_current_rung(const WrApp *app);
 bool wr_accuracy_busy(WrApp *app, WrWorkKind kind, double *fraction);
 
-/* ---- accuracy_set.c: dials of A, changed by commands, and of B ---- */
+/* ---- dials of A, changed by commands, and of B ---- */
 /* A's dial: the scene's; B's: the last choice, initially the best. */
 double wr_accuracy_dial(const WrApp *app, int side, int dial);
 void wr_accuracy_set_dial(WrApp *app, int side, int dial, double value);

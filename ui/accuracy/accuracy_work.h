@@ -3,11 +3,11 @@
 #pragma once
 #include "ui/jobs/job.h"
 
-#include "hardcases/hardcases.h"
 #include "accuracy/illusion.h"
 #include "accuracy/ladder.h"
 #include "accuracy/metrics.h"
 #include "base/error.h"
+#include "hardcases/hardcases.h"
 #include "render/reference/reference.h"
 
 #include <stdbool.h>
@@ -86,3 +86,26 @@ WrWork *wr_work_new(WrWorkKind kind, WrWorkTools *tools, const WrField *field, c
                     double turn_deg, int width, int height);
 void wr_work_free(WrWork *work);     /* NULL is allowed */
 extern const WrJobKind wr_work_jobs; /* job kind for WrWork */
+
+/* ---- probe of all quantities of the formulas at one point, and their text form ---- */
+
+/* The work is WR_WORK_PROBE of accuracy_work.h. */
+
+typedef struct WrText WrText;
+
+/* Fill work->probe. False and work->err only for an invalid camera. */
+bool wr_accuracy_probe(WrWork *work);
+
+/* One row of the table: a name, one to three numbers, a unit, and a short description. */
+typedef struct WrProbeRow {
+    const char *name, *unit, *help;
+    int count;
+    double value[3];
+} WrProbeRow;
+#define WR_PROBE_ROWS 26
+/* Rows of a probe that hit; footprint, level and intensity only if `seen`. Returns their number. */
+int wr_accuracy_probe_rows(const WrProbe *probe, bool seen, WrProbeRow rows[WR_PROBE_ROWS]);
+/* A number in the table's form, at most 10 characters. Returns text. */
+char *wr_accuracy_probe_number(double value, char text[24]);
+/* The whole probe as text, one row a line, with all digits. */
+void wr_accuracy_probe_text(const WrProbe *probe, bool seen, WrText *text);

@@ -1,6 +1,6 @@
 /* Inspector: all quantities of the formulas under the pointer, on the patch or on the table. */
 #include "ui/accuracy/accuracy.h"
-#include "ui/accuracy/accuracy_probe.h"
+#include "ui/accuracy/accuracy_work.h"
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
 #include "ui/state/app_state.h"

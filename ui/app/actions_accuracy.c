@@ -1,6 +1,6 @@
 /* Actions of the Accuracy panel, for the table in actions.c. */
 #include "ui/accuracy/accuracy.h"
-#include "ui/accuracy/accuracy_probe.h"
+#include "ui/accuracy/accuracy_work.h"
 #include "ui/state/app_state.h"
 #include "ui/state/layout.h"
 #include "ui/state/roster.h"

@@ -14,7 +14,7 @@
 #include "ui/tools/tool_rows.h"
 #include "ui/tools/tool_stamp.h"
 #include "ui/jobs/files.h"
-#include "ui/tools/brush_strength.h"
+#include "ui/tools/stroke_input.h"
 
 #include "brush/brush.h"
 

@@ -1,14 +1,13 @@
 /* The window: SDL, the main loop, scheduling of frames. */
+#include "ui/app/loop.h"
 #include "ui/app/app.h"
 #include "ui/accuracy/accuracy.h"
 #include "ui/app/canvas_view.h"
 #include "ui/app/input_targets.h"
 #include "ui/app/input.h"
-#include "ui/app/loop.h"
 #include "ui/app/idle_probe.h"
 #include "ui/app/settings_autosave.h"
-#include "ui/app/app_store.h"
-#include "ui/app/timing.h"
+#include "ui/app/latency.h"
 #include "ui/app/window.h"
 #include "ui/canvas/canvas.h"
 #include "ui/canvas/canvas_derived_map.h"
@@ -20,7 +19,7 @@
 #include "ui/state/document.h"
 #include "ui/state/input_router.h"
 #include "ui/state/keys.h"
-#include "ui/state/deferred_actions.h"
+#include "ui/state/action.h"
 #include "ui/state/layout.h"
 #include "ui/state/messages.h"
 #include "ui/state/replace.h"
@@ -28,7 +27,7 @@
 #include "ui/state/session_view.h"
 #include "ui/state/settings.h"
 #include "ui/generate/font_choice.h"
-#include "ui/generate/generate_gallery.h"
+#include "ui/generate/generate_presets.h"
 #include "ui/generate/generate_state.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
@@ -51,12 +50,25 @@
 #include "ui/tools/tool_stamp.h"
 #include "ui/views/marks.h"
 #include "ui/jobs/files.h"
-#include "ui/jobs/thread.h"
+#include "ui/jobs/job.h"
 #include "ui/jobs/edit_preview.h"
+#include "ui/app/roster_list.h"
+#include "ui/canvas/view.h"
+#include "ui/state/busy_internal.h"
+#include "ui/panels/panel_adjust.h"
+#include "ui/panels/panel_objects.h"
+#include "ui/panels/panel_scene.h"
+#include "ui/panels/panel_preferences.h"
+#include "ui/panels/panel_search.h"
+#include "ui/tools/tool_clone.h"
+#include "ui/tools/tool_shape.h"
+#include "ui/tools/tool_transform.h"
 
 #include "base/array.h"
 #include "base/error.h"
+#include "base/memory.h"
 #include "export/film.h"
+#include "field/seam.h"
 #include "scene/scene.h"
 #include "system/clock.h"
 
@@ -463,4 +475,89 @@ int wr_app_run(const WrAppOptions *options)
     wr_app_end(app);
     wr_free(app);
     return status;
+}
+
+/* ---- one memory block for the state of all components ---- */
+
+typedef struct Store {
+    WrApp app; /* the first member: freeing it frees the block */
+    WrSettings settings;
+    WrSettings settings_known;
+    WrLayout layout;
+    WrTiming timing;
+    WrCanvasView view;
+    WrCanvasRange range, map_range;
+    WrInputRouter hand;
+    WrBrushState brush;
+    WrBrushSources brush_files;
+    WrPresetBrowser shelf;
+    WrDrawState draw;
+    WrPatch patch;
+    WrPatchPaint paint;
+    WrMarks marks;
+    WrSelectState select;
+    WrLayersState layers;
+    WrSurfaceState surface;
+    WrObjectsState objects;
+    WrAdjust adjust;
+    WrOutlineRequest selecting;
+    WrFinder finder;
+    WrPreferences preferences;
+    WrSeam seam;
+    WrCertificate certificate;
+    WrMeter meter;
+    WrDeferred later;
+    WrWaits waits;
+    WrMessages messages;
+    WrForms forms;
+    WrReplace replace;
+    WrCloneState clone;
+    WrTransformState transform;
+    WrStampState stamp;
+    WrDialogState dialog;
+    WrDocumentState file;
+} Store;
+
+WrApp *wr_store_new(void)
+{
+    Store *store = wr_alloc(1, sizeof *store);
+    WrApp *app = &store->app;
+    app->settings = &store->settings;
+    app->settings_known = &store->settings_known;
+    app->layout = &store->layout;
+    app->timing = &store->timing;
+    app->view = &store->view;
+    app->range = &store->range;
+    app->map_range = &store->map_range;
+    app->hand = &store->hand;
+    app->brush = &store->brush;
+    app->brush_files = &store->brush_files;
+    app->shelf = &store->shelf;
+    app->draw = &store->draw;
+    app->patch = &store->patch;
+    app->paint = &store->paint;
+    app->marks = &store->marks;
+    app->select = &store->select;
+    app->layers = &store->layers;
+    app->surface = &store->surface;
+    app->objects = &store->objects;
+    app->adjust = &store->adjust;
+    app->selecting = &store->selecting;
+    app->finder = &store->finder;
+    app->preferences = &store->preferences;
+    app->seam = &store->seam;
+    app->certificate = &store->certificate;
+    app->meter = &store->meter;
+    app->later = &store->later;
+    app->waits = &store->waits;
+    app->messages = &store->messages;
+    app->forms = &store->forms;
+    app->replace = &store->replace;
+    app->clone = &store->clone;
+    app->transform = &store->transform;
+    app->stamp = &store->stamp;
+    app->dialog = &store->dialog;
+    app->file = &store->file;
+    app->roster = &wr_roster;
+    return app;
 }

@@ -2,9 +2,29 @@
 #pragma once
 #include "ui/state/app_state.h"
 #include "ui/state/roster.h"
+#include "ui/canvas/canvas.h"
+
+#include "field/maps.h"
+
+#include <stdbool.h>
 
 void wr_app_place_view(WrApp *app);
-void wr_canvas_view_draw(WrApp *app);    /* the picture */
 void wr_canvas_view_overlay(WrApp *app); /* overlays */
 
 extern const WrPart wr_part_canvas;
+
+/* ---- canvas chip ---- */
+
+/* The displayed map and its range, with a popup; light direction of relief shading. */
+
+typedef struct WrApp WrApp;
+
+/* A map that can be shown instead of the table. */
+typedef struct WrCanvasMapRow {
+    const char *name;
+    WrFieldMapKind kind;
+    WrCanvasColours colours;
+    double low, high; /* low 0 and high 0: from the map's lowest value to 0 */
+    bool two;         /* with slopes along v as second component */
+} WrCanvasMapRow;
+extern const WrCanvasMapRow wr_canvas_maps[WR_CANVAS_SHOWN];

@@ -1,8 +1,9 @@
+
 #include "ui/app/idle_probe.h"
 #include "ui/accuracy/accuracy.h"
 #include "ui/app/input.h"
 #include "ui/state/app_state.h"
-#include "ui/state/deferred_actions.h"
+#include "ui/state/action.h"
 #include "ui/state/layout.h"
 #include "ui/toolkit/gui.h"
 #include "ui/patch/patch.h"
@@ -12,6 +13,8 @@
 
 #include "base/array.h"
 #include "base/memory.h"
+#include "field/field.h"
+#include "system/clock.h"
 #include "system/fd.h"
 #include "system/thread.h"
 
@@ -108,3 +111,24 @@ void wr_idle_probe_step(WrApp *app, bool busy)
     fprintf(stderr, "at rest %d\n", rest->answered);
     fflush(stderr);
 }
+
+/* Release of memory kept for the next table or picture, after an idle period of the window. */
+
+#define ALONE_SECONDS 20.0
+
+static double next_time(const WrApp *app)
+{
+    const bool done = app->busy || app->thrifty_at >= app->input_at;
+    return done ? 0.0 : app->input_at + ALONE_SECONDS;
+}
+
+static void update(WrApp *app)
+{
+    if (app->busy) app->thrifty_at = 0.0; /* a running command's memory is released afterwards */
+    const double due = next_time(app), now = wr_clock_seconds();
+    if (due == 0.0 || now < due) return;
+    wr_field_trim();
+    app->thrifty_at = now;
+}
+
+const WrPart wr_part_thrift = { .next_time = next_time, .update = update };

@@ -3,6 +3,7 @@
    every event that the X server had at the request is handled and no computation or drawing is left. */
 #pragma once
 #include "ui/state/app_state.h"
+#include "ui/state/roster.h"
 
 #include <SDL.h>
 #include <stdbool.h>
@@ -14,3 +15,7 @@ void wr_idle_probe_free(WrIdleProbe *rest);
 void wr_idle_probe_asked(WrApp *app);
 /* Called at the end of each step. busy: work is running that the main loop's timers do not include. */
 void wr_idle_probe_step(WrApp *app, bool busy);
+
+/* ---- release of cached memory after an idle period ---- */
+
+extern const WrPart wr_part_thrift;

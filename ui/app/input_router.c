@@ -7,7 +7,6 @@
 #include "ui/state/action_list.h"
 #include "ui/state/busy.h"
 #include "ui/state/app_state.h"
-#include "ui/state/deferred_actions.h"
 #include "ui/state/dialog.h"
 #include "ui/state/input_router.h"
 #include "ui/state/keys.h"

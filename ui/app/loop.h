@@ -14,3 +14,8 @@ void wr_app_end(WrApp *app);
 /* Draw menus, panels, dialogs and overlays, between wr_gui_frame_begin and wr_gui_frame_end; `views`: canvas and
    patch too. */
 void wr_app_draw_parts(WrApp *app, bool views);
+
+/* ---- allocation of the window's state ---- */
+
+/* State with all members zero except the roster and the pointers to each component. wr_free frees it as a whole. */
+WrApp *wr_store_new(void);

@@ -1,20 +1,18 @@
 /* The roster: all dialogs, tabs, components and file purposes. */
 #include "ui/app/roster_list.h"
-#include "base/enum_rows.h"
 #include "ui/accuracy/accuracy.h"
 #include "ui/app/canvas_view.h"
 #include "ui/app/input_targets.h"
 #include "ui/app/loop.h"
-#include "ui/app/idle_trim.h"
-#include "ui/app/tool_list.h"
+#include "ui/app/idle_probe.h"
 #include "ui/state/dialog.h"
 #include "ui/state/document.h"
 #include "ui/state/replace.h"
 #include "ui/state/roster.h"
 #include "ui/generate/font_choice.h"
-#include "ui/generate/generate_gallery.h"
+#include "ui/generate/generate_presets.h"
 #include "ui/generate/generate_state.h"
-#include "ui/help/panel_help.h"
+#include "ui/help/guide.h"
 #include "ui/panels/panel_adjust.h"
 #include "ui/panels/panel_dynamics.h"
 #include "ui/panels/panel_layers.h"
@@ -35,6 +33,9 @@
 #include "ui/tools/tool_stamp.h"
 #include "ui/views/marks.h"
 #include "ui/jobs/files.h"
+#include "ui/tools/tool_rows.h"
+
+#include "base/enum_rows.h"
 
 WR_ROWS(dialogs);
 static const WrDialogRow dialogs[] = {
@@ -119,3 +120,16 @@ const WrRoster wr_roster = { .tools = wr_tools,
                              .parts = parts,
                              .takes = takes,
                              .step = wr_app_step };
+
+/* ---- the list of tools, in the order of the tool strip ---- */
+
+/* A new tool is a file with its row, and a line here. */
+
+const WrTool *const wr_tools[] = {
+    &wr_tool_brush,         &wr_tool_smooth,      &wr_tool_smear,          &wr_tool_clone,
+    &wr_tool_flood,         &wr_tool_ramp,        &wr_tool_shape_rect,     &wr_tool_shape_ellipse,
+    &wr_tool_shape_polygon, &wr_tool_shape_path,  &wr_tool_stamp,          &wr_tool_generate,
+    &wr_tool_pick,          &wr_tool_select_rect, &wr_tool_select_ellipse, &wr_tool_select_lasso,
+    &wr_tool_transform,     &wr_tool_pan,         &wr_tool_zoom,
+};
+_Static_assert(sizeof wr_tools / sizeof *wr_tools == WR_TOOL_COUNT, "tool_rows.h counts them");

@@ -11,7 +11,6 @@
 #include "ui/toolkit/desktop.h"
 #include "ui/toolkit/display.h"
 #include "ui/toolkit/gui.h"
-#include "ui/toolkit/screen.h"
 
 #include <SDL.h>
 #include <math.h>

@@ -1,8 +1,6 @@
 #include "ui/canvas/canvas.h"
 #include "ui/canvas/canvas_cells.h"
 #include "ui/canvas/canvas_colors.h"
-#include "ui/canvas/canvas_range.h"
-#include "ui/canvas/canvas_turn.h"
 #include "ui/canvas/view.h"
 #include "ui/toolkit/retained_frame.h"
 #include "ui/toolkit/theme.h"

@@ -1,7 +1,6 @@
 /* canvas.h - picture of the table on the canvas: grey or false colour, tiled in all directions, box-filtered at every
    zoom. Only changed parts of its texture are redrawn. */
 #pragma once
-#include "ui/canvas/canvas_range.h"
 #include "ui/canvas/view.h"
 
 #include <SDL.h>
@@ -12,6 +11,13 @@ typedef struct WrField WrField;
 typedef struct WrRetainedFrame WrRetainedFrame;
 
 typedef struct WrCanvas WrCanvas;
+
+/* How the automatic range follows the heights: wr_range_follow in canvas_colors.h. */
+typedef enum WrRangeHold {
+    WR_RANGE_RESTS,  /* no edit in progress */
+    WR_RANGE_WIDENS, /* painting in progress */
+    WR_RANGE_STAYS   /* the table is a preview that follows the pointer */
+} WrRangeHold;
 
 typedef enum WrCanvasColours {
     WR_CANVAS_GREY,
@@ -38,7 +44,7 @@ typedef enum WrCanvasShown {
 typedef struct WrCanvasLook {
     WrCanvasShown shown;
     WrCanvasColours colours; /* of heights; SIGNED: blue below zero, white at zero, orange above */
-    bool automatic;          /* low and high are adjusted to the table (canvas_range.h) */
+    bool automatic;          /* low and high are adjusted to the table (wr_range_follow) */
     bool marks;              /* tint heights beyond the range: warm above, cool below */
     double low, high;        /* heights displayed as black and white; low < high */
     /* of shaded relief: right and up components of the unit vector towards the light */

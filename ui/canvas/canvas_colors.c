@@ -1,6 +1,10 @@
+
 #include "ui/canvas/canvas_colors.h"
 
+#include "field/field.h"
+
 #include <math.h>
+#include <stdbool.h>
 
 #define BEYOND 0.01f /* of a code: tolerance before a value counts as beyond the range */
 #define MAJOR 5      /* every fifth contour is a major one */
@@ -150,4 +154,85 @@ void wr_canvas_ink_slopes(const WrCanvasInk *ink, const float *p, const float *q
             out[i] = ink->tones[(int)(lit * WR_CANVAS_INK_TONES + 0.5f)];
         }
     }
+}
+
+/* ----  ---- */
+
+#define LEVEL_REACH 0.5  /* least range on each side of zero for a level table */
+#define ROOM 0.25        /* margin, as a fraction of the range */
+#define USED_LEAST 0.125 /* least used fraction of the range */
+#define SLIGHT                                                                                     \
+    0.25 /* if dents are much shallower than bumps are high, they must not take half of the greys */
+
+static void own_range(double range[2], double low, double high)
+{
+    const bool level = !(high > low), signs = level || low < fmin(0.0, -SLIGHT * high);
+    double reach = fmax(fabs(low), fabs(high));
+    if (level) reach = fmax(LEVEL_REACH, 2.0 * reach);
+    range[0] = signs ? -reach : low;
+    range[1] = signs ? reach : high;
+}
+
+void wr_range_follow(double range[2], double low, double high, WrRangeHold hold)
+{
+    const double span = range[1] - range[0];
+    const bool spare = high > low && high - low < USED_LEAST * span;
+    if (!(span > 0.0) || (spare && hold == WR_RANGE_RESTS)) {
+        own_range(range, low, high);
+        return;
+    }
+    if (hold == WR_RANGE_STAYS) return;
+    const double more = hold == WR_RANGE_WIDENS ? ROOM * span : 0.0;
+    if (low < range[0]) range[0] = low - more;
+    if (high > range[1]) range[1] = high + more;
+}
+
+/* ----  ---- */
+
+#define NOTHING 0x48 /* grey of uncovered areas */
+
+static float texel(const WrField *field, double u, double v)
+{
+    int w = wr_field_width(field), h = wr_field_height(field);
+    int i = (int)(u * w), j = (int)(v * h);
+    return wr_field_get(field, i < w ? i : w - 1, j < h ? j : h - 1);
+}
+
+/* Mean of four texels for pixel (x, y). */
+static float pixel(const WrField *field, int x, int y, int side)
+{
+    double sum = 0.0;
+    for (int k = 0; k < 4; k++)
+        sum += (double)texel(field, (x + 0.25 + 0.5 * (k & 1)) / side,
+                             (y + 0.25 + 0.5 * (k >> 1)) / side);
+    return (float)(sum / 4.0);
+}
+
+void wr_thumb_draw(const WrField *field, const WrField *cover, bool unit, int side, uint32_t *argb)
+{
+    float heights[WR_THUMB_MAX * WR_THUMB_MAX], low = INFINITY, high = -INFINITY;
+    for (int y = 0; y < side; y++)
+        for (int x = 0; x < side; x++) {
+            float f = pixel(field, x, y, side);
+            heights[y * side + x] = f;
+            low = f < low ? f : low;
+            high = f > high ? f : high;
+        }
+    if (unit || !(high > low)) {
+        low = 0.0f;
+        high = 1.0f;
+    } else if (cover) {
+        high = -low > high ? -low : high;
+        low = -high;
+    }
+    for (int y = 0; y < side; y++)
+        for (int x = 0; x < side; x++) {
+            double grey = ((double)heights[y * side + x] - (double)low) /
+                          ((double)high - (double)low) * 255.0;
+            grey = grey > 0.0 ? grey < 255.0 ? grey : 255.0 : 0.0;
+            double c = cover ? (double)pixel(cover, x, y, side) : 1.0;
+            c = c > 0.0 ? c < 1.0 ? c : 1.0 : 0.0;
+            uint32_t g = (uint32_t)lrint(NOTHING + c * (grey - NOTHING));
+            argb[y * side + x] = 0xff000000u | g << 16 | g << 8 | g;
+        }
 }

@@ -3,6 +3,7 @@
 #pragma once
 #include "ui/canvas/canvas.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #define WR_CANVAS_INK_CODES 256  /* palette size; two more entries mark values beyond the range */
@@ -32,3 +33,28 @@ void wr_canvas_ink_heights(const WrCanvasInk *ink, const float *heights, float l
 /* Colours of a row from slopes dz/dx (right) and dz/dy (up). */
 void wr_canvas_ink_slopes(const WrCanvasInk *ink, const float *p, const float *q, int count,
                           uint32_t *out);
+
+/* ---- automatic black and white heights ---- */
+
+/* Update range (black, white) for a table with heights low..high.
+ *
+ * An empty range (black >= white) becomes the table's own. In it zero is mid-grey if the table is level or goes well
+ * below zero, so that raising and lowering are both visible. Otherwise the picture is kept as far as possible: a
+ * height beyond the range moves only that end, and the other keeps its grey. A range of which the table uses less
+ * than an eighth becomes the table's own, at rest. WR_RANGE_WIDENS: an end moves by more than necessary, so that not
+ * every dab redraws the picture. */
+void wr_range_follow(double range[2], double low, double high, WrRangeHold hold);
+
+/* ---- thumbnails of tables for lists ---- */
+
+#define WR_THUMB_MAX 128 /* largest side in pixels */
+
+/* Draw a picture of side x side pixels (1..WR_THUMB_MAX) of the whole table, stretched to a square: grey from the
+ * lowest to the highest sampled height. Four texels per pixel are read, so the cost is independent of the table's
+ * size. A flat table shows its height, 0 black and 1 white. With a cover, height 0 is middle grey, so that raised and
+ * lowered areas are both visible.
+ *
+ * cover  0..1, of the field's size: the background shows where it is 0; NULL: 1 everywhere
+ * unit   true: fixed range, black is 0 and white is 1, as for masks
+ * argb   [side * side] 0xAARRGGBB */
+void wr_thumb_draw(const WrField *field, const WrField *cover, bool unit, int side, uint32_t *argb);

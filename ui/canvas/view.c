@@ -1,23 +1,32 @@
+
 #include "ui/canvas/view.h"
 
 #include "base/exactmath.h"
 
+#include <SDL.h>
 #include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdlib.h>
+
+static void view_keep_near(WrCanvasView *view);
 
 static double clamp(double x, double low, double high)
 {
     return x < low ? low : x > high ? high : x;
 }
 
-void wr_view_zoom_range(const WrCanvasView *view, double *low, double *high)
+/* Zoom limits; zoom 1 is 100 %. From 1/128, or the zoom at which the longer side is 64 pixels if that is larger, up
+   to 128 pixels per texel. */
+static void view_zoom_range(const WrCanvasView *view, double *low, double *high)
 {
     double longer = view->table_w > view->table_h ? view->table_w : view->table_h;
     *low = clamp(64.0 / longer, 1.0 / 128.0, 1.0);
     *high = 128.0;
 }
 
-void wr_view_turn_of(double degrees, double *c, double *s)
+/* Cosine and sine of a rotation in degrees; quarter turns are exact. */
+static void view_turn_of(double degrees, double *c, double *s)
 {
     double quarters = degrees / 90.0;
     *c = cos(degrees * WR_RAD_PER_DEG);
@@ -29,12 +38,12 @@ void wr_view_turn_of(double degrees, double *c, double *s)
 void wr_view_fit(WrCanvasView *view, double margin)
 {
     double free = 1.0 - margin, c, s;
-    wr_view_turn_of(view->turn, &c, &s);
+    view_turn_of(view->turn, &c, &s);
     double wide = fabs(c) * view->table_w + fabs(s) * view->table_h;
     double tall = fabs(s) * view->table_w + fabs(c) * view->table_h;
     double zoom = fmin(view->w * free / wide, view->h * free / tall);
     double low, high;
-    wr_view_zoom_range(view, &low, &high);
+    view_zoom_range(view, &low, &high);
     view->zoom = clamp(zoom, low, high);
     view->centre_x = view->table_w / 2.0;
     view->centre_y = view->table_h / 2.0;
@@ -44,7 +53,7 @@ void wr_view_step(const WrCanvasView *view, double dx, double dy, double *px, do
 {
     double c = 1.0, s = 0.0, x = view->mirrored ? -view->zoom * dx : view->zoom * dx,
            y = view->zoom * dy;
-    if (view->turn != 0.0) wr_view_turn_of(view->turn, &c, &s);
+    if (view->turn != 0.0) view_turn_of(view->turn, &c, &s);
     *px = c * x - s * y;
     *py = s * x + c * y;
 }
@@ -52,7 +61,7 @@ void wr_view_step(const WrCanvasView *view, double dx, double dy, double *px, do
 void wr_view_step_back(const WrCanvasView *view, double dx, double dy, double *x, double *y)
 {
     double c = 1.0, s = 0.0;
-    if (view->turn != 0.0) wr_view_turn_of(view->turn, &c, &s);
+    if (view->turn != 0.0) view_turn_of(view->turn, &c, &s);
     double across = (c * dx + s * dy) / view->zoom;
     *x = view->mirrored ? -across : across;
     *y = (c * dy - s * dx) / view->zoom;
@@ -128,7 +137,7 @@ WrCanvasView wr_view_flat(const WrCanvasView *view)
 {
     WrCanvasView flat = *view;
     double c, s;
-    wr_view_turn_of(view->turn, &c, &s);
+    view_turn_of(view->turn, &c, &s);
     flat.x = flat.y = 0;
     if (view->turn == 0.0) return flat;
     flat.turn = 0.0;
@@ -160,14 +169,14 @@ static void put_under(WrCanvasView *view, double px, double py, double x, double
     from_pixel(view, px, py, &after_x, &after_y);
     view->centre_x += x - after_x;
     view->centre_y += y - after_y;
-    wr_view_keep_near(view);
+    view_keep_near(view);
 }
 
 void wr_view_zoom_at(WrCanvasView *view, double px, double py, double zoom)
 {
     double x, y, low, high;
     from_pixel(view, px, py, &x, &y);
-    wr_view_zoom_range(view, &low, &high);
+    view_zoom_range(view, &low, &high);
     view->zoom = clamp(zoom, low, high);
     put_under(view, px, py, x, y);
 }
@@ -186,10 +195,10 @@ void wr_view_pan(WrCanvasView *view, double dx, double dy)
     wr_view_step_back(view, dx, dy, &x, &y);
     view->centre_x -= x;
     view->centre_y -= y;
-    wr_view_keep_near(view);
+    view_keep_near(view);
 }
 
-void wr_view_keep_near(WrCanvasView *view)
+static void view_keep_near(WrCanvasView *view)
 {
     /* a tiling that shifts every other copy has a period of two copies */
     double w = view->tiling == WR_TILING_HALF_DROP ? 2.0 * view->table_w : view->table_w;
@@ -221,4 +230,89 @@ int wr_view_outline_copies(const WrCanvasView *view, bool wraps_u, bool wraps_v,
         }
     }
     return count;
+}
+
+/* ----  ---- */
+
+#define PARTS 256 /* subdivisions of a pixel in the weights */
+
+typedef struct Turn {
+    double c, s;
+} Turn;
+
+static Turn turn_of(double degrees)
+{
+    Turn turn;
+    view_turn_of(degrees, &turn.c, &turn.s);
+    return turn;
+}
+
+/* a + (b - a) t / PARTS for all four channels, two at a time. */
+static uint32_t blend(uint32_t a, uint32_t b, uint32_t t)
+{
+    const uint32_t mask = 0x00ff00ffu;
+    uint32_t even = (a & mask) * (PARTS - t) + (b & mask) * t;
+    uint32_t odd = (a >> 8 & mask) * (PARTS - t) + (b >> 8 & mask) * t;
+    return (even >> 8 & mask) | (odd & 0xff00ff00u);
+}
+
+static int within(int at, int size)
+{
+    return at < 0 ? 0 : at >= size ? size - 1 : at;
+}
+
+/* Positions are integers in units of 2^-32 pixel: quarter turns are exact, and rows do not drift. */
+#define FIXED 4294967296.0
+
+typedef struct Source {
+    const uint32_t *pixels;
+    int w, h;
+} Source;
+
+static uint32_t between(const Source *from, int64_t x, int64_t y)
+{
+    int left = (int)(x >> 32), top = (int)(y >> 32);
+    uint32_t tx = (uint32_t)(x >> 24) & (PARTS - 1), ty = (uint32_t)(y >> 24) & (PARTS - 1);
+    bool inside = left >= 0 && top >= 0 && left + 1 < from->w && top + 1 < from->h;
+    int x0 = inside ? left : within(left, from->w),
+        x1 = inside ? left + 1 : within(left + 1, from->w);
+    int y0 = inside ? top : within(top, from->h), y1 = inside ? top + 1 : within(top + 1, from->h);
+    const uint32_t *upper = from->pixels + (size_t)y0 * (size_t)from->w;
+    const uint32_t *lower = from->pixels + (size_t)y1 * (size_t)from->w;
+    return blend(blend(upper[x0], upper[x1], tx), blend(lower[x0], lower[x1], tx), ty);
+}
+
+void wr_canvas_turn(const uint32_t *from, int from_w, int from_h, uint32_t *to, int to_w, int to_h,
+                    double degrees, SDL_Rect rect)
+{
+    const Turn t = turn_of(degrees);
+    const Source source = { from, from_w, from_h };
+    const int64_t step_x = llrint(t.c * FIXED), step_y = llrint(-t.s * FIXED);
+    for (int j = rect.y; j < rect.y + rect.h; j++) {
+        const double dx = rect.x + 0.5 - to_w / 2.0, dy = j + 0.5 - to_h / 2.0;
+        /* half a pixel, and rounding to the nearest subdivision */
+        const double half = 0.5 - 0.5 / PARTS;
+        int64_t x = llrint((t.c * dx + t.s * dy + from_w / 2.0 - half) * FIXED);
+        int64_t y = llrint((t.c * dy - t.s * dx + from_h / 2.0 - half) * FIXED);
+        uint32_t *out = to + (size_t)j * (size_t)to_w + (size_t)rect.x;
+        for (int i = 0; i < rect.w; i++, x += step_x, y += step_y) out[i] = between(&source, x, y);
+    }
+}
+
+SDL_Rect wr_canvas_turned_rect(SDL_Rect rect, int from_w, int from_h, int to_w, int to_h,
+                               double degrees)
+{
+    Turn t = turn_of(degrees);
+    double x0 = INFINITY, y0 = INFINITY, x1 = -INFINITY, y1 = -INFINITY;
+    for (int k = 0; k < 4; k++) {
+        double dx = rect.x + (k & 1 ? rect.w : 0) - from_w / 2.0;
+        double dy = rect.y + (k & 2 ? rect.h : 0) - from_h / 2.0;
+        double x = t.c * dx - t.s * dy + to_w / 2.0, y = t.s * dx + t.c * dy + to_h / 2.0;
+        x0 = fmin(x0, x), x1 = fmax(x1, x);
+        y0 = fmin(y0, y), y1 = fmax(y1, y);
+    }
+    SDL_Rect whole = { 0, 0, to_w, to_h }, out = { (int)floor(x0) - 2, (int)floor(y0) - 2, 0, 0 };
+    out.w = (int)ceil(x1) + 2 - out.x;
+    out.h = (int)ceil(y1) + 2 - out.y;
+    return SDL_IntersectRect(&out, &whole, &out) ? out : (SDL_Rect){ 0, 0, 0, 0 };
 }

@@ -4,7 +4,9 @@
    Pixel positions are relative to the window. Texel positions run right and DOWN from the top left corner of the cell
    and are not wrapped: the copy to the right of the cell starts at x = W. */
 #pragma once
+#include <SDL.h>
 #include <stdbool.h>
+#include <stdint.h>
 
 /* Displayed arrangement of the copies beside the cell; painting is not affected. */
 typedef enum WrTiling {
@@ -17,16 +19,13 @@ typedef enum WrTiling {
 typedef struct WrCanvasView {
     int x, y, w, h;            /* the canvas's rectangle in the window, pixels; w, h >= 1 */
     int table_w, table_h;      /* texels */
-    double zoom;               /* pixels per texel; see wr_view_zoom_range */
+    double zoom;               /* pixels per texel; see view_zoom_range */
     double centre_x, centre_y; /* texel position at the centre of the canvas */
     bool mirrored;             /* mirrored horizontally: reveals asymmetries */
     double turn;               /* degrees clockwise about the centre of the canvas; -180..180 */
     WrTiling tiling;
 } WrCanvasView;
 
-/* Zoom limits; zoom 1 is 100 %. From 1/128, or the zoom at which the longer side is 64 pixels if that is larger, up
-   to 128 pixels per texel. */
-void wr_view_zoom_range(const WrCanvasView *view, double *low, double *high);
 /* Show the whole cell with `margin` (0..1) of the canvas free around it; the rotation is unchanged. */
 void wr_view_fit(WrCanvasView *view, double margin);
 /* Zoom to `zoom` (clamped) with the texel under the pixel (px, py) fixed. */
@@ -37,7 +36,6 @@ void wr_view_turn_at(WrCanvasView *view, double px, double py, double degrees);
 /* Move the picture by dx, dy pixels. On periodic axes the centre is moved back into the cell by whole periods: the
    display is the same, and positions never grow. */
 void wr_view_pan(WrCanvasView *view, double dx, double dy);
-void wr_view_keep_near(WrCanvasView *view);
 
 void wr_view_to_texel(const WrCanvasView *view, double px, double py, double *x, double *y);
 void wr_view_to_pixel(const WrCanvasView *view, double x, double y, double *px, double *py);
@@ -62,8 +60,6 @@ WrCellRange wr_view_cells(const WrCanvasView *view);
 void wr_view_bounds(const WrCanvasView *view, double low[2], double high[2]);
 /* An unrotated view that contains everything this one shows, at the same scale: its rectangle starts at 0, 0. */
 WrCanvasView wr_view_flat(const WrCanvasView *view);
-/* Cosine and sine of a rotation in degrees; quarter turns are exact. */
-void wr_view_turn_of(double degrees, double *c, double *s);
 bool wr_view_same(const WrCanvasView *a, const WrCanvasView *b);
 
 /* Shifts by whole cells, (dx, dy) in texels, at which a disc of `radius` texels about (x, y) also enters the cell:
@@ -75,3 +71,16 @@ typedef struct WrShift {
 } WrShift;
 int wr_view_outline_copies(const WrCanvasView *view, bool wraps_u, bool wraps_v, double x, double y,
                            double radius, WrShift copies[WR_VIEW_COPIES]);
+
+/* ---- rotation of a picture with bilinear filtering ---- */
+
+/* Tested without a window. */
+
+/* Fill `rect` (pixels of `to`, within it) of the picture to[to_h][to_w] from from[from_h][from_w], both ARGB, rotated
+   clockwise by `degrees` about the centres of both. Bilinear interpolation keeps all colours in quarter turns. from
+   must extend one pixel beyond the visible area. */
+void wr_canvas_turn(const uint32_t *from, int from_w, int from_h, uint32_t *to, int to_w, int to_h,
+                    double degrees, SDL_Rect rect);
+/* The rectangle of the rotated picture that is affected by a rectangle of the flat one. */
+SDL_Rect wr_canvas_turned_rect(SDL_Rect rect, int from_w, int from_h, int to_w, int to_h,
+                               double degrees);

@@ -19,7 +19,7 @@ void wr_font_choice_free(WrApp *app);
 
 extern const WrPart wr_part_font_choice;
 
-/* ---- font_sample.c: on the worker thread ---- */
+/* ---- on the worker thread ---- */
 
 /* Rendered sample of a word in a font: white, with pixel coverage as alpha. The baseline is at the same height in all
  * samples.

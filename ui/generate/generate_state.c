@@ -1,9 +1,11 @@
 /* The current generator: its values, its command line and its preview. */
 #include "ui/generate/generate_state.h"
+#include "ui/state/app_state.h"
+#include "ui/state/line.h"
+#include "ui/state/messages.h"
 #include "ui/canvas/view.h"
 #include "ui/state/action_list.h"
 #include "ui/state/busy.h"
-#include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
 #include "ui/state/input_router.h"
 #include "ui/state/roster.h"
@@ -18,6 +20,7 @@
 #include "command/command_line.h"
 #include "command/generate.h"
 #include "command/session.h"
+#include "document/blend.h"
 #include "generate/generator.h"
 
 #include <SDL.h>
@@ -25,6 +28,243 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* ---- conversion between the values of the current generator and its command line ---- */
+
+static const char action_prefix[] = "generate_";
+
+static void generate_free_values(WrGenerateState *hand)
+{
+    for (int i = 0; i < WR_GENERATOR_PARAMS; i++) wr_free(hand->value[i].text);
+    memset(hand->value, 0, sizeof hand->value);
+}
+
+/* ---- names ---- */
+
+void wr_generate_action(const WrGenerator *generator, char name[WR_GENERATE_ACTION])
+{
+    const char *form = generator->name;
+    snprintf(name, WR_GENERATE_ACTION, "%s%.24s%s%.24s", action_prefix, generator->family,
+             form ? "_" : "", form ? form : "");
+}
+
+const WrGenerator *wr_action_generator(const char *name)
+{
+    char own[WR_GENERATE_ACTION];
+    if (strncmp(name, action_prefix, sizeof action_prefix - 1) != 0) return NULL;
+    for (const WrFamily *f = wr_families; f->name; f++)
+        for (const WrGenerator *g = f->rows; g->family; g++) {
+            wr_generate_action(g, own);
+            if (strcmp(own, name) == 0) return g;
+        }
+    return NULL;
+}
+
+int wr_generate_find(const WrGenerateState *hand, const char *const *names, WrParamKind kind)
+{
+    for (; hand->generator && *names; names++) {
+        int i = wr_generator_param_find(hand->generator, *names);
+        if (i >= 0 && hand->generator->params[i].kind == kind) return i;
+    }
+    return -1;
+}
+
+int wr_generate_written(const WrGenerator *generator)
+{
+    for (int i = 0; generator->params[i].name; i++)
+        if (generator->params[i].kind == WR_PARAM_TEXT) return i;
+    return -1;
+}
+
+static bool is_written(WrParamKind kind)
+{
+    return kind == WR_PARAM_TEXT || kind == WR_PARAM_FILE || kind == WR_PARAM_POINTS ||
+           kind == WR_PARAM_TERMS;
+}
+
+/* ---- values ---- */
+
+void wr_generate_set_text(WrGenerateValue *value, const char *text)
+{
+    if (!value->text) value->text = wr_alloc(1, WR_GENERATE_TEXT);
+    SDL_utf8strlcpy(value->text, text, WR_GENERATE_TEXT);
+}
+
+/* Default text for terms, which have none: an example. */
+static void first_term(const WrParam *p, WrText *text)
+{
+    for (int k = 0; k < p->fewest; k++) {
+        const WrParamPart *part = &p->parts[k];
+        double wanted = part->whole ? 1.0 : 0.5;
+        if (k > 0) wr_text_add(text, ",");
+        wr_text_add_number(text, fmin(fmax(wanted, part->low), part->high));
+    }
+}
+
+static void set_default(WrGenerateState *hand, int i)
+{
+    const WrParam *p = &hand->generator->params[i];
+    WrText text = { 0 };
+    memcpy(hand->value[i].number, p->fallback, sizeof p->fallback);
+    if (p->kind == WR_PARAM_TERMS) first_term(p, &text);
+    else if (p->fallback_text) wr_text_add(&text, p->fallback_text);
+    else if (p->kind == WR_PARAM_TEXT) wr_text_add(&text, "Wrinkle");
+    if (is_written(p->kind)) wr_generate_set_text(&hand->value[i], wr_text_get(&text));
+    wr_text_fini(&text);
+}
+
+void wr_generate_defaults(WrApp *app)
+{
+    WrGenerateState *hand = app->generate;
+    for (int i = 0; hand->generator->params[i].name; i++) set_default(hand, i);
+    hand->blend = wr_blend_find(hand->generator->blend);
+    hand->radius = 0.1;
+    hand->offset = 0.0;
+    hand->preset = -1;
+}
+
+/* Text of a parsed argument in command syntax. */
+static bool take_written(WrGenerateValue *value, const WrCall *call, const WrParam *p)
+{
+    WrText text = { 0 };
+    const WrArg *arg = wr_call_arg(call, p->name);
+    if (p->kind == WR_PARAM_TEXT && arg->text) {
+        char *lines = wr_generator_text(arg->text);
+        wr_text_add(&text, lines);
+        wr_free(lines);
+    } else if (p->kind == WR_PARAM_FILE && arg->text) {
+        wr_text_add(&text, arg->text);
+    } else if (arg->given) {
+        wr_arg_print(&call->specs[arg - call->args], arg, &text);
+    }
+    bool fits = text.length < WR_GENERATE_TEXT;
+    if (fits) wr_generate_set_text(value, wr_text_get(&text));
+    wr_text_fini(&text);
+    return fits;
+}
+
+static bool take_values(WrApp *app, const WrCall *call, const WrGenerator *generator, WrError *err)
+{
+    WrGenerateState *hand = app->generate;
+    WrParamValue values[WR_GENERATOR_PARAMS];
+    wr_generate_take(app, generator);
+    wr_call_values(call, generator, values);
+    for (int i = 0; generator->params[i].name; i++) {
+        const WrParam *p = &generator->params[i];
+        memcpy(hand->value[i].number, values[i].number, sizeof values[i].number);
+        if (is_written(p->kind) && !take_written(&hand->value[i], call, p))
+            return wr_fail(err, "%s: too long for the panel", p->label);
+    }
+    hand->blend = wr_call_choice(call, wr_generator_argument(generator, "blend"));
+    hand->radius = wr_call_number(call, wr_generator_argument(generator, "radius"));
+    hand->offset = wr_call_number(call, wr_generator_argument(generator, "offset"));
+    return true;
+}
+
+bool wr_generate_load(WrApp *app, const char *line)
+{
+    WrCall *call = NULL;
+    WrError err;
+    bool good = wr_call_parse(line, false, &call, &err);
+    const WrGenerator *generator = good ? wr_call_generator(call) : NULL;
+    if (good && !generator) good = wr_fail(&err, "no generator's line: %.80s", line);
+    good = good && take_values(app, call, generator, &err);
+    if (!good) wr_app_fail(app, &err);
+    wr_call_free(call);
+    return good;
+}
+
+/* ---- the line ---- */
+
+/* Append the text in quotes. */
+static void add_quoted(WrText *line, const char *word, bool lines)
+{
+    wr_text_add(line, "\"");
+    for (const char *c = word; *c; c++) {
+        if (*c == '\r') continue; /* from pasted text */
+        /* escaped twice: for the text, and for the quotes */
+        bool turn = lines && (*c == '\n' || *c == '\\');
+        if (*c == '"' || *c == '\\' || turn) wr_text_add(line, "\\");
+        if (turn) wr_text_add(line, *c == '\n' ? "\\n" : "\\\\\\");
+        else wr_text_add_n(line, c, 1);
+    }
+    wr_text_add(line, "\"");
+}
+
+static void add_value(WrText *line, const WrParam *p, const WrGenerateValue *value)
+{
+    int count = p->kind == WR_PARAM_TUPLE ? p->components : 1;
+    wr_text_add(line, " ");
+    if (!p->positional) wr_text_addf(line, "%s=", p->name);
+    if (p->kind == WR_PARAM_TEXT || p->kind == WR_PARAM_FILE) {
+        add_quoted(line, value->text, p->kind == WR_PARAM_TEXT);
+    } else if (is_written(p->kind) && strpbrk(value->text, "#\"\\")) {
+        add_quoted(line, value->text, false); /* invalid numbers, but the line must stay intact */
+    } else if (is_written(p->kind)) {
+        for (const char *c = value->text; *c; c++) /* blanks would end the value */
+            if (*c != ' ' && *c != '\t') wr_text_add_n(line, c, 1);
+    } else if (p->kind == WR_PARAM_CHOICE) {
+        wr_text_add(line, p->words[(int)value->number[0]]);
+    } else if (p->kind == WR_PARAM_SWITCH) {
+        wr_text_add(line, value->number[0] != 0.0 ? "on" : "off");
+    } else {
+        for (int k = 0; k < count; k++) {
+            if (k > 0) wr_text_add(line, ",");
+            wr_text_add_number(line, value->number[k]);
+        }
+    }
+}
+
+static bool is_default(const WrParam *p, const WrGenerateValue *value)
+{
+    int count = p->kind == WR_PARAM_TUPLE ? p->components : 1;
+    if (p->kind == WR_PARAM_TEXT || p->kind == WR_PARAM_FILE)
+        return p->fallback_text ? strcmp(value->text, p->fallback_text) == 0 : !value->text[0];
+    if (is_written(p->kind)) return !value->text[strspn(value->text, " \t")];
+    for (int k = 0; k < count; k++)
+        if (value->number[k] != p->fallback[k]) return false;
+    return true;
+}
+
+bool wr_generate_is_default(const WrGenerateState *hand, int param)
+{
+    return is_default(&hand->generator->params[param], &hand->value[param]);
+}
+
+void wr_generate_line(const WrGenerateState *hand, WrText *line)
+{
+    const WrGenerator *g = hand->generator;
+    wr_text_add(line, g->family);
+    if (g->name) wr_text_addf(line, " %s", g->name);
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0; g->params[i].name; i++) {
+            const WrParam *p = &g->params[i];
+            bool told = !is_default(p, &hand->value[i]) ||
+                        (p->positional && !(is_written(p->kind) && !hand->value[i].text[0]));
+            if (p->positional == (pass == 0) && told) add_value(line, p, &hand->value[i]);
+        }
+    if (hand->blend != wr_blend_find(g->blend))
+        wr_text_addf(line, " %s=%s", wr_generator_argument(g, "blend"),
+                     wr_blends[hand->blend].name);
+    if (wr_blends[hand->blend].uses_radius && hand->radius != 0.1)
+        wr_line_number(line, wr_generator_argument(g, "radius"), hand->radius);
+    if (hand->offset != 0.0) wr_line_number(line, wr_generator_argument(g, "offset"), hand->offset);
+}
+
+void wr_generate_default_line(const WrGenerator *generator, const char *written, WrText *line)
+{
+    WrGenerateState hand = { .generator = generator,
+                             .blend = wr_blend_find(generator->blend),
+                             .radius = 0.1 };
+    int text = wr_generate_written(generator);
+    for (int i = 0; generator->params[i].name; i++) set_default(&hand, i);
+    if (text >= 0 && !generator->params[text].fallback_text)
+        wr_generate_set_text(&hand.value[text], written);
+    wr_generate_line(&hand, line);
+    generate_free_values(&hand);
+}
+
+/* ---- generate state ---- */
 
 #define PATIENCE_SECONDS 0.25 /* an outdated result that is due this soon is still awaited */
 #define QUICK_SECONDS 0.12    /* slower generators show a rough result first */
@@ -41,7 +281,7 @@ void wr_generate_free(WrApp *app)
 {
     WrGenerateState *hand = app->generate;
     if (!hand) return;
-    wr_generate_free_values(hand);
+    generate_free_values(hand);
     for (int i = 0; i < hand->kept.count; i++) wr_free(hand->kept.data[i]);
     for (int i = 0; i < hand->presets.count; i++) {
         wr_free(hand->presets.data[i].name);
@@ -117,7 +357,7 @@ void wr_generate_take(WrApp *app, const WrGenerator *generator)
     WrGenerateState *hand = app->generate;
     if (hand->generator == generator) return;
     keep(hand);
-    wr_generate_free_values(hand);
+    generate_free_values(hand);
     hand->generator = generator;
     hand->seconds = 0.0;
     hand->held = WR_POSE_NONE;
@@ -216,7 +456,8 @@ static void look(WrApp *app)
     }
 }
 
-void wr_generate_update(WrApp *app)
+/* ---- preview ---- */
+static void generate_update(WrApp *app)
 {
     WrGenerateState *hand = app->generate;
     WrText line = { 0 };
@@ -274,4 +515,4 @@ bool wr_generate_by_name(WrApp *app, const char *name)
     return generator != NULL;
 }
 
-const WrPart wr_part_generate = { .update = wr_generate_update };
+const WrPart wr_part_generate = { .update = generate_update };

@@ -4,7 +4,7 @@
 #pragma once
 #include "ui/state/app_state.h"
 #include "ui/state/roster.h"
-#include "ui/generate/generate_gallery.h"
+#include "ui/generate/generate_presets.h"
 #include "ui/tools/tool.h"
 
 #include "base/array.h"
@@ -115,14 +115,11 @@ bool wr_generate_is_default(const WrGenerateState *hand, int param);
 void wr_generate_blame(WrGenerateState *hand);
 /* Set a text value, truncated if too long. */
 void wr_generate_set_text(WrGenerateValue *value, const char *text);
-void wr_generate_free_values(WrGenerateState *hand);
 /* To be called after a change of a value. */
 void wr_generate_changed(WrApp *app);
 void wr_generate_focus_text(WrApp *app);             /* give the keyboard focus to the text field */
 void wr_generate_file(WrApp *app, const char *path); /* file chosen for asking_file */
 
-/* ---- preview ---- */
-void wr_generate_update(WrApp *app); /* once before each frame */
 void wr_generate_commit(WrApp *app);
 /* True while a text is typed: Ctrl+Enter then applies it. */
 bool wr_generate_writes(const WrApp *app);
@@ -141,7 +138,7 @@ void wr_panel_generate_values(WrApp *app); /* panel_generate_values.c */
 
 /* ---- tool_pose.c ---- */
 
-/* ---- pose_points.c: points of generators with several positions ---- */
+/* ---- points of generators with several positions ---- */
 /* handled: the generator has points now */
 bool wr_pose_points_press(WrApp *app, const WrPointer *at);
 void wr_pose_points_drag(WrApp *app, const WrPointer *at);

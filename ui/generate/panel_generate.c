@@ -1,24 +1,329 @@
 /* The Generate tab, built from the table of generators: generator, presets, messages. */
-#include "ui/state/busy.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
-#include "ui/generate/generate_gallery.h"
+#include "ui/state/line.h"
+#include "ui/state/session_view.h"
+#include "ui/generate/font_choice.h"
 #include "ui/generate/generate_state.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
+#include "ui/jobs/files.h"
+#include "ui/state/busy.h"
+#include "ui/generate/generate_presets.h"
 #include "ui/jobs/edit_preview.h"
 
 #include "base/array.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "document/blend.h"
+#include "document/document.h"
 #include "generate/generator.h"
+#include "image/font.h"
 
 #include <SDL.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+/* ---- the middle of the Generate tab ---- */
+
+/* Values of the current generator and its blending. Errors are shown below their value. */
+
+/* ---- parameters ---- */
+
+#define SEED_LAST 999.0 /* largest seed of the button for the next seed */
+
+/* Group of parameters starting at the named one, folded under a heading if other parameters come before it. */
+typedef struct Group {
+    const char *name, *title;
+    bool number; /* only if the parameter is a number */
+    bool open;   /* initially */
+} Group;
+
+static const Group groups[] = {
+    { "uneven", "Variety", true, true },
+    { "scatter", "Variety", true, true },
+    { "altitude", "Lie of the land", true, true },
+    { "warp_cells", "Warp and ridges", false, false },
+    { "amplitude", "Height and place", true, true },
+    { "fade", "Finer points", false, false },
+    { "way", "Finer points", false, false },
+    { "direction", "Script", false, false },
+    { "face", "Finer points of the font", false, false },
+    { "align", "Lines and place", false, true },
+    { "points", "Along a path", false, false },
+    { "edge", "Relief", false, true },
+    { "across", "Repeat", false, false },
+    { "height", "Height and place", true, true },
+};
+
+static const char *unit_of(const WrParam *p)
+{
+    if (strcmp(p->unit, "degrees") == 0) return "\xc2\xb0";
+    return p->unit[0] && strlen(p->unit) < 8 ? p->unit : NULL;
+}
+
+static WrNumber spec_of(const WrParam *p, int component)
+{
+    bool whole = p->kind == WR_PARAM_WHOLE, degrees = strcmp(p->unit, "degrees") == 0;
+    bool fine = strcmp(p->unit, "texels") != 0 && p->soft_high <= 20.0;
+    WrNumber spec = { .low = p->soft_low,
+                      .high = p->soft_high,
+                      .hard_low = p->low,
+                      .hard_high = p->high,
+                      .reset = p->fallback[component],
+                      .decimals = whole     ? 0
+                                  : degrees ? 1
+                                  : fine    ? 3
+                                            : 2,
+                      .unit = unit_of(p),
+                      .tip = p->help };
+    bool unsaid = p->soft_low == p->low && p->low < 0.0 && spec.high > 0.0;
+    if (unsaid && -spec.low > spec.high) spec.low = -spec.high; /* symmetric range */
+    if (!(spec.low < spec.high)) spec.high = spec.low + 1.0;
+    if (p->above && spec.low <= p->low) spec.low = p->low + (spec.high - p->low) / 1000.0;
+    return spec;
+}
+
+static bool numbers(const WrParam *p, WrGenerateValue *value)
+{
+    int count = p->kind == WR_PARAM_TUPLE ? p->components : 1;
+    double wide = (wr_gui_available() - (count - 1) * wr_gui_px(4)) / count;
+    bool changed = false;
+    for (int k = 0; k < count; k++) {
+        char id[16];
+        WrNumber spec = spec_of(p, k);
+        if (count > 1) spec.unit = NULL;
+        snprintf(id, sizeof id, "n%d", k);
+        if (k > 0) wr_gui_same_line(4);
+        if (wr_gui_number(id, k == count - 1 ? 0 : floor(wide), &spec, &value->number[k]) !=
+            WR_EDIT_NONE) {
+            value->number[k] = wr_line_round(value->number[k], 7);
+            changed = true;
+        }
+    }
+    return changed;
+}
+
+static bool choice(const WrParam *p, WrGenerateValue *value)
+{
+    int count = 0, index = (int)value->number[0];
+    while (p->words[count]) count++;
+    bool changed = wr_gui_choice("choice", 0, p->words, count, &index);
+    value->number[0] = index;
+    return changed;
+}
+
+static bool turn_switch(WrGenerateValue *value)
+{
+    bool on = value->number[0] != 0.0;
+    bool changed = wr_gui_check("##switch", &on);
+    value->number[0] = on ? 1.0 : 0.0;
+    return changed;
+}
+
+/* A seed field with a button for the next seed. */
+static bool seed(const WrParam *p, WrGenerateValue *value)
+{
+    WrNumber spec = spec_of(p, 0);
+    double room = wr_gui_available() - wr_gui_px(30);
+    bool changed = wr_gui_number("seed", room, &spec, &value->number[0]) != WR_EDIT_NONE;
+    wr_gui_same_line(4);
+    if (wr_gui_glyph("next", WR_ICON_DICE, 24, WR_COLOUR_LABEL)) {
+        value->number[0] = value->number[0] < SEED_LAST ? value->number[0] + 1.0 : 0.0;
+        changed = true;
+    }
+    wr_gui_tip("Another one by chance: the next seed");
+    return changed;
+}
+
+static bool file(WrApp *app, int i, const WrParam *p, WrGenerateValue *value)
+{
+    bool changed =
+        wr_gui_hint_field("##file", p->fallback_text ? "none" : "a file",
+                          wr_gui_available() - wr_gui_px(30), value->text, WR_GENERATE_TEXT);
+    wr_gui_tip(value->text[0] ? value->text : p->help);
+    wr_gui_same_line(4);
+    if (wr_gui_glyph("choose", WR_ICON_FOLDER, 24, WR_COLOUR_LABEL)) {
+        app->generate->asking_file = i;
+        if (!wr_files_ask(app->files, WR_FILE_GENERATE, NULL, ""))
+            wr_dialog_open(app, WR_DIALOG_FILE);
+    }
+    wr_gui_tip("Choose a file");
+    return changed;
+}
+
+static bool text(WrApp *app, WrGenerateValue *value)
+{
+    int *tries = &app->generate->focus_text;
+    if (wr_gui_wants_text(app->gui)) *tries = 0;
+    bool focus = *tries > 0;
+    if (focus) (*tries)--;
+    char typed[WR_GENERATE_TEXT];
+    memcpy(typed, value->text, sizeof typed);
+    bool changed = wr_gui_text_area("##text", 3, value->text, WR_GENERATE_TEXT, focus);
+    /* while Ctrl is held */
+    bool done = wr_gui_field_left() && wr_gui_key_pressed(SDL_SCANCODE_RETURN);
+    if (wr_gui_field_left() && wr_gui_escape_pressed()) { /* leaves the field; the text stays */
+        memcpy(value->text, typed, sizeof typed);
+        changed = false;
+    }
+    if (done && !app->generate->err.text[0]) wr_generate_commit(app);
+    return changed && !done;
+}
+
+static bool field(WrApp *app, int i, const WrParam *p, WrGenerateValue *value)
+{
+    switch (p->kind) {
+    case WR_PARAM_NUMBER:
+    case WR_PARAM_WHOLE:
+    case WR_PARAM_TUPLE: return strcmp(p->name, "seed") == 0 ? seed(p, value) : numbers(p, value);
+    case WR_PARAM_CHOICE:
+        return p->words == wr_font_names ? wr_font_choice_row(app, i) : choice(p, value);
+    case WR_PARAM_SWITCH: return turn_switch(value);
+    case WR_PARAM_FILE: return file(app, i, p, value);
+    case WR_PARAM_TEXT:
+        return i == wr_generate_written(app->generate->generator)
+                   ? text(app, value)
+                   : wr_gui_hint_field("##text", "none", 0, value->text, WR_GENERATE_TEXT);
+    case WR_PARAM_POINTS:
+    case WR_PARAM_TERMS: break;
+    }
+    return wr_gui_hint_field("##list", p->shape ? p->shape : "u,v;u,v;...", 0, value->text,
+                             WR_GENERATE_TEXT);
+}
+
+static bool parameter(WrApp *app, int i)
+{
+    WrGenerateState *hand = app->generate;
+    const WrParam *p = &hand->generator->params[i];
+    wr_gui_push_id(i);
+    wr_gui_label(p->label);
+    wr_gui_tip(p->help);
+    bool changed = field(app, i, p, &hand->value[i]);
+    if (p->kind != WR_PARAM_NUMBER && p->kind != WR_PARAM_WHOLE && p->kind != WR_PARAM_FILE)
+        wr_gui_tip(p->help); /* other kinds show their own tip */
+    wr_gui_pop_id();
+    return changed;
+}
+
+static bool joining(WrGenerateState *hand)
+{
+    const char *labels[WR_BLEND_COUNT];
+    bool changed = false;
+    WrNumber radius = { .low = 0,
+                        .high = 1,
+                        .hard_high = 1e30,
+                        .reset = 0.1,
+                        .decimals = 3,
+                        .tip = "How far from each other heights flow together" };
+    WrNumber offset = { .low = -1,
+                        .high = 1,
+                        .hard_low = -1e30,
+                        .hard_high = 1e30,
+                        .decimals = 3,
+                        .tip = "Added to its heights first" };
+    for (int i = 0; i < WR_BLEND_COUNT; i++) labels[i] = wr_blends[i].label;
+    wr_gui_space(4);
+    wr_gui_heading("HOW IT JOINS THE LAYER");
+    wr_gui_label("Blend");
+    changed |= wr_gui_choice("blend", 0, labels, WR_BLEND_COUNT, &hand->blend);
+    wr_gui_tip(wr_blends[hand->blend].help);
+    if (wr_blends[hand->blend].uses_radius) {
+        wr_gui_label("Radius");
+        changed |= wr_gui_number("join_radius", 0, &radius, &hand->radius) != WR_EDIT_NONE;
+    }
+    wr_gui_label("Offset");
+    changed |= wr_gui_number("join_offset", 0, &offset, &hand->offset) != WR_EDIT_NONE;
+    return changed;
+}
+
+/* The group that starts at a parameter; NULL: none. */
+static const Group *group_at(const WrGenerator *generator, int i)
+{
+    const WrParam *p = &generator->params[i];
+    /* its height is set by its position */
+    bool placed = wr_generator_param_find(generator, "at") >= 0;
+    for (size_t k = 0; i > 0 && k < sizeof groups / sizeof *groups; k++) {
+        if (strcmp(groups[k].name, p->name) != 0) continue;
+        if (groups[k].number && (p->kind != WR_PARAM_NUMBER || placed)) continue;
+        return &groups[k];
+    }
+    return NULL;
+}
+
+/* Number of values in the group that differ from their defaults. */
+static int count_changed(const WrGenerateState *hand, int first, const Group *group)
+{
+    int count = 0;
+    for (int i = first; hand->generator->params[i].name; i++) {
+        const Group *other = group_at(hand->generator, i);
+        if (other && strcmp(other->title, group->title) != 0) break;
+        count += !wr_generate_is_default(hand, i);
+    }
+    return count;
+}
+
+/* Heading of a group; true while the group is open. */
+static bool heading(const WrGenerateState *hand, int first, const Group *group)
+{
+    char label[96];
+    int changed = count_changed(hand, first, group);
+    if (changed > 0)
+        snprintf(label, sizeof label, wr_words("%s (%d changed)###%s"), wr_words(group->title),
+                 changed, group->title);
+    else snprintf(label, sizeof label, "%s###%s", group->title, group->title);
+    return wr_gui_fold(label, group->open);
+}
+
+/* The main parameters of a text are shown directly below it. */
+static const char *const written_first[] = { "size", "height", "profile", "bevel" };
+
+static bool comes_first(const WrGenerator *generator, int i)
+{
+    if (wr_generate_written(generator) < 0) return false;
+    for (size_t k = 0; k < sizeof written_first / sizeof *written_first; k++)
+        if (strcmp(generator->params[i].name, written_first[k]) == 0) return true;
+    return false;
+}
+
+static bool parameters(WrApp *app)
+{
+    WrGenerateState *hand = app->generate;
+    const Group *group = NULL;
+    bool changed = false, shown = true;
+    for (int i = 0; hand->generator->params[i].name; i++) {
+        if (comes_first(hand->generator, i)) continue;
+        const Group *next = group_at(hand->generator, i);
+        if (next && (!group || strcmp(next->title, group->title) != 0)) {
+            group = next;
+            shown = heading(hand, i, group);
+        }
+        if (shown) changed |= parameter(app, i);
+        if (i != wr_generate_written(hand->generator)) continue;
+        for (size_t k = 0; k < sizeof written_first / sizeof *written_first; k++) {
+            int first = wr_generator_param_find(hand->generator, written_first[k]);
+            if (first >= 0) changed |= parameter(app, first);
+        }
+    }
+    return changed;
+}
+
+void wr_panel_generate_values(WrApp *app)
+{
+    WrGenerateState *hand = app->generate;
+    bool changed = parameters(app);
+    changed |= joining(hand);
+    if (wr_app_document(app)->selection)
+        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, "Only the selection changes.");
+    if (!changed) return;
+    hand->preset = -2;
+    wr_generate_changed(app);
+}
+
+/* ---- panel generate ---- */
 
 #define CHOICES_MAX 64
 

@@ -1,3 +1,4 @@
+
 #include "ui/help/guide.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
@@ -7,20 +8,24 @@
 #include "ui/toolkit/theme.h"
 #include "ui/help/guide_flow.h"
 #include "ui/help/guide_page.h"
-#include "ui/help/guide_picture.h"
-#include "ui/help/guide_run.h"
 #include "ui/state/busy.h"
+#include "ui/toolkit/words.h"
 
 #include "base/array.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "command/command_line.h"
+#include "command/session.h"
+#include "document/document.h"
+#include "system/path.h"
 
 #include <SDL.h>
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define FOLDER "ui/guide/"
@@ -375,7 +380,8 @@ static bool show_page(WrApp *app, WrGuide *guide, double tall)
     return again;
 }
 
-void wr_guide_show(WrApp *app, double tall)
+/* Content of the dialog: search, list of pages and the open page, with that height in pixels. */
+static void guide_show(WrApp *app, double tall)
 {
     WrGuide *guide = guide_of(app);
     if (app->dialog->fresh) refresh_keys(app, guide);
@@ -392,4 +398,90 @@ void wr_guide_show(WrApp *app, double tall)
     const bool asked = guide->proposed != NULL; /* before this press: its place is there */
     const bool again = show_page(app, guide, tall);
     if (asked && guide->proposed) show_proposal(app, guide, again);
+}
+
+/* ----  ---- */
+
+bool wr_guide_is_command(const char *line)
+{
+    WrCall *call = NULL;
+    WrError err;
+    const bool good = wr_call_parse(line, false, &call, &err) && call->command;
+    wr_call_free(call);
+    return good;
+}
+
+/* Absolute path of the file that an output command writes; NULL if it names none. Caller frees. */
+static char *written_file(const WrCall *call)
+{
+    for (int i = 0; i < call->count; i++) {
+        if (call->specs[i].type != WR_ARG_PATH || !call->args[i].given) continue;
+        char *folder = wr_path_here();
+        char *path = wr_path_join(folder ? folder : "", call->args[i].text);
+        free(folder);
+        return path;
+    }
+    return NULL;
+}
+
+static void add_output(const WrCall *call, WrText *out)
+{
+    char *path = written_file(call);
+    if (!path) wr_text_add(out, wr_words("Writes files."));
+    else if (wr_path_is_there(path))
+        wr_text_addf(out, wr_words("Replaces the file %s. Undo does not bring it back."), path);
+    else wr_text_addf(out, wr_words("Writes the file %s."), path);
+    wr_free(path);
+}
+
+void wr_guide_effect(const WrApp *app, const char *line, WrText *out)
+{
+    const WrDocument *document = wr_session_document(app->session);
+    WrCall *call = NULL;
+    WrError err;
+    if (!wr_call_parse(line, false, &call, &err) || !call->command) {
+        wr_call_free(call);
+        return;
+    }
+    switch (wr_call_class(call)) {
+    case WR_CLASS_EDIT:
+        wr_text_addf(out,
+                     wr_words("Changes layers, heights or the selection; the active layer is %s. "
+                              "One undo step."),
+                     document->layers[document->active].name);
+        break;
+    case WR_CLASS_SCENE:
+        wr_text_add(out, wr_words("Changes the scene and no heights. One undo step."));
+        break;
+    case WR_CLASS_VIEW:
+        wr_text_add(out, wr_words("Changes the view, no heights. No undo step."));
+        break;
+    case WR_CLASS_OUTPUT: add_output(call, out); break;
+    default: wr_text_add(out, wr_words("Goes to another step of the history.")); break;
+    }
+    wr_call_free(call);
+}
+
+/* ---- dialogs of the guide and of information about the program ---- */
+
+static void about(void)
+{
+    wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT,
+                        "Paint bump functions and watch them wrinkle a surface, after James F. "
+                        "Blinn, Simulation of Wrinkled Surfaces, 1978.");
+}
+
+void wr_dialog_help(WrApp *app)
+{
+    bool only_about = app->dialog->now == WR_DIALOG_ABOUT;
+    if (!wr_gui_dialog_begin(only_about ? "Wrinkle" : "Guide", only_about ? 440 : 1060)) return;
+    const bool asks = !only_about && wr_guide_proposed(app); /* its keys are Run and Cancel */
+    if (only_about) about();
+    else guide_show(app, fmax(0.92 * app->height - wr_gui_px(180), wr_gui_px(120)));
+    wr_gui_space(8);
+    bool leave = wr_gui_button("Close", true);
+    if (!app->dialog->fresh && !asks && (wr_gui_escape_pressed() || wr_gui_return_pressed()))
+        leave = true;
+    if (leave) wr_dialog_close(app);
+    wr_gui_dialog_end();
 }

@@ -2,11 +2,13 @@
 #pragma once
 #include "ui/toolkit/gui_page.h"
 #include "ui/help/guide_page.h"
-#include "ui/help/guide_picture.h"
 
 #include "base/array.h"
 
+#include <SDL.h>
 #include <stdbool.h>
+
+typedef struct WrGuidePictures WrGuidePictures;
 
 typedef struct WrGuidePlace {
     double y, height;              /* pixels, from the top of the page */
@@ -33,3 +35,10 @@ void wr_guide_run_at(const WrGuideLayout *layout, const WrGuiPage *field, int bl
  * within the page, and its length, or NULL. */
 const char *wr_guide_draw(const WrGuideLayout *layout, const WrGuiPage *field, int marked,
                           WrGuidePictures *pictures, int *length);
+
+/* ---- pictures of the guide, loaded in the background ---- */
+
+/* done_event: an SDL event type, pushed when another picture is loaded. */
+WrGuidePictures *wr_guide_pictures_new(SDL_Renderer *renderer, Uint32 done_event);
+/* NULL is allowed; must be freed before the renderer */
+void wr_guide_pictures_free(WrGuidePictures *pictures);

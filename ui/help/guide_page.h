@@ -22,7 +22,7 @@ typedef enum WrGuideKind {
 typedef struct WrGuideBlock {
     WrGuideKind kind;
     int level;    /* heading: 1..3; item: its number, 0: none; row: 1 for the head row */
-    bool command; /* code that the window can run; set by the page's owner (guide_run.h) */
+    bool command; /* code that the window can run; set by the page's owner (guide.h) */
     bool joined;  /* a row or code that continues the previous block */
     int cells;    /* 1 except for rows */
     char *cell[WR_GUIDE_CELLS]; /* owned; Markdown of one line; for code plain text */

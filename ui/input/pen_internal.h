@@ -1,5 +1,5 @@
-/* pen_internal.h - shared state of the pen files: pen.c the queue and the values, pen_x11.c the devices of XInput2,
-   pen_finger.c SDL's touches, pen_record.c files. Private to them, and to tests. */
+/* pen_internal.h - shared state of the pen files: pen.c the queue, the values and SDL's touches, pen_x11.c the devices of XInput2,
+   pen_record.c files. Private to them, and to tests. */
 #pragma once
 #include "ui/input/pen.h"
 #include "ui/input/pen_curve.h"
@@ -126,7 +126,7 @@ void wr_pen_x11_sync(WrPenX11 *x11);
 /* Handle an SDL_SYSWMEVENT inside an event watch. */
 void wr_pen_x11_event(WrPen *pen, const SDL_Event *event);
 
-/* ---- pen_finger.c ---- */
+/* ---- pen.c: touches ---- */
 void wr_pen_finger_event(WrPen *pen, const SDL_TouchFingerEvent *event);
 
 /* ---- pen_record.c ---- */

@@ -30,7 +30,7 @@ typedef struct WrEditPreviewRequest {
     const WrBrush *dab;
     double u, v;
 
-    /* or a generator's command line, or `transform` (edit_preview_generate.h); copied */
+    /* or a generator's command line, or `transform` (below); copied */
     const char *line;
     bool rough; /* a fast rough result first, then the exact one */
 
@@ -64,3 +64,19 @@ const char *wr_edit_preview_notes(WrEditPreview *trial);
 double wr_edit_preview_seconds(WrEditPreview *trial);
 /* The error of the newest request, reported once; false: none. */
 bool wr_edit_preview_error(WrEditPreview *trial, WrError *err);
+
+/* ---- application of a generator or transform line to a document, for previews ---- */
+
+typedef struct WrPool WrPool;
+typedef struct WrProgress WrProgress;
+typedef struct WrText WrText;
+
+/* Blend the output of a generator line into the document's active layer, inside its selection, as the command would.
+ *
+ * document  changed; half done after a failure
+ * line      of a generator family; relative file names refer to the current folder
+ * rough     fastest mode: lower quality, and a smaller table if the result depends only on the relative size
+ * notes     remarks, one per line
+ * Threads   one for each document */
+bool wr_edit_preview_generate(WrDocument *document, const char *line, bool rough, WrPool *pool,
+                              const WrProgress *progress, WrText *notes, WrError *err);

@@ -1,17 +1,17 @@
+
 #include "ui/jobs/files.h"
-#include "ui/jobs/file_places.h"
 #include "ui/jobs/portal.h"
 #include "ui/toolkit/desktop.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
-#include "ui/jobs/thread.h"
+#include "ui/jobs/job.h"
 
 #include "base/array.h"
+#include "base/enum_rows.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "base/enum_rows.h"
 #include "base/text.h"
 #include "image/image.h"
 #include "system/path.h"
@@ -19,6 +19,7 @@
 
 #include <SDL.h>
 #include <errno.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -85,6 +86,8 @@ static const struct {
     [WR_ROW(WR_FILE_PRESET)] = { NULL, NULL, NULL }, /* typed name, no file dialog */
 };
 WR_ROWS_END(purposes, WR_FILE_PURPOSES);
+
+static const char *const *file_endings(WrFilePurpose purpose);
 
 bool wr_files_writes(WrFilePurpose purpose)
 {
@@ -158,7 +161,7 @@ static bool ask_portal(WrFiles *files, const char *folder, const char *name)
                                     .parent = files->parent,
                                     .kind = wr_words("What can be read here"),
                                     .all = wr_words("All files"),
-                                    .endings = writes ? NULL : wr_file_endings(files->purpose),
+                                    .endings = writes ? NULL : file_endings(files->purpose),
                                     .save = writes,
                                     .patience = files->way == WR_FILE_WAY_DESKTOP ? LATE : SOON };
     files->stop = 0;
@@ -443,4 +446,80 @@ int wr_files_panel(WrFiles *files, const char *note, char *const recent[])
     if (answer < 0) files->answer[0] = '\0';
     wr_gui_dialog_end();
     return answer;
+}
+
+/* ----  ---- */
+
+/* Takes ownership of both strings. */
+static void add(WrFilePlace *places, int *count, char *label, char *path, bool named)
+{
+    bool wanted = *count < WR_FILE_PLACES && is_folder(path);
+    for (int i = 0; i < *count && wanted; i++) wanted = strcmp(places[i].path, path) != 0;
+    if (wanted) {
+        places[(*count)++] = (WrFilePlace){ label, path, named };
+        return;
+    }
+    wr_free(label);
+    wr_free(path);
+}
+
+int wr_file_places(const char *home, char *const recent[], WrFilePlace places[WR_FILE_PLACES])
+{
+    static const char *const own[] = { "Documents", "Pictures", "Downloads" };
+    int count = 0;
+    if (home && home[0]) add(places, &count, wr_strdup("Home"), wr_strdup(home), true);
+    for (size_t i = 0; home && home[0] && i < sizeof own / sizeof *own; i++)
+        add(places, &count, wr_strdup(own[i]), wr_path_join(home, own[i]), true);
+    for (int i = 0; recent[i]; i++) {
+        char *folder = wr_path_folder(recent[i]), *slash = strrchr(folder, '/');
+        add(places, &count, wr_strdup(slash && slash[1] ? slash + 1 : folder), folder, false);
+    }
+    return count;
+}
+
+void wr_file_places_free(WrFilePlace places[], int count)
+{
+    for (int i = 0; i < count; i++) {
+        wr_free(places[i].label);
+        wr_free(places[i].path);
+    }
+}
+
+static bool is_one_of(const char *ending, const char *const *list)
+{
+    for (int i = 0; list[i]; i++)
+        if (strcmp(ending, list[i]) == 0) return true;
+    return false;
+}
+
+#define PICTURES                                                                                   \
+    "png", "exr", "tif", "tiff", "jpg", "jpeg", "jp2", "bmp", "tga", "hdr", "pfm", "pgm", "ppm",   \
+        "webp", "gif", "psd", "dpx", "heic", "avif", "jxl"
+
+/* The allowed extensions, NULL-terminated; NULL: any. */
+static const char *const *file_endings(WrFilePurpose purpose)
+{
+    static const char *const pictures[] = { PICTURES, NULL };
+    static const char *const stamps[] = { PICTURES, "gbr", "gih", "pat", NULL };
+    static const char *const documents[] = { PICTURES, "wrinkle", "ora", NULL };
+    static const char *const models[] = { "gltf", "glb", NULL };
+    static const char *const meshes[] = { "obj", "ply", "stl", "gltf", "glb", "off",
+                                          "dae", "3ds", "fbx", "lwo",  "x3d", NULL };
+    static const char *const patches[] = { "bpt", "txt", NULL };
+    static const char *const grounds[] = { PICTURES, "r16", "r32", "raw", "hgt", "fits", NULL };
+    if (wr_files_writes(purpose) || purpose == WR_FILE_GENERATE || purpose == WR_FILE_PRESET)
+        return NULL;
+    if (purpose == WR_FILE_STAMP) return stamps;
+    if (purpose == WR_FILE_GLTF) return models;
+    if (purpose == WR_FILE_MESH) return meshes;
+    if (purpose == WR_FILE_PATCHES) return patches;
+    if (purpose == WR_FILE_TERRAIN) return grounds;
+    return purpose == WR_FILE_OPEN || purpose == WR_FILE_TABLE ? documents : pictures;
+}
+
+bool wr_file_fits(WrFilePurpose purpose, const char *name)
+{
+    char buffer[16];
+    const char *const *endings = file_endings(purpose);
+    return !endings || is_one_of(wr_path_ending(name, buffer), endings);
 }

@@ -65,3 +65,22 @@ WrFilePurpose wr_files_purpose(const WrFiles *files);
 /* The panel as a dialog, with a note above its buttons or "". recent: paths whose folders it offers, NULL-terminated;
  * read at its opening. Returns 0: still open, 1: chosen (wr_files_answer), -1: cancelled. */
 int wr_files_panel(WrFiles *files, const char *note, char *const recent[]);
+
+/* ---- shortcut folders and name filters of the file dialog ---- */
+
+/* Tested without a window. */
+
+typedef struct WrFilePlace {
+    char *label, *path; /* owned */
+    bool named;         /* the label is translatable, not a folder name */
+} WrFilePlace;
+#define WR_FILE_PLACES 9
+
+/* The home folder, the folders of documents, pictures and downloads if they exist, and the folders of the paths in
+ * `recent` (NULL-terminated), each once. Returns their number; the caller frees them (wr_file_places_free). */
+int wr_file_places(const char *home, char *const recent[], WrFilePlace places[WR_FILE_PLACES]);
+void wr_file_places_free(WrFilePlace places[], int count);
+
+/* True if a file of that extension may be read for the purpose. All names fit if any file is allowed, or if the file
+ * will be written. */
+bool wr_file_fits(WrFilePurpose purpose, const char *name);

@@ -1,5 +1,5 @@
+
 #include "ui/jobs/job.h"
-#include "ui/jobs/thread.h"
 
 #include "base/array.h"
 #include "base/memory.h"
@@ -9,6 +9,7 @@
 #include "system/thread.h"
 
 #include <SDL.h>
+#include <stddef.h>
 
 struct WrJob {
     WrMutex lock; /* protects the members up to the next blank line */
@@ -167,4 +168,23 @@ void wr_job_free(WrJob *job)
     wr_cond_fini(&job->wake);
     wr_mutex_fini(&job->lock);
     wr_free(job);
+}
+
+/* ----  ---- */
+
+static int refused; /* atomic; 1: not yet reported, 2: reported */
+
+bool wr_thread_start(WrThread *thread, void *(*run)(void *), void *arg)
+{
+    if (wr_thread_begin(thread, run, arg)) return true;
+    int none = 0;
+    __atomic_compare_exchange_n(&refused, &none, 1, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED);
+    return false;
+}
+
+bool wr_thread_refused(void)
+{
+    int untold = 1;
+    return __atomic_compare_exchange_n(&refused, &untold, 2, false, __ATOMIC_RELAXED,
+                                       __ATOMIC_RELAXED);
 }

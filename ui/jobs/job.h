@@ -1,8 +1,17 @@
 /* job.h - background worker for one piece of work at a time: newer work replaces the running one. Independent of the
    kind of work. All calls are from the window's thread. */
 #pragma once
+#include "system/thread.h"
+
 #include <SDL.h>
 #include <stdbool.h>
+
+/* Start a thread; false, and recorded, if the system refuses one. */
+bool wr_thread_start(WrThread *thread, void *(*run)(void *), void *arg);
+/* True once after the system has refused a thread, for a single message. */
+bool wr_thread_refused(void);
+
+/* ---- job ---- */
 
 typedef struct WrPool WrPool;
 typedef struct WrProgress WrProgress;

@@ -54,7 +54,7 @@ void wr_filter_edit(WrApp *app);
    cannot be computed. */
 extern const WrPart wr_part_adjust;
 
-/* ---- levels_pad.c, curves_pad.c ---- */
+/* ---- pads of levels and curves ---- */
 /* True if a value was changed. */
 bool wr_levels_pad(WrApp *app);
 bool wr_curves_pad(WrApp *app);

@@ -9,7 +9,7 @@
 #include "ui/toolkit/words.h"
 #include "ui/panels/panel_dynamics.h"
 #include "ui/panels/panels.h"
-#include "ui/tools/brush_strength.h"
+#include "ui/tools/stroke_input.h"
 #include "ui/tools/option_row.h"
 #include "ui/tools/preset_browser.h"
 #include "ui/tools/preset_overrides.h"

@@ -8,7 +8,6 @@
 #include "ui/state/search.h"
 #include "ui/state/settings.h"
 #include "ui/toolkit/gui.h"
-#include "ui/toolkit/gui_icons.h"
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
 #include "ui/jobs/files.h"

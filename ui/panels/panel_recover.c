@@ -3,7 +3,7 @@
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
 #include "ui/state/document.h"
-#include "ui/state/deferred_actions.h"
+#include "ui/state/action.h"
 #include "ui/state/messages.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"

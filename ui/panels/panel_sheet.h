@@ -29,11 +29,4 @@ void wr_sheet_free(WrApp *app);
 bool wr_sheet_writing(const WrApp *app, double *fraction, double *seconds, const char **as);
 void wr_sheet_cancel(WrApp *app);
 
-/* ---- sheet_life.c ---- */
-
-WrSheetState *wr_sheet_open(WrApp *app); /* created on first use */
-void wr_sheet_write(WrApp *app, bool loud);
-/* Request new pictures if the present or requested ones are outdated. */
-void wr_sheet_look(WrApp *app);
-
 extern const WrPart wr_part_sheet;

@@ -1,20 +1,305 @@
 /* Tablet tester: devices, their events and faults, and their pressure curves. */
 #include "ui/panels/panel_tablet.h"
 #include "ui/state/app_state.h"
-#include "ui/state/dialog.h"
-#include "ui/state/settings.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 #include "ui/input/pen.h"
 #include "ui/input/pen_curve.h"
+#include "ui/state/dialog.h"
+#include "ui/state/settings.h"
 
 #include "base/array.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "system/clock.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+
+/* ---- drawing of the tablet tester ---- */
+
+/* Scribble, newest values, curve. */
+
+#define POINTS_MOST 3000
+#define POINT_STEP 1.5    /* pixels between points of the scribble */
+#define RATE_SECONDS 0.5  /* interval of the event rate */
+#define THICKEST 16.0     /* units, at full pressure */
+#define ALIVE_SECONDS 1.5 /* redraw continues for this long after the last event */
+
+/* ---- events ---- */
+
+static void add_point(WrTester *t, const WrPenEvent *e)
+{
+    bool down = (e->held & 2u) != 0 && e->kind != WR_PEN_LOST;
+    double x = e->x, y = e->y;
+    bool inside =
+        x >= t->pad_x && y >= t->pad_y && x < t->pad_x + t->pad_w && y < t->pad_y + t->pad_h;
+    bool joined = t->drawing == e->device;
+    if (!down || (!inside && !joined)) {
+        if (joined) t->drawing = -1;
+        return;
+    }
+    if (joined && t->points.count > 0) {
+        const WrScribble *last = &t->points.data[t->points.count - 1];
+        double dx = x - last->x, dy = y - last->y;
+        if (dx * dx + dy * dy < POINT_STEP * POINT_STEP) return;
+    }
+    if (t->points.count >= POINTS_MOST) {
+        int gone = POINTS_MOST / 3;
+        t->points.count -= gone;
+        memmove(t->points.data, t->points.data + gone,
+                (size_t)t->points.count * sizeof *t->points.data);
+        t->points.data[0].joined = false;
+    }
+    WrScribble point = { .x = x,
+                         .y = y,
+                         .pressure = e->pressure,
+                         .joined = joined,
+                         .eraser = e->eraser,
+                         .finger = e->finger };
+    wr_array_push(&t->points, point);
+    t->drawing = e->device;
+}
+
+/* Handle the events since the last frame. */
+static void tester_follow(WrApp *app)
+{
+    WrTester *t = app->tester;
+    double now = wr_clock_seconds();
+    int64_t total = wr_pen_total(app->pen);
+    WrPenEvent event;
+    for (; t->seen < total; t->seen++) {
+        if (!wr_pen_recent(app->pen, t->seen, &event)) continue;
+        if (event.device != t->chosen && event.kind == WR_PEN_DOWN) t->chosen_own = false;
+        if (!t->chosen_own) t->chosen = event.device;
+        add_point(t, &event);
+        t->newest_at = now;
+    }
+    if (now - t->counted_at >= RATE_SECONDS) {
+        double passed = now - t->counted_at;
+        t->rate = passed < 2.0 ? (double)(total - t->counted) / passed : 0.0;
+        t->counted = total;
+        t->counted_at = now;
+    }
+    if (now - t->newest_at < ALIVE_SECONDS) wr_app_redraw(app); /* until the rate is 0 again */
+}
+
+/* ---- the scribble ---- */
+
+static WrColour ink_of(const WrScribble *point)
+{
+    return point->eraser ? WR_COLOUR_LOWER : point->finger ? WR_COLOUR_LABEL : WR_COLOUR_RAISE;
+}
+
+static void tester_scribble(WrApp *app, double width, double height)
+{
+    WrTester *t = app->tester;
+    WrPad pad = wr_gui_pad_begin("scribble", width, height);
+    t->pad_x = pad.x;
+    t->pad_y = pad.y;
+    t->pad_w = pad.w;
+    t->pad_h = pad.h;
+    for (int i = 0; i < t->points.count; i++) {
+        const WrScribble *p = &t->points.data[i], *q = p->joined && i > 0 ? p - 1 : p;
+        double thick = 1.0 + THICKEST * wr_gui_scale() * 0.5 * (p->pressure + q->pressure);
+        if (q != p) wr_gui_draw_line(q->x, q->y, p->x, p->y, ink_of(p), thick);
+        if (thick > 3.0 || q == p) wr_gui_draw_disc(p->x, p->y, 0.5 * thick, ink_of(p));
+    }
+    if (t->points.count == 0) {
+        const char *hint = "Scribble here: harder is thicker";
+        double w = wr_gui_text_width(WR_FONT_TEXT, hint), h = wr_gui_line_height(WR_FONT_TEXT);
+        wr_gui_draw_text(floor(pad.x + (pad.w - w) / 2), floor(pad.y + (pad.h - h) / 2),
+                         WR_FONT_TEXT, WR_COLOUR_OFF, hint);
+    }
+    wr_gui_pad_end();
+}
+
+/* ---- newest values ---- */
+
+/* The newest event of the chosen device among the last few. */
+static bool newest_of(const WrApp *app, WrPenEvent *event)
+{
+    int64_t total = wr_pen_total(app->pen);
+    for (int64_t i = total - 1; i >= 0 && i > total - 256; i--)
+        if (wr_pen_recent(app->pen, i, event) && event->device == app->tester->chosen) return true;
+    *event = (WrPenEvent){ .kind = WR_PEN_MOTION };
+    return false;
+}
+
+typedef struct Lines { /* lines of text, from the top */
+    double x, y, w, step;
+} Lines;
+
+static void put(Lines *at, const char *label, WrColour colour, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+static void put(Lines *at, const char *label, WrColour colour, const char *format, ...)
+{
+    char text[96];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    double w = wr_gui_text_width(WR_FONT_TEXT, text);
+    wr_gui_draw_text(at->x, floor(at->y), WR_FONT_TEXT, WR_COLOUR_LABEL, label);
+    wr_gui_draw_text(floor(at->x + at->w - w), floor(at->y), WR_FONT_TEXT, colour, text);
+    at->y += at->step;
+}
+
+static void put_bar(Lines *at, const char *label, double value, WrColour colour)
+{
+    char text[32];
+    double bar = wr_gui_px(8), from = at->x + wr_gui_px(70), to = at->x + at->w - wr_gui_px(50);
+    double line = wr_gui_line_height(WR_FONT_TEXT), top = floor(at->y + (line - bar) / 2) + 1;
+    snprintf(text, sizeof text, "%.3f", value);
+    wr_gui_draw_text(at->x, floor(at->y), WR_FONT_TEXT, WR_COLOUR_LABEL, label);
+    wr_gui_draw_fill(from, top, to - from, bar, WR_COLOUR_BUTTON, 0);
+    wr_gui_draw_fill(from, top, (to - from) * value, bar, colour, 0);
+    wr_gui_draw_text(floor(at->x + at->w - wr_gui_text_width(WR_FONT_TEXT, text)), floor(at->y),
+                     WR_FONT_TEXT, WR_COLOUR_TEXT, text);
+    at->y += at->step;
+}
+
+/* A disc with a needle in the direction of the tilt, and the pen's three buttons. */
+static void put_tilt(Lines *at, const WrPenDevice *d, const WrPenEvent *e)
+{
+    static const char *const names[] = { "tip", "2", "3" };
+    double r = 1.55 * at->step, x = at->x + wr_gui_px(70) + r, y = at->y + r;
+    wr_gui_draw_text(at->x, floor(at->y), WR_FONT_TEXT, WR_COLOUR_LABEL, "Tilt");
+    wr_gui_draw_disc(x, y, r, WR_COLOUR_BUTTON);
+    wr_gui_draw_circle(x, y, r, WR_COLOUR_GRAB, 1.0);
+    if (d->has_tilt) {
+        double tx = x + r * e->tilt_x, ty = y + r * e->tilt_y;
+        wr_gui_draw_line(x, y, tx, ty, WR_COLOUR_ACCENT, wr_gui_px(2));
+        wr_gui_draw_disc(tx, ty, wr_gui_px(4), WR_COLOUR_STRONG);
+    }
+    double bx = x + r + wr_gui_px(16), side = wr_gui_px(24);
+    wr_gui_draw_text(bx, floor(at->y), WR_FONT_SMALL, WR_COLOUR_LABEL, "Buttons");
+    for (int b = 1; b <= 3; b++) {
+        bool down = (e->held & 1u << b) != 0;
+        double left = bx + (b - 1) * (side + wr_gui_px(4)), top = at->y + at->step;
+        double w = wr_gui_text_width(WR_FONT_SMALL, names[b - 1]);
+        double h = wr_gui_line_height(WR_FONT_SMALL);
+        wr_gui_draw_fill(left, top, side, side, down ? WR_COLOUR_ACCENT : WR_COLOUR_BUTTON, 3);
+        wr_gui_draw_text(floor(left + (side - w) / 2), floor(top + (side - h) / 2), WR_FONT_SMALL,
+                         down ? WR_COLOUR_STRONG : WR_COLOUR_LABEL, names[b - 1]);
+    }
+    at->y += 2.0 * r + wr_gui_px(8);
+}
+
+static void put_events(const WrApp *app, Lines *at, const WrPenDevice *d)
+{
+    put(at, "Events", WR_COLOUR_TEXT, "%lld,  %.0f a second", (long long)d->events,
+        app->tester->rate);
+}
+
+/* Draw the newest values of the chosen device. */
+static void tester_live(WrApp *app, double width, double height)
+{
+    const WrPenDevice *d = wr_pen_device(app->pen, app->tester->chosen);
+    WrPenEvent e;
+    WrPad pad = wr_gui_pad_begin("live", width, height);
+    double gap = wr_gui_px(12), line = wr_gui_line_height(WR_FONT_TEXT);
+    Lines at = { .x = pad.x + gap,
+                 .y = pad.y + wr_gui_px(9),
+                 .w = pad.w - 2 * gap,
+                 .step = line + wr_gui_px(pad.h < wr_gui_px(200) ? 1 : 5) };
+    bool any = newest_of(app, &e), low = height < wr_gui_px(200);
+    if (d) {
+        put_bar(&at, "Pressure", e.raw, WR_COLOUR_ACCENT);
+        put_bar(&at, "By curve", e.pressure, WR_COLOUR_RAISE);
+        if (low) put_events(app, &at, d);
+        put_tilt(&at, d, &e);
+        if (any) put(&at, "Place", WR_COLOUR_TEXT, "%.2f, %.2f", e.x, e.y);
+        else put(&at, "Place", WR_COLOUR_TEXT, "-");
+        if (!low) put_events(app, &at, d);
+        put(&at, "Dropped, waiting", WR_COLOUR_TEXT, "0,  %d", wr_pen_waiting(app->pen));
+        put(&at, "Bad values", d->bad_values ? WR_COLOUR_BAD : WR_COLOUR_TEXT, "%lld",
+            (long long)d->bad_values);
+    }
+    wr_gui_pad_end();
+}
+
+/* ---- the curve ---- */
+
+static const WrPointsRules rules = {
+    .least = 2, .most = WR_PEN_POINTS, .inside = true, .ends = true, .reach = 20
+};
+
+static double within(double x, double low, double high)
+{
+    return x < low ? low : x > high ? high : x;
+}
+
+/* Points in the pad's form: pressures of the device and of the brush. */
+static void to_pad(const WrPenCurve *c, double value[1 + 2 * WR_PEN_POINTS])
+{
+    value[0] = c->count;
+    for (int i = 0; i < c->count; i++) {
+        value[1 + 2 * i] = c->minimum + c->x[i] * (c->maximum - c->minimum);
+        value[2 + 2 * i] = c->y[i] * c->gain;
+    }
+}
+
+/* moved: index of the dragged point, which stays between its neighbours; -1: none. False if the result is not a valid
+ * curve. */
+static bool from_pad(const double *value, int moved, WrPenCurve *c)
+{
+    WrPenCurve made = { .minimum = c->minimum, .maximum = c->maximum, .gain = c->gain };
+    made.count = (int)value[0];
+    for (int i = 0; i < made.count; i++) {
+        made.x[i] = within((value[1 + 2 * i] - c->minimum) / (c->maximum - c->minimum), 0.0, 1.0);
+        made.y[i] = within(value[2 + 2 * i] / c->gain, 0.0, 1.0);
+    }
+    if (moved >= 0 && moved < made.count)
+        made.y[moved] = within(made.y[moved], moved > 0 ? made.y[moved - 1] : 0.0,
+                               moved + 1 < made.count ? made.y[moved + 1] : 1.0);
+    const bool valid = wr_pen_curve_valid(&made);
+    if (valid) *c = made;
+    return valid;
+}
+
+static bool curve_at(const void *ctx, double raw, double *out)
+{
+    *out = wr_pen_curve_apply(ctx, raw);
+    return true;
+}
+
+static void grid(const WrApp *app, const WrPad *pad)
+{
+    WrPenEvent e;
+    for (int i = 1; i < 4; i++) {
+        wr_gui_draw_fill(floor(pad->x + pad->w * i / 4), pad->y, 1, pad->h, WR_COLOUR_GRID, 0);
+        wr_gui_draw_fill(pad->x, floor(pad->y + pad->h * i / 4), pad->w, 1, WR_COLOUR_GRID, 0);
+    }
+    if (newest_of(app, &e) && e.raw > 0.0)
+        wr_gui_draw_fill(floor(pad->x + e.raw * pad->w), pad->y, 1, pad->h, 0xff6a6a6au, 0);
+}
+
+/* Editor of the pressure curve, from the device's pressure (horizontal) to the brush's (vertical). */
+static WrEdit tester_curve(WrApp *app, double side, WrPenCurve *curve)
+{
+    static const WrPointsSpan span = { 0.0, 1.0, 0.0, 1.0 };
+    WrPointsState *hand = &app->tester->grip;
+    double value[1 + 2 * WR_PEN_POINTS];
+    WrPad pad = wr_gui_pad_begin("curve", side, side);
+    to_pad(curve, value);
+    bool changed = wr_points_move(&pad, &span, &rules, hand, value);
+    changed = changed && from_pad(value, hand->chosen - 1, curve);
+    to_pad(curve, value);
+    grid(app, &pad);
+    wr_points_draw(&pad, hand, value, curve_at, curve);
+    wr_gui_pad_end();
+    if (!pad.held && !hand->chosen)
+        wr_gui_tip("How hard a touch counts. Drag the points; click for one more; drag one out, or "
+                   "press Delete, to take it away");
+    if (pad.released || (changed && !pad.held)) return WR_EDIT_DONE;
+    return changed ? WR_EDIT_LIVE : WR_EDIT_NONE;
+}
+
+/* ---- panel tablet ---- */
 
 /* ---- curves are stored in the settings as lines "CURVE NAME" ---- */
 
@@ -140,7 +425,7 @@ static void curve_row(WrApp *app, double side)
     const WrPenDevice *d = wr_pen_device(app->pen, app->tester->chosen);
     if (!d) return;
     WrPenCurve c = d->curve;
-    WrEdit edit = wr_tester_curve(app, side, &c), by[3];
+    WrEdit edit = tester_curve(app, side, &c), by[3];
     wr_gui_same_line(16);
     wr_gui_group_begin();
     by[0] = number("Minimum: lighter touches count as none", 0, 1, false, 0,
@@ -168,7 +453,7 @@ static void curve_row(WrApp *app, double side)
 void wr_dialog_tablet(WrApp *app)
 {
     WrTester *t = app->tester;
-    wr_tester_follow(app);
+    tester_follow(app);
     if (!wr_gui_dialog_begin("Tablet tester", 720)) return;
     double tall = app->height - wr_gui_px(470), high = wr_gui_px(230), low = wr_gui_px(120);
     tall = tall > high ? high : tall < low ? low : tall;
@@ -176,9 +461,9 @@ void wr_dialog_tablet(WrApp *app)
     if (wr_pen_device_count(app->pen) > 0) {
         diagnosis(app);
         wr_gui_space(2);
-        wr_tester_scribble(app, wr_gui_available() - wr_gui_px(276), tall);
+        tester_scribble(app, wr_gui_available() - wr_gui_px(276), tall);
         wr_gui_same_line(12);
-        wr_tester_live(app, 0, tall);
+        tester_live(app, 0, tall);
         wr_gui_space(2);
         curve_row(app, wr_gui_px(168));
     }

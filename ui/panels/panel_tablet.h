@@ -32,14 +32,6 @@ struct WrTester {
     double newest_at; /* clock */
 };
 
-/* Handle the events since the last frame. */
-void wr_tester_follow(WrApp *app);
-void wr_tester_scribble(WrApp *app, double width, double height);
-/* Draw the newest values of the chosen device. */
-void wr_tester_live(WrApp *app, double width, double height);
-/* Editor of the pressure curve, from the device's pressure (horizontal) to the brush's (vertical). */
-WrEdit wr_tester_curve(WrApp *app, double side, WrPenCurve *curve);
-
 /* panel_tablet.c: apply the stored pressure curves to the pens; create the tester. */
 void wr_tablet_start(WrApp *app);
 void wr_tablet_free(WrApp *app);

@@ -1,5 +1,5 @@
 #include "ui/panels/thumb_list.h"
-#include "ui/canvas/thumb.h"
+#include "ui/canvas/canvas_colors.h"
 #include "ui/state/app_state.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/gui_sdl.h"

@@ -17,7 +17,7 @@
 #include "ui/preview/preview.h"
 #include "ui/preview/rotation.h"
 #include "ui/tools/stroke_input.h"
-#include "ui/views/overlay_marks.h"
+#include "ui/views/marks.h"
 
 #include "command/session.h"
 #include "document/document.h"

@@ -84,7 +84,7 @@ void wr_patch_commit_zoom(WrApp *app, bool now);
 /* Run the camera, or the object's rotation, of the live scene as a command. */
 void wr_patch_commit_camera(WrApp *app);
 void wr_patch_commit_turn(WrApp *app);
-/* patch_meanwhile.c: handle an event while a command runs, true if it moved the view; and at the end of the
+/* Handle an event while a command runs, true if it moved the view; and at the end of the
    command. */
 bool wr_patch_look(WrApp *app, const SDL_Event *event);
 void wr_patch_commit_late(WrApp *app);

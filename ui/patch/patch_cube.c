@@ -7,7 +7,7 @@
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 #include "ui/patch/patch.h"
-#include "ui/preview/view_cube.h"
+#include "ui/preview/rotation.h"
 
 #include "scene/scene.h"
 #include "surface/surface.h"

@@ -2,7 +2,7 @@
 #pragma once
 #include "ui/state/app_state.h"
 #include "ui/state/input_router.h"
-#include "ui/preview/patch_picks.h"
+#include "ui/preview/patch_pick.h"
 
 #include <SDL.h>
 #include <stdbool.h>

@@ -33,3 +33,18 @@ bool wr_patch_pick_project(const WrPatchPick *pick, int face, double u, double v
 /* Derivatives of (u, v) by pixel position: jacobian = { du/dx, du/dy, dv/dx, dv/dy }. False if the surface is seen
  * edge-on, or has no tangent plane. */
 bool wr_patch_pick_slopes(const WrPatchPick *pick, const WrPatchSpot *at, double jacobian[4]);
+
+/* ---- picking among several objects ---- */
+
+/* The object under a pixel of the patch, and the point on it. No window needed. */
+
+typedef struct WrPatchPicks WrPatchPicks;
+
+/* wr_patch_pick_new for all visible objects. */
+WrPatchPicks *wr_patch_picks_new(const WrScene *scene, double turn_deg, int width, int height,
+                                 WrError *err);
+void wr_patch_picks_free(WrPatchPicks *picks); /* NULL is allowed */
+/* Index of the object visible at (x, y), and the point on it; -1: none. */
+int wr_patch_picks_at(const WrPatchPicks *picks, double x, double y, WrPatchSpot *out);
+/* Picking of that object; NULL: hidden. Borrowed. */
+const WrPatchPick *wr_patch_picks_of(const WrPatchPicks *picks, int object);

@@ -3,16 +3,32 @@
 
    All calls except those of the thread itself are from the window's thread. */
 #pragma once
-#include "ui/preview/accuracy_choice.h"
 #include "ui/preview/moving.h"
 
+#include "accuracy/tolerance_search.h"
 #include "render/frame/frame.h"
-#include "render/plan/plan.h"
 #include "render/plan/effect_heatmap.h"
+#include "render/plan/plan.h"
+#include "scene/dials.h"
 
 #include <SDL.h>
 #include <stdbool.h>
 #include <stdint.h>
+
+typedef struct WrChosen {
+    bool any; /* a tolerance chose this picture's dials */
+    bool met;
+    bool kept;        /* they were stored in the document for this very picture */
+    char reason[480]; /* one or two sentences */
+    char lines[2000]; /* one line per part: share, dials, kinds of blocks */
+    /* One setting for all blocks, as fine as the finest of any block, so that it also meets the tolerance. By
+       WrDialId */
+    double finest[WR_DIAL_COUNT];
+} WrChosen;
+
+void wr_choice_summary(const WrChoice *choice, WrChosen *out);
+
+/* ---- preview ---- */
 
 typedef struct WrError WrError;
 typedef struct WrField WrField;
@@ -93,7 +109,7 @@ typedef struct WrPreviewPicture {
     uint64_t since;   /* an earlier delivered picture; 0: none, everything has changed */
 } WrPreviewPicture;
 
-/* ---- picture_time.c ---- */
+/* ---- times of a picture ---- */
 #define WR_PICTURE_STAGES 6 /* number of WrStageTimes */
 extern const char *const wr_picture_stages[];
 /* Wall time in milliseconds, distributed to the stages; shown in the status line, the Accuracy tab and the Plan

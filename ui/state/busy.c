@@ -1,4 +1,5 @@
 /* Long commands on a worker thread; the rules are in busy.h. */
+#include "ui/state/busy.h"
 #include "ui/state/busy_internal.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
@@ -9,15 +10,22 @@
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/words.h"
 #include "ui/jobs/job.h"
+#include "ui/state/layout.h"
+#include "ui/toolkit/theme.h"
+#include "ui/state/session_view.h"
 
+#include "base/array.h"
 #include "base/error.h"
+#include "base/hash.h"
 #include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"
 #include "command/session.h"
+#include "document/document.h"
 #include "system/clock.h"
 
 #include <SDL.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -282,4 +290,201 @@ bool wr_busy_look(WrApp *app, const SDL_Event *event)
     for (const WrPart *const *p = app->roster->parts; *p; p++)
         if ((*p)->look && (*p)->look(app, event)) return true;
     return false;
+}
+
+/* ---- progress of the background command in place of the status line ---- */
+
+/* Text, bar, remaining time, Cancel, and queued actions. */
+
+#define REFUSED_SECONDS 2.0 /* duration of the note about a refused action */
+
+/* The command's name, or a note about actions requested meanwhile. */
+static void say(const WrApp *app, bool refused, double wide)
+{
+    const WrBusy *busy = app->busy;
+    const int count = app->waits->items.count;
+    char waits[300], text[400];
+    if (refused || busy->closes || count == 0) {
+        wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_STRONG,
+                        refused        ? "Not while this is being done: wait or cancel"
+                        : busy->closes ? "Closes when this is done: wait or cancel"
+                                       : busy->what,
+                        wide);
+        return;
+    }
+    wr_waits_words(app, ", ", waits, sizeof waits);
+    snprintf(text, sizeof text, wr_words(count == 1 ? "%d thing waits: %s" : "%d things wait: %s"),
+             count, waits);
+    wr_gui_as_it_is(true); /* already translated */
+    wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_STRONG, text, wide);
+    wr_gui_as_it_is(false);
+}
+
+/* Narrow windows have shorter texts and a shorter bar, but all parts. */
+static double squeezed(double wide, double share, double whole)
+{
+    double lacking = fmax(0.0, wr_gui_px(whole) - wr_gui_width());
+    return fmax(wr_gui_px(20), wr_gui_px(wide) - share * lacking);
+}
+
+static void drop_button(WrApp *app)
+{
+    char waits[600];
+    wr_waits_words(app, "\n", waits, sizeof waits);
+    wr_gui_same_line(12);
+    const bool drops = wr_gui_chip(NULL, "Drop waiting actions");
+    wr_gui_as_it_is(true);
+    wr_gui_tip(waits);
+    wr_gui_as_it_is(false);
+    if (drops) wr_waits_drop(app, WR_DROPPED_WISH);
+}
+
+static void bar(WrApp *app, bool refused, double now)
+{
+    WrBusy *busy = app->busy;
+    char seconds[24], left[WR_TIME_LEFT];
+    const double took = now - busy->since;
+    const bool waits = app->waits->items.count > 0;
+    const double whole = waits ? 970 : 830;
+    const double wide = squeezed(320, 0.6, whole), long_bar = squeezed(220, 0.4, whole);
+    const double end = wr_gui_px(30) + wide + long_bar;
+    say(app, refused, wide);
+    wr_gui_same_line(12);
+    wr_gui_move_to(wr_gui_px(30) + wide);
+    wr_gui_progress(long_bar, busy->furthest > 0.0 ? busy->furthest : -1.0);
+    wr_gui_same_line(12);
+    snprintf(seconds, sizeof seconds, "%.1f s", took);
+    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, seconds);
+    wr_gui_same_line(12);
+    wr_gui_move_to(end + wr_gui_px(70));
+    wr_time_left_words(&busy->left, busy->furthest, took, left);
+    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, busy->cancelled ? "cancelling" : left);
+    wr_gui_same_line(12);
+    wr_gui_move_to(end + wr_gui_px(160));
+    if (wr_gui_chip(NULL, "Cancel")) wr_busy_cancel(busy);
+    wr_gui_tip("Escape");
+    if (waits) drop_button(app);
+}
+
+bool wr_busy_bar(WrApp *app)
+{
+    WrBusy *busy = app->busy;
+    SDL_Rect room = app->layout->status;
+    const double now = wr_clock_seconds();
+    const int tall = wr_gui_px(28);
+    double fraction = 0.0;
+    if (!busy || wr_busy_is_young(app)) return false;
+    wr_job_busy(busy->job, &fraction, NULL);
+    if (fraction > busy->furthest) busy->furthest = fraction;
+    if (room.w <= 0) room = (SDL_Rect){ 0, app->height - tall, app->width, tall };
+    const bool refused = now - busy->refused_at < REFUSED_SECONDS;
+    wr_gui_area_begin("##busy", WR_AREA_BAR, room, refused ? WR_COLOUR_REFUSED : WR_COLOUR_BAR);
+    bar(app, refused, now);
+    wr_gui_area_end();
+    return true;
+}
+
+/* ---- queue of actions requested during a background command ---- */
+
+/* Run in order afterwards, or dropped with a message. */
+
+/* Lines refer to layers by number, so another set or order of layers must change the key. */
+static uint64_t layers_key(const WrApp *app)
+{
+    const WrDocument *document = wr_app_document(app);
+    WrHash hash = { .low = (uint64_t)document->layer_count };
+    for (int i = 0; i < document->layer_count; i++)
+        hash = wr_hash_bytes(document->layers[i].name, strlen(document->layers[i].name), hash);
+    return hash.low | 1;
+}
+
+void wr_busy_put_off(WrApp *app, const char *words, WrBusyLate *late, const char *text,
+                     bool of_layers)
+{
+    wr_array_push(&app->waits->items, ((WrWaiting){ .late = late,
+                                                    .text = wr_strdup(text),
+                                                    .words = wr_strdup(words),
+                                                    .layers = of_layers ? layers_key(app) : 0 }));
+    wr_app_redraw(app);
+}
+
+static WrWaiting take(WrWaits *waits, int index)
+{
+    WrWaiting taken = waits->items.data[index];
+    waits->items.count--;
+    memmove(waits->items.data + index, waits->items.data + index + 1,
+            (size_t)(waits->items.count - index) * sizeof *waits->items.data);
+    return taken;
+}
+
+static void fini(WrWaiting *waiting)
+{
+    wr_free(waiting->text);
+    wr_free(waiting->words);
+}
+
+void wr_busy_take_back(WrApp *app, WrBusyLate *late, const char *text)
+{
+    WrWaits *waits = app->waits;
+    for (int i = waits->items.count - 1; i >= 0; i--) {
+        if (waits->items.data[i].late != late || strcmp(waits->items.data[i].text, text) != 0)
+            continue;
+        WrWaiting taken = take(waits, i);
+        fini(&taken);
+        wr_app_redraw(app);
+        return;
+    }
+}
+
+void wr_waits_words(const WrApp *app, const char *between, char *text, size_t size)
+{
+    const WrWaits *waits = app->waits;
+    size_t used = 0;
+    text[0] = '\0';
+    for (int i = 0; i < waits->items.count && used < size; i++)
+        used += (size_t)snprintf(text + used, size - used, "%s%s", i ? between : "",
+                                 waits->items.data[i].words);
+}
+
+void wr_waits_drop(WrApp *app, WrDropped why)
+{
+    char words[300];
+    if (app->waits->items.count == 0) return;
+    wr_waits_words(app, ", ", words, sizeof words);
+    while (app->waits->items.count > 0) {
+        WrWaiting first = take(app->waits, 0);
+        first.late(app, first.text, true);
+        fini(&first);
+    }
+    if (why == WR_DROPPED_CANCELLED)
+        wr_app_say(app, "Cancelled, with the actions that waited for it: %s", words);
+    if (why == WR_DROPPED_LAYERS)
+        wr_app_say(app, "Not done, since the layers are others now: %s", words);
+    if (why == WR_DROPPED_WISH) wr_app_say(app, "Not done any more: %s", words);
+}
+
+void wr_waits_run(WrApp *app)
+{
+    WrWaits *waits = app->waits;
+    if (waits->running) return;
+    if (waits->given_up) wr_waits_drop(app, WR_DROPPED_CANCELLED);
+    waits->given_up = false;
+    waits->running = true;
+    while (waits->items.count > 0 && !app->busy) {
+        if (waits->items.data[0].layers && waits->items.data[0].layers != layers_key(app)) {
+            wr_waits_drop(app, WR_DROPPED_LAYERS);
+            break;
+        }
+        WrWaiting first = take(waits, 0);
+        first.late(app, first.text, false);
+        fini(&first);
+        if (waits->given_up) break;
+    }
+    waits->running = false;
+}
+
+void wr_busy_free(WrApp *app)
+{
+    for (int i = 0; i < app->waits->items.count; i++) fini(&app->waits->items.data[i]);
+    wr_array_free(&app->waits->items);
 }

@@ -31,7 +31,7 @@ bool wr_app_run_line(WrApp *app, const char *line);
 bool wr_app_run_linef(WrApp *app, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* Call work(session, ctx) on another thread and return its result when it is done. After a moment the status bar
    shows the text `what`, progress, remaining time and Cancel. Not allowed inside a frame
-   (ui/state/deferred_actions.h). Waits for background upkeep; fails while another command runs. */
+   (ui/state/action.h). Waits for background upkeep; fails while another command runs. */
 typedef bool WrBusyWork(WrSession *session, void *ctx, WrError *err);
 bool wr_busy_run(WrApp *app, WrBusyKind kind, const char *what, WrBusyWork *work, void *ctx,
                  WrError *err);

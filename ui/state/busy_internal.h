@@ -50,7 +50,7 @@ void wr_busy_cancel(WrBusy *busy);
 /* Finish completed work: the window gets the session back. Returns the result; err may be NULL. */
 bool wr_busy_end(WrApp *app, WrError *err);
 
-/* ---- queued actions: busy_waits.c ---- */
+/* ---- queued actions ---- */
 
 typedef struct WrWaiting {
     WrBusyLate *late;

@@ -6,7 +6,7 @@
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
 #include "ui/state/input_router.h"
-#include "ui/state/deferred_actions.h"
+#include "ui/state/action.h"
 #include "ui/state/messages.h"
 #include "ui/state/replace.h"
 #include "ui/state/roster.h"

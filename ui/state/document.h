@@ -1,6 +1,6 @@
 /* document.h - document commands of the window: new, open, save, and the question before unsaved work is lost. */
 #pragma once
-#include "ui/state/new_lines.h"
+#include "ui/state/line.h"
 #include "ui/state/app_state.h"
 #include "ui/jobs/files.h"
 

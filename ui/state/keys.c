@@ -1,8 +1,10 @@
+
 #include "ui/state/keys.h"
 #include "ui/toolkit/words.h"
 #include "ui/state/action_list.h"
 
 #include "base/array.h"
+#include "base/enum_rows.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
@@ -363,3 +365,21 @@ bool wr_key_can_be_given(SDL_Keycode code)
     print_key((WrKey){ code, 0 }, name, sizeof name); /* parsed as in a file */
     return wr_key_parse(join(name), strlen(name), &key, NULL) && key.code == code && key.mods == 0;
 }
+
+/* ---- built-in key maps, in the format of a user's key file ---- */
+
+WR_ROWS(wr_key_maps);
+const WrKeyMapText wr_key_maps[WR_KEY_MAPS] = {
+    [WR_ROW(WR_KEYS_PAINT)] = { .label = "Paint",
+                                .help = "Ctrl picks a height, Shift and dragging sizes the brush; "
+                                        "Alt turns it round",
+                                .text = "" },
+    [WR_ROW(WR_KEYS_SCULPT)] = { .label = "Sculpt",
+                                 .help = "Ctrl turns raise and lower round, Shift smooths; Alt "
+                                         "picks a height",
+                                 .text = "hold_invert: Ctrl\n"
+                                         "hold_smooth: Shift\n"
+                                         "hold_pick: Alt\n"
+                                         "hold_size: Alt+Shift\n" },
+};
+WR_ROWS_END(wr_key_maps, WR_KEY_MAPS);

@@ -54,7 +54,7 @@ void wr_keys_edit(const WrKeyMap *map, const char *action, const char *text, WrT
 /* True if the key can be assigned alone: not a modifier, lock or Escape key. */
 bool wr_key_can_be_given(SDL_Keycode code);
 
-/* ---- key_maps.c ---- */
+/* ---- key maps ---- */
 
 /* A key map: its differences from the built-in keys, as text. */
 typedef struct WrKeyMapText {

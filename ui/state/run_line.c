@@ -2,7 +2,7 @@
 #include "ui/state/busy_internal.h"
 #include "ui/state/app_state.h"
 #include "ui/state/input_router.h"
-#include "ui/state/deferred_actions.h"
+#include "ui/state/action.h"
 #include "ui/state/line_words.h"
 #include "ui/state/messages.h"
 #include "ui/state/roster.h"

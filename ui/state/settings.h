@@ -90,14 +90,12 @@ void wr_settings_load(WrSettings *settings);
 /* Create the folder of wr_config_path (base/file.h); a failure is ignored, since only settings are lost. */
 void wr_settings_make_folder(void);
 
-/* ---- settings_keep.c: the file shared by several open windows ---- */
+/* ---- the file shared by several open windows ---- */
 
 /* A copy of all saved settings, owned by the caller (wr_settings_fini). The brush's preset and tip are copied as
    names. */
 WrSettings wr_settings_copy(const WrSettings *settings);
 bool wr_settings_equal(const WrSettings *a, const WrSettings *b); /* compares all saved settings */
-/* Three-way merge: apply the changes from `base` to `mine` to `theirs`. */
-void wr_settings_merge(const WrSettings *base, const WrSettings *mine, WrSettings *theirs);
 /* Copy the lists of recent files, used brushes, favourites and pens from another. */
 void wr_settings_take_lists(WrSettings *settings, const WrSettings *from);
 /* Write the changes since `known`, the last state read or written by this program, and update it. Writes `now` with

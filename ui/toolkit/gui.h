@@ -63,7 +63,7 @@ const char *wr_gui_missing_fonts(const WrGui *gui);
 double wr_gui_scale(void);   /* pixels per unit */
 int wr_gui_px(double units); /* units rounded to whole pixels */
 
-/* ---- icons (UTF-8 of the icon font; short words without it: gui_icons.h) ---- */
+/* ---- icons (UTF-8 of the icon font; short words without it: theme.h) ---- */
 #define WR_ICON_BRUSH "\xef\x83\xa3"     /* f0e3 */
 #define WR_ICON_HAND "\xef\x81\x81"      /* f041 arrow-all */
 #define WR_ICON_ZOOM "\xef\x8d\x89"      /* f349 */
@@ -105,8 +105,8 @@ int wr_gui_px(double units); /* units rounded to whole pixels */
 #define WR_ICON_CURVE "\xef\x95\x99"     /* f559 vector-curve */
 #define WR_ICON_BUCKET "\xef\x89\xa6"    /* f266 format-color-fill */
 #define WR_ICON_RAMP "\xef\x82\xb6"      /* f0b6 blur-linear */
-#define WR_ICON_STAMP "\xee\x80\x80"     /* e000: drawn by gui_imgui_icons.cpp */
-#define WR_ICON_MIRROR "\xee\x80\x81"    /* e001: drawn by gui_imgui_icons.cpp */
+#define WR_ICON_STAMP "\xee\x80\x80"     /* e000: drawn by gui_imgui_fonts.cpp */
+#define WR_ICON_MIRROR "\xee\x80\x81"    /* e001: drawn by gui_imgui_fonts.cpp */
 #define WR_ICON_ERASER "\xef\x87\xbe"    /* f1fe */
 #define WR_ICON_TEXT "\xef\x97\xb4"      /* f5f4 format-title */
 #define WR_ICON_CUBE "\xef\x86\xa6"      /* f1a6 */

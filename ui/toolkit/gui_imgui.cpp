@@ -1,5 +1,5 @@
 /* Context of the widget library: style, events, frames. */
-#include "ui/toolkit/gui_imgui_focus.h"
+#include "ui/toolkit/gui_imgui.h"
 #include "ui/toolkit/retained_frame.h"
 
 extern "C" {

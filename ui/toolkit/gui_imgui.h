@@ -171,7 +171,7 @@ void wr_gui_fits(const char *text, float width, float room);
 void wr_gui_fits_window(const char *text);
 /* Available width in the row; if less than `width`, a new row is started, except in bars. */
 float wr_gui_row_room(float width);
-/* Draw an icon that no font has (gui_imgui_icons.cpp); true if there is one. */
+/* Draw an icon that no font has (gui_imgui_fonts.cpp); true if there is one. */
 bool wr_gui_draw_icon(ImDrawList *list, const char *icon, ImVec2 at, float side, ImU32 ink);
 /* The icon, or a word without the icon font. */
 const char *wr_gui_icon(const char *icon);
@@ -205,6 +205,8 @@ inline SDL_Texture *wr_gui_texture_of(ImTextureID id)
 {
     return (SDL_Texture *)(intptr_t)id;
 }
+
+bool wr_gui_is_list(const ImGuiWindow *window); /* a list within a part */
 
 /* No exception may reach C. Appended to a function whose body is a try block. */
 #define WR_CAUGHT(value)                                                                           \

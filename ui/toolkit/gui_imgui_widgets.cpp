@@ -2,6 +2,11 @@
 #include "ui/toolkit/gui_imgui.h"
 #include "ui/toolkit/words.h"
 
+#include <imgui_internal.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
 extern "C" {
 #include "system/clock.h"
 }
@@ -492,3 +497,467 @@ try {
     return pressed;
 }
 WR_CAUGHT(false)
+
+/* ---- rows that contain widgets, pictures, bars ---- */
+
+/* Full width of the window, including its padding. */
+static void full_width(float *left, float *right)
+{
+    const ImGuiWindow *window = ImGui::GetCurrentWindow();
+    *left = window->Pos.x;
+    *right = window->Pos.x + window->Size.x - window->ScrollbarSizes.x;
+}
+
+extern "C" WrRow wr_gui_row_begin(int id, double height_units, bool selected)
+try {
+    WrGui *gui = wr_gui_current();
+    ImGui::PushID(id);
+    float left, right, height = px(height_units);
+    full_width(&left, &right);
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    gui->row_left = left;
+    gui->row_right = right;
+    gui->row_top = at.y;
+    gui->row_height = height;
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    const ImRect &inner = ImGui::GetCurrentWindow()->InnerRect;
+    ImGui::PushClipRect(ImVec2(left, inner.Min.y), ImVec2(right, inner.Max.y), false);
+    ImGui::SetCursorScreenPos(ImVec2(left, at.y));
+    bool released = ImGui::InvisibleButton("row", ImVec2(right - left, height));
+    bool hovered = ImGui::IsItemHovered(), held = ImGui::IsItemActive();
+    bool doubled = hovered && ImGui::IsMouseDoubleClicked(0);
+    wr_gui_stop(WR_STOP_ROW, false);
+    bool menu = (hovered && ImGui::IsMouseClicked(1)) || wr_gui_focus_menu(ImGui::GetItemID());
+    bool moved = ImGui::IsMouseDragPastThreshold(0, px(5));
+    ImGui::SetItemAllowOverlap();
+    WrColour ground = selected ? WR_COLOUR_ROW_SELECTED : hovered ? WR_COLOUR_ROW_HOT : 0;
+    if (ground)
+        list->AddRectFilled(ImVec2(left, at.y), ImVec2(right, at.y + height),
+                            wr_gui_colour_of(ground));
+    list->AddRectFilled(ImVec2(left, at.y + height - 1), ImVec2(right, at.y + height),
+                        wr_gui_colour_of(WR_COLOUR_POPUP));
+    bool was = gui->row_drag != 0 && gui->row_drag == ImGui::GetID("row");
+    if (held && moved) gui->row_drag = ImGui::GetID("row");
+    bool dropped = was && !held;
+    if (dropped) gui->row_drag = 0;
+    return WrRow{ (double)at.y, (double)height, (double)ImGui::GetIO().MousePos.y, released && !was,
+                  doubled,      menu,           held && gui->row_drag != 0,        dropped };
+}
+WR_CAUGHT(WrRow{})
+
+extern "C" void wr_gui_row_at(double x, double tall)
+{
+    const WrGui *gui = wr_gui_current();
+    float h = tall > 0 ? (float)tall : ImGui::GetFrameHeight();
+    ImGui::SetCursorScreenPos(
+        ImVec2(gui->row_left + (float)x, gui->row_top + floorf((gui->row_height - 1 - h) / 2)));
+}
+
+extern "C" void wr_gui_row_see(void)
+try {
+    ImGui::ScrollToItem(ImGuiScrollFlags_KeepVisibleEdgeY);
+}
+WR_CAUGHT()
+
+extern "C" double wr_gui_row_width(void)
+{
+    return (double)(wr_gui_current()->row_right - wr_gui_current()->row_left);
+}
+
+extern "C" void wr_gui_row_end(void)
+try {
+    const WrGui *gui = wr_gui_current();
+    const ImGuiWindow *window = ImGui::GetCurrentWindow();
+    ImGui::PopClipRect();
+    ImGui::SetCursorScreenPos(
+        ImVec2(window->Pos.x + window->WindowPadding.x, gui->row_top + gui->row_height));
+    ImGui::PopID();
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_drop_line(double y)
+{
+    float left, right, at = roundf((float)y);
+    full_width(&left, &right);
+    ImGui::GetForegroundDrawList()->AddRectFilled(
+        ImVec2(left, at - px(1)), ImVec2(right, at + px(1)), wr_gui_colour_of(WR_COLOUR_ACCENT));
+}
+
+extern "C" void wr_gui_text_cut(WrFont font, WrColour colour, const char *text, double width)
+try {
+    ImFont *face = wr_gui_current()->fonts[font];
+    float size = wr_gui_size_of(face);
+    char cut[300];
+    snprintf(cut, sizeof cut, "%s", wr_gui_said(text));
+    wr_gui_fits(text, face->CalcTextSizeA(size, FLT_MAX, 0, cut).x, (float)width);
+    if ((double)face->CalcTextSizeA(size, FLT_MAX, 0, cut).x > width) {
+        const char *rest = cut;
+        float room = (float)width - face->CalcTextSizeA(size, FLT_MAX, 0, "...").x;
+        face->CalcTextSizeA(size, room > 0 ? room : 1, 0, cut, nullptr, &rest);
+        size_t length = (size_t)(rest - cut);
+        if (length > sizeof cut - 4) length = sizeof cut - 4;
+        memcpy(cut + length, "...", 4);
+    }
+    WrGui *gui = wr_gui_current();
+    const bool was = gui->as_it_is;
+    gui->as_it_is = true; /* already translated */
+    wr_gui_text(font, colour, cut);
+    gui->as_it_is = was;
+}
+WR_CAUGHT()
+
+/* The longest word must fit. */
+extern "C" void wr_gui_text_within(WrFont font, WrColour colour, const char *text, double width)
+try {
+    ImFont *face = wr_gui_current()->fonts[font];
+    const char *said = wr_gui_said(text);
+    for (const char *at = said; *at;) {
+        const char *end = at + strcspn(at, " -");
+        if (*end == '-') end++;
+        wr_gui_fits(text, face->CalcTextSizeA(wr_gui_size_of(face), FLT_MAX, 0, at, end).x,
+                    (float)width);
+        at = end + strspn(end, " ");
+    }
+    ImGui::PushFont(face);
+    ImGui::PushStyleColor(ImGuiCol_Text, wr_gui_colour_of(colour));
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + (float)width);
+    ImGui::TextUnformatted(said);
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_image(SDL_Texture *texture, double w, double h)
+try {
+    ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + (float)w, at.y + (float)h);
+    ImGui::Dummy(ImVec2((float)w, (float)h));
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_FIELD));
+    if (texture) list->AddImage(wr_gui_texture_id(texture), at, end);
+    wr_gui_edge(list, at, end);
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_ink(SDL_Texture *texture, double w, double h, WrColour colour)
+try {
+    ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + (float)w, at.y + (float)h);
+    ImGui::Dummy(ImVec2((float)w, (float)h));
+    if (texture)
+        ImGui::GetWindowDrawList()->AddImage(wr_gui_texture_id(texture), at, end, ImVec2(0, 0),
+                                             ImVec2(1, 1), wr_gui_colour_of(colour));
+}
+WR_CAUGHT()
+
+extern "C" bool wr_gui_list_button(const char *id, const char *label, double width)
+try {
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    float h = ImGui::GetFrameHeight(), pad = ImGui::GetStyle().FramePadding.x, arrow = px(4);
+    ImVec2 end(at.x + (float)width, at.y + h);
+    ImGui::PushStyleColor(ImGuiCol_Button, wr_gui_colour_of(WR_COLOUR_FIELD));
+    ImGui::PushID(id);
+    bool pressed = ImGui::Button("##list", ImVec2((float)width, h));
+    wr_gui_stop(WR_STOP_PRESS, false);
+    ImGui::PopID();
+    ImGui::PopStyleColor();
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    wr_gui_edge(list, at, end);
+    float right = end.x - px(13), middle = roundf(at.y + h / 2 - arrow / 2);
+    const ImVec4 clip(at.x, at.y, right - arrow - px(2), end.y);
+    const char *said = wr_gui_said(label);
+    list->AddText(ImGui::GetFont(), ImGui::GetFontSize(),
+                  ImVec2(at.x + pad, at.y + ImGui::GetStyle().FramePadding.y),
+                  wr_gui_colour_of(WR_COLOUR_TEXT), said, nullptr, 0.0f, &clip);
+    list->AddTriangleFilled(ImVec2(right - arrow, middle), ImVec2(right + arrow, middle),
+                            ImVec2(right, middle + arrow), wr_gui_colour_of(WR_COLOUR_LABEL));
+    return pressed;
+}
+WR_CAUGHT(false)
+
+extern "C" bool wr_gui_image_button(const char *id, SDL_Texture *texture, double w, double h,
+                                    bool chosen)
+try {
+    ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + (float)w, at.y + (float)h);
+    bool pressed = ImGui::InvisibleButton(id, ImVec2((float)w, (float)h));
+    wr_gui_stop(WR_STOP_PRESS, false);
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_FIELD));
+    if (texture) list->AddImage(wr_gui_texture_id(texture), at, end);
+    wr_gui_edge(list, at, end);
+    if (chosen) {
+        float out = px(2);
+        list->AddRect(ImVec2(at.x - out, at.y - out), ImVec2(end.x + out, end.y + out),
+                      wr_gui_colour_of(WR_COLOUR_ACCENT), 0, 0, px(2));
+    }
+    return pressed;
+}
+WR_CAUGHT(false)
+
+extern "C" bool wr_gui_find_button(const char *label, const char *keys, double width)
+try {
+    ImFont *small = wr_gui_current()->fonts[WR_FONT_SMALL];
+    float h = roundf(ImGui::GetTextLineHeight() + px(8)), pad = px(8);
+    ImVec2 bar = ImGui::GetWindowSize(), where = ImGui::GetWindowPos();
+    ImVec2 at(ImGui::GetCursorScreenPos().x, where.y + roundf((bar.y - h) / 2));
+    ImGui::SetCursorScreenPos(at);
+    bool pressed = ImGui::InvisibleButton(label, ImVec2((float)width, h));
+    wr_gui_stop(WR_STOP_PRESS, false);
+    label = wr_gui_said(label);
+    ImVec2 end(at.x + (float)width, at.y + h);
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_FIELD));
+    wr_gui_edge(list, at, end);
+    ImU32 ink = wr_gui_colour_of(ImGui::IsItemHovered() ? WR_COLOUR_TEXT : WR_COLOUR_LABEL);
+    ImVec2 size = small->CalcTextSizeA(wr_gui_size_of(small), FLT_MAX, 0, keys);
+    float y = at.y + floorf((h - wr_gui_size_of(small)) / 2);
+    wr_gui_fits(label, small->CalcTextSizeA(wr_gui_size_of(small), FLT_MAX, 0, label).x + size.x,
+                (float)width - 3 * pad);
+    list->AddText(small, wr_gui_size_of(small), ImVec2(at.x + pad, y), ink, label);
+    list->AddText(small, wr_gui_size_of(small), ImVec2(end.x - pad - size.x, y),
+                  wr_gui_colour_of(WR_COLOUR_FAINT), keys);
+    return pressed;
+}
+WR_CAUGHT(false)
+
+extern "C" bool wr_gui_glyph(const char *id, const char *icon, double units, WrColour colour)
+try {
+    float side = px(units);
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    bool pressed = ImGui::InvisibleButton(id, ImVec2(side, side));
+    wr_gui_stop(WR_STOP_PRESS, false);
+    bool hovered = ImGui::IsItemHovered();
+    icon = wr_gui_icon(icon);
+    ImVec2 size = ImGui::CalcTextSize(icon);
+    ImGui::GetWindowDrawList()->AddText(
+        ImVec2(at.x + roundf((side - size.x) / 2), at.y + roundf((side - size.y) / 2)),
+        ImGui::GetColorU32(wr_gui_colour_of(hovered ? WR_COLOUR_STRONG : colour)), icon);
+    return pressed;
+}
+WR_CAUGHT(false)
+
+extern "C" void wr_gui_progress(double width, double fraction)
+try {
+    double f = fraction < 0 ? 0.25 : fraction > 1 ? 1 : fraction;
+    float w = width > 0 ? (float)width : ImGui::GetContentRegionAvail().x;
+    float h = ImGui::GetFrameHeight(), bar = px(8);
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::Dummy(ImVec2(w, h));
+    at.y += floorf((h - bar) / 2);
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(at, ImVec2(at.x + w, at.y + bar), wr_gui_colour_of(WR_COLOUR_FIELD));
+    double t = fmod(ImGui::GetTime(), 1.6) / 0.8; /* back and forth */
+    float from = fraction < 0 ? (float)(0.75 * (t < 1 ? t : 2 - t)) : 0.0f, long_way = w - 2;
+    list->AddRectFilled(ImVec2(at.x + 1 + roundf(long_way * from), at.y + 1),
+                        ImVec2(at.x + 1 + roundf(long_way * (from + (float)f)), at.y + bar - 1),
+                        wr_gui_colour_of(WR_COLOUR_ACCENT));
+    wr_gui_edge(list, at, ImVec2(at.x + w, at.y + bar));
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_square(const char *id, double units, const WrColour sides[4])
+try {
+    float side = px(units), gap = px(6), line = px(2);
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::InvisibleButton(id, ImVec2(side, side));
+    wr_gui_stop(WR_STOP_PRESS, false);
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(at, ImVec2(at.x + side, at.y + side), wr_gui_colour_of(WR_COLOUR_CHIP),
+                        px(3));
+    float x0 = at.x + gap, y0 = at.y + gap, x1 = at.x + side - gap, y1 = at.y + side - gap;
+    list->AddRectFilled(ImVec2(x0, y0), ImVec2(x0 + line, y1), wr_gui_colour_of(sides[0]));
+    list->AddRectFilled(ImVec2(x1 - line, y0), ImVec2(x1, y1), wr_gui_colour_of(sides[1]));
+    list->AddRectFilled(ImVec2(x0 + line, y0), ImVec2(x1 - line, y0 + line),
+                        wr_gui_colour_of(sides[2]));
+    list->AddRectFilled(ImVec2(x0 + line, y1 - line), ImVec2(x1 - line, y1),
+                        wr_gui_colour_of(sides[3]));
+}
+WR_CAUGHT()
+
+/* ---- pads ---- */
+
+/* Areas for custom drawing and pointing. */
+
+/* Pointer of the keyboard. */
+static void draw_cross(ImDrawList *list, const WrFocus *focus)
+{
+    const float arm = (float)wr_gui_px(7), half = (float)wr_gui_px(1) / 2;
+    const ImVec2 at = focus->pad_at;
+    const ImU32 ink = wr_gui_colour_of(focus->pad_held ? WR_COLOUR_RAISE : WR_COLOUR_FOCUS);
+    list->AddRectFilled(ImVec2(at.x - arm, at.y - half), ImVec2(at.x + arm, at.y + half), ink);
+    list->AddRectFilled(ImVec2(at.x - half, at.y - arm), ImVec2(at.x + half, at.y + arm), ink);
+}
+
+extern "C" WrPad wr_gui_pad_begin(const char *id, double w, double h)
+try {
+    WrGui *gui = wr_gui_current();
+    float wide = w > 0 ? (float)w : ImGui::GetContentRegionAvail().x;
+    ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + wide, at.y + (float)h);
+    ImVec2 pointer = gui->pointer;
+    ImGui::InvisibleButton(id, ImVec2(wide, (float)h));
+    const ImGuiID item = ImGui::GetItemID();
+    wr_gui_stop(WR_STOP_PAD, false);
+    WrFocus *focus = &gui->focus;
+    const bool keys = wr_gui_focused(item), was = focus->pad_down == item;
+    const bool down = keys && focus->pad_held;
+    if (keys) pointer = ImVec2(at.x + focus->pad_x * wide, at.y + focus->pad_y * (float)h);
+    if (down) focus->pad_down = item;
+    else if (was) focus->pad_down = 0;
+    focus->pad_cross = keys;
+    focus->pad_at = pointer;
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_FIELD));
+    wr_gui_edge(list, at, end);
+    list->PushClipRect(ImVec2(at.x + 1, at.y + 1), ImVec2(end.x - 1, end.y - 1), true);
+    gui->pad = list;
+    return WrPad{ (double)at.x,
+                  (double)at.y,
+                  (double)wide,
+                  h,
+                  (double)pointer.x,
+                  (double)pointer.y,
+                  keys || ImGui::IsItemHovered(),
+                  (down && !was) || ImGui::IsItemActivated(),
+                  down || ImGui::IsItemActive(),
+                  (was && !down) || ImGui::IsItemDeactivated() };
+}
+WR_CAUGHT(WrPad{})
+
+extern "C" void wr_gui_pad_end(void)
+{
+    WrGui *gui = wr_gui_current();
+    if (gui->pad && gui->focus.pad_cross) draw_cross(gui->pad, &gui->focus);
+    if (gui->pad) gui->pad->PopClipRect();
+    gui->focus.pad_cross = false;
+    gui->pad = NULL;
+}
+
+extern "C" void wr_gui_swatch(WrColour colour, double radius, double tall)
+try {
+    const float r = (float)radius, frame = ImGui::GetFrameHeight();
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::Dummy(ImVec2(2 * r, tall > (double)frame ? (float)tall : frame));
+    ImGui::GetWindowDrawList()->AddCircleFilled(ImVec2(at.x + r, at.y + frame / 2), r,
+                                                wr_gui_colour_of(colour));
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_group_begin(void)
+{
+    ImGui::BeginGroup();
+}
+
+extern "C" void wr_gui_group_end(void)
+{
+    ImGui::EndGroup();
+}
+
+/* ---- picture tiles, fields with a hint, foldable headings ---- */
+
+static void put_picture(ImDrawList *list, SDL_Texture *texture, ImVec2 at, ImVec2 end)
+{
+    list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_FIELD));
+    if (texture) list->AddImage(wr_gui_texture_id(texture), at, end);
+}
+
+extern "C" int wr_gui_tile(const char *id, SDL_Texture *texture, double side, bool selected,
+                           bool marked)
+try {
+    float s = (float)side;
+    ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + s, at.y + s);
+    bool pressed = ImGui::InvisibleButton(id, ImVec2(s, s));
+    wr_gui_stop(WR_STOP_TILE, selected);
+    bool hovered = ImGui::IsItemHovered();
+    bool menu = (hovered && ImGui::IsMouseClicked(1)) || wr_gui_focus_menu(ImGui::GetItemID());
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    put_picture(list, texture, at, end);
+    if (selected) {
+        float w = px(2);
+        ImU32 ink = wr_gui_colour_of(WR_COLOUR_ACCENT);
+        list->AddRectFilled(at, ImVec2(end.x, at.y + w), ink);
+        list->AddRectFilled(ImVec2(at.x, end.y - w), end, ink);
+        list->AddRectFilled(at, ImVec2(at.x + w, end.y), ink);
+        list->AddRectFilled(ImVec2(end.x - w, at.y), end, ink);
+    } else {
+        wr_gui_edge(list, at, end);
+        if (hovered) list->AddRectFilled(at, end, wr_gui_colour_of(0x28ffffffu));
+    }
+    if (marked) {
+        ImFont *font = ImGui::GetFont();
+        float size = wr_gui_size_of(font) * 0.8f;
+        ImVec2 wide = font->CalcTextSizeA(size, FLT_MAX, 0, wr_gui_icon(WR_ICON_STAR));
+        ImVec2 where(end.x - wide.x - px(2), at.y + px(2));
+        list->AddText(font, size, ImVec2(where.x + 1, where.y + 1), wr_gui_colour_of(0xc0000000u),
+                      wr_gui_icon(WR_ICON_STAR));
+        list->AddText(font, size, where, wr_gui_colour_of(WR_COLOUR_CELL),
+                      wr_gui_icon(WR_ICON_STAR));
+    }
+    return menu ? 2 : pressed ? 1 : 0;
+}
+WR_CAUGHT(0)
+
+extern "C" void wr_gui_centre(double side)
+{
+    float up = roundf(((float)side - ImGui::GetFrameHeight()) / 2.0f);
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() - up);
+}
+
+extern "C" void wr_gui_centre_end(double side)
+{
+    float up = roundf(((float)side - ImGui::GetFrameHeight()) / 2.0f);
+    ImGui::GetCurrentWindow()->DC.CursorPosPrevLine.y += up; /* for content in the same line */
+}
+
+extern "C" bool wr_gui_will_see(double side)
+{
+    return ImGui::IsRectVisible(ImVec2((float)side, (float)side));
+}
+
+extern "C" bool wr_gui_hint_field(const char *id, const char *hint, double width, char *text,
+                                  size_t size)
+try {
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::SetNextItemWidth(width > 0 ? (float)width : -1.0f);
+    float wide = ImGui::CalcItemWidth();
+    if (wr_gui_focus_pressed(ImGui::GetID(id))) ImGui::SetKeyboardFocusHere();
+    bool changed = ImGui::InputTextWithHint(id, wr_gui_said(hint), text, size);
+    wr_gui_stop(WR_STOP_TEXT, false);
+    wr_gui_edge(ImGui::GetWindowDrawList(), at,
+                ImVec2(at.x + wide, at.y + ImGui::GetFrameHeight()));
+    return changed;
+}
+WR_CAUGHT(false)
+
+extern "C" bool wr_gui_fold(const char *label, bool open)
+try {
+    ImGui::PushStyleColor(ImGuiCol_Header, wr_gui_colour_of(0));
+    ImGui::PushStyleColor(ImGuiCol_HeaderHovered, wr_gui_colour_of(WR_COLOUR_BUTTON));
+    ImGui::PushStyleColor(ImGuiCol_HeaderActive, wr_gui_colour_of(WR_COLOUR_BUTTON));
+    ImGui::PushStyleColor(ImGuiCol_Text, wr_gui_colour_of(WR_COLOUR_LABEL));
+    ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
+    char said[320];
+    if (wr_gui_reports_all) ImGui::SetNextItemOpen(true);
+    bool shown = ImGui::CollapsingHeader(wr_gui_labelled(label, said),
+                                         open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    wr_gui_stop(WR_STOP_PRESS, false);
+    ImGui::PopFont();
+    ImGui::PopStyleColor(4);
+    return shown;
+}
+WR_CAUGHT(false)
+
+extern "C" void wr_gui_mark(WrColour colour)
+try {
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    float h = ImGui::GetFrameHeight();
+    ImGui::Dummy(ImVec2(px(7), h));
+    ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(at.x, at.y + px(2)),
+                                              ImVec2(at.x + px(6), at.y + h - px(2)),
+                                              wr_gui_colour_of(colour), px(2));
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_width_at_least(double units)
+try {
+    ImGui::Dummy(ImVec2(px(units), 0));
+}
+WR_CAUGHT()

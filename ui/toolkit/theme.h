@@ -82,6 +82,11 @@ WrColour wr_theme_colour(WrThemeColour name);
 #define WR_SERIES 7
 extern const WrColour wr_series[WR_SERIES]; /* blue, orange, green, violet, red, yellow, grey */
 
+/* ---- short words in place of icons if the icon font is missing ---- */
+
+/* One to three plain letters for a WR_ICON_...; any other text is returned unchanged. */
+const char *wr_icon_word(const char *icon);
+
 #ifdef __cplusplus
 }
 #endif

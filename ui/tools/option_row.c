@@ -11,7 +11,7 @@
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
 #include "ui/input/stroke_smoothing.h"
-#include "ui/tools/brush_strength.h"
+#include "ui/tools/stroke_input.h"
 #include "ui/tools/preset_browser.h"
 #include "ui/tools/thumbs.h"
 #include "ui/tools/tool.h"

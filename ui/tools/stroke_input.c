@@ -1,8 +1,8 @@
 /* Strokes by the pointer. Samples are passed to the session at once, which journals them; they are drawn for a few
    milliseconds per frame, so that a large brush never blocks the pointer. A stroke released before it is fully drawn
    continues to be drawn; the next one waits. */
-#include "ui/state/action_list.h"
 #include "ui/tools/stroke_input.h"
+#include "ui/state/action_list.h"
 #include "ui/state/busy.h"
 #include "ui/state/app_state.h"
 #include "ui/state/input_router.h"
@@ -13,9 +13,8 @@
 #include "ui/state/settings.h"
 #include "ui/tools/brush_command_text.h"
 #include "ui/toolkit/words.h"
-#include "ui/tools/brush_strength.h"
 #include "ui/tools/preset_browser.h"
-#include "ui/views/overlay_marks.h"
+#include "ui/views/marks.h"
 
 #include "base/array.h"
 #include "base/error.h"
@@ -24,6 +23,7 @@
 #include "brush/brush.h"
 #include "brush/preset.h"
 #include "command/session.h"
+#include "document/document.h"
 #include "system/clock.h"
 
 #include <math.h>
@@ -32,7 +32,8 @@
 
 #define WORK_SECONDS 0.004 /* drawing time per frame */
 
-void wr_strokes_head(const WrApp *app, const WrBrush *brush, WrText *line)
+/* Append the stroke command without points for a brush, with the files in *app->brush_files. */
+static void strokes_head(const WrApp *app, const WrBrush *brush, WrText *line)
 {
     const WrBrushSources *files = app->brush_files;
     WrBrushNames names = { files->preset, files->set, files->tip };
@@ -157,7 +158,7 @@ bool wr_strokes_begin(WrApp *app, const WrBrush *brush, const WrPointer *at)
 {
     WrBrushState *hand = app->brush;
     WrText head = { 0 };
-    wr_strokes_head(app, brush, &head);
+    strokes_head(app, brush, &head);
     wr_array_push(&hand->jobs, ((WrStrokeJob){ .head = wr_strdup(wr_text_get(&head)) }));
     wr_text_fini(&head);
     hand->now = *brush;
@@ -276,3 +277,44 @@ static void another(WrApp *app)
 }
 
 const WrPart wr_part_strokes = { .another = another };
+
+/* ----  ---- */
+
+bool wr_paints_mask(const WrApp *app)
+{
+    const WrDocument *document = wr_app_document(app);
+    return document->layers[document->active].on_mask;
+}
+
+double *wr_strength_setting(WrApp *app)
+{
+    WrSettings *settings = app->settings;
+    return wr_paints_mask(app) ? &settings->mask_strength : &settings->brush.strength;
+}
+
+WrNumber wr_strength_slider(const WrApp *app)
+{
+    if (wr_paints_mask(app))
+        return (WrNumber){ .low = 0,
+                           .high = 1,
+                           .reset = 1,
+                           .decimals = 2,
+                           .tip = "How much one stroke changes the mask at its middle: 1 shows or "
+                                  "hides the layer in full" };
+    return (WrNumber){ .low = 0.001,
+                       .high = 1,
+                       .hard_low = -1e30,
+                       .hard_high = 1e30,
+                       .reset = wr_preset_browser_own(app).strength,
+                       .decimals = -1,
+                       .logarithmic = true,
+                       .tip = "How much one stroke changes the height at its middle, in units of "
+                              "the table." };
+}
+
+WrBrush wr_brush_now(const WrApp *app)
+{
+    WrBrush brush = app->settings->brush;
+    if (wr_paints_mask(app)) brush.strength = app->settings->mask_strength;
+    return brush;
+}

@@ -3,6 +3,7 @@
 #include "ui/state/app_state.h"
 #include "ui/state/roster.h"
 #include "ui/input/stroke_smoothing.h"
+#include "ui/toolkit/gui.h"
 
 #include "base/array.h"
 #include "brush/brush.h"
@@ -44,8 +45,6 @@ typedef struct WrBrushState {
     int64_t taken, shown; /* pointer events passed to the session, and drawn (latency.c) */
 } WrBrushState;
 
-/* Append the stroke command without points for a brush, with the files in *app->brush_files. */
-void wr_strokes_head(const WrApp *app, const WrBrush *brush, WrText *line);
 /* The brush for a pointer: the eraser end erases, held keys smooth or invert; a new seed if it uses random
    numbers. */
 WrBrush wr_strokes_brush(WrApp *app, const WrPointer *at);
@@ -64,3 +63,16 @@ void wr_strokes_marks(const WrApp *app);
 void wr_strokes_free(WrApp *app);
 
 extern const WrPart wr_part_strokes;
+
+/* ---- strength of brushes, fills, stamps and shapes ---- */
+
+/* A height while heights are painted, a fraction while a mask is painted. */
+
+/* True if edits go to the active layer's mask. */
+bool wr_paints_mask(const WrApp *app);
+/* The setting changed by strength sliders and keys; valid as long as the settings. */
+double *wr_strength_setting(WrApp *app);
+/* Its slider. */
+WrNumber wr_strength_slider(const WrApp *app);
+/* The brush with its present strength. */
+WrBrush wr_brush_now(const WrApp *app);

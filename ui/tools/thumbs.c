@@ -1,7 +1,7 @@
 /* Thumbnails of presets, loaded and scaled on a separate thread, a few at a time; presets without a picture paint a
    sample. */
 #include "ui/tools/thumbs.h"
-#include "ui/canvas/thumb.h"
+#include "ui/canvas/canvas_colors.h"
 #include "ui/state/app_state.h"
 #include "ui/state/roster.h"
 #include "ui/tools/preset_browser.h"

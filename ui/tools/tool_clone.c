@@ -16,7 +16,7 @@
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_brush.h"
 #include "ui/tools/tool_rows.h"
-#include "ui/views/overlay_marks.h"
+#include "ui/views/marks.h"
 
 #include "brush/brush.h"
 #include "field/field.h"

@@ -6,11 +6,11 @@
 #include "ui/state/line.h"
 #include "ui/state/settings.h"
 #include "ui/toolkit/gui.h"
-#include "ui/tools/brush_strength.h"
+#include "ui/tools/stroke_input.h"
 #include "ui/tools/option_row.h"
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_rows.h"
-#include "ui/views/overlay_marks.h"
+#include "ui/views/marks.h"
 
 #include "base/text.h"
 #include "brush/brush.h"

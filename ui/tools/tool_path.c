@@ -15,7 +15,7 @@
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_rows.h"
 #include "ui/tools/tool_shape.h"
-#include "ui/views/overlay_marks.h"
+#include "ui/views/marks.h"
 
 #include "base/array.h"
 #include "base/text.h"

@@ -2,10 +2,10 @@
    computed on a snapshot. Press to set the centre, drag for rotation and size, release to apply. The wheel changes
    the size, Enter applies at the pointer, Escape cancels. */
 #include "ui/tools/tool_stamp.h"
+#include "ui/state/app_state.h"
 #include "ui/canvas/view.h"
 #include "ui/state/action_list.h"
 #include "ui/state/busy.h"
-#include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
 #include "ui/state/input_router.h"
 #include "ui/state/keys.h"
@@ -17,27 +17,131 @@
 #include "ui/toolkit/gui.h"
 #include "ui/tools/brush_command_text.h"
 #include "ui/tools/option_row.h"
-#include "ui/tools/stamps.h"
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_rows.h"
-#include "ui/views/overlay_marks.h"
+#include "ui/views/marks.h"
 #include "ui/jobs/edit_preview.h"
-#include "ui/tools/brush_strength.h"
+#include "ui/tools/stroke_input.h"
+#include "ui/state/action.h"
+#include "ui/toolkit/theme.h"
+#include "ui/tools/preset_browser.h"
+#include "ui/tools/thumbs.h"
 
 #include "base/array.h"
 #include "base/error.h"
 #include "base/exactmath.h"
+#include "base/file.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "brush/brush.h"
+#include "brush/library.h"
 #include "brush/symmetry.h"
 #include "brush/tip.h"
 #include "field/select.h"
+#include "system/path.h"
 
 #include <SDL.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+/* ---- pictures of the stamp tool ---- */
+
+/* Those in the brush folders that are not thumbnails of presets. */
+
+#define DEPTH_MAX 3     /* depth of nested folders */
+#define STAMPS_MAX 2000 /* limit for all folders */
+
+static void stamp_picker(WrApp *app);
+
+static bool has_ending(const char *name, const char *ending)
+{
+    size_t n = strlen(name), m = strlen(ending);
+    return n > m && SDL_strcasecmp(name + n - m, ending) == 0;
+}
+
+static bool is_picture(const char *name)
+{
+    static const char *const endings[] = {
+        ".png", ".gbr", ".gih", ".jpg", ".tif", ".tiff", ".exr"
+    };
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
+        if (has_ending(name, endings[i])) return true;
+    return false;
+}
+
+/* NAME.png beside NAME.myb, or NAME_prev.png, is the thumbnail of a preset. */
+static bool is_thumbnail(const char *folder, const char *name)
+{
+    const char *dot = strrchr(name, '.');
+    size_t length = (size_t)(dot - name);
+    if (length > 5 && strncmp(dot - 5, "_prev", 5) == 0) return true;
+    WrText preset = { 0 };
+    wr_text_addf(&preset, "%s/%.*s.myb", folder, (int)length, name);
+    bool there = wr_path_is_there(wr_text_get(&preset));
+    wr_text_fini(&preset);
+    return there;
+}
+
+static int by_name(const void *a, const void *b)
+{
+    char *const *x = a, *const *y = b;
+    return SDL_strcasecmp(*x, *y);
+}
+
+typedef WR_ARRAY(char *) Names; /* owned */
+
+static Names list_folder(const char *path)
+{
+    Names names = { 0 };
+    WrFolder *folder = wr_folder_open(path);
+    for (const char *name; folder && (name = wr_folder_next(folder));)
+        if (name[0] != '.') wr_array_push(&names, wr_strdup(name));
+    wr_folder_close(folder);
+    if (names.count > 1) qsort(names.data, (size_t)names.count, sizeof *names.data, by_name);
+    return names;
+}
+
+static void search(WrApp *app, const char *folder, int depth)
+{
+    Names names = list_folder(folder);
+    for (int i = 0; i < names.count; i++) {
+        const char *name = names.data[i];
+        char *path = wr_path_join(folder, name);
+        bool folder_too = wr_path_is_folder(path);
+        if (folder_too && depth < DEPTH_MAX) search(app, path, depth + 1);
+        bool takes = !folder_too && is_picture(name) && !is_thumbnail(folder, name) &&
+                     app->stamp->stamps.count < STAMPS_MAX;
+        if (takes) wr_array_push(&app->stamp->stamps, path);
+        else wr_free(path);
+        wr_free(names.data[i]);
+    }
+    wr_array_free(&names);
+}
+
+/* Scan the folders at the first call; the paths are in stamp.stamps. */
+static void stamps_find(WrApp *app)
+{
+    WrText ours = { 0 };
+    WrError err;
+    if (app->stamp->stamps_known) return;
+    app->stamp->stamps_known = true;
+    char *user = wr_library_user_folder(&err);
+    if (user) search(app, user, 0);
+    wr_free(user);
+    if (wr_data_find("brushes", &ours)) search(app, wr_text_get(&ours), 0);
+    wr_text_fini(&ours);
+    search(app, "/usr/share/gimp/2.0/brushes", 0);
+}
+
+static void stamps_free(WrApp *app)
+{
+    for (int i = 0; i < app->stamp->stamps.count; i++) wr_free(app->stamp->stamps.data[i]);
+    wr_array_free(&app->stamp->stamps);
+}
+
+/* ---- tool stamp ---- */
 
 #define DRAG_PIXELS 8.0
 #define FIRST_RADIUS 48.0
@@ -64,7 +168,8 @@ static WrBrush brush_of(const WrApp *app)
     return brush;
 }
 
-bool wr_stamp_choose(WrApp *app, const char *path)
+/* Use that picture, NULL: the round brush. False: unreadable, with a message. */
+static bool stamp_choose(WrApp *app, const char *path)
 {
     WrStampState *draw = app->stamp;
     WrError err;
@@ -87,7 +192,7 @@ void wr_stamp_forget(WrApp *app)
 {
     wr_tip_free(app->stamp->tip);
     wr_free(app->stamp->tip_path);
-    wr_stamps_free(app);
+    stamps_free(app);
     app->stamp->tip = NULL;
     app->stamp->tip_path = NULL;
 }
@@ -308,7 +413,7 @@ static void options(WrApp *app)
                                { "", 28, 0, wr_option_symmetry, true },
                                { "Hardness", 74, 0, wr_option_hardness, app->stamp->tip == NULL },
                                { "Opacity", 84, 0, wr_option_opacity, true } };
-    wr_stamp_picker(app);
+    stamp_picker(app);
     wr_option_row(app, items, (int)(sizeof items / sizeof *items));
 }
 
@@ -332,7 +437,93 @@ const WrTool wr_tool_stamp = {
 
 void wr_stamp_take(WrApp *app, const char *path)
 {
-    wr_stamp_choose(app, path);
+    stamp_choose(app, path);
 }
 
 const WrPart wr_part_stamp = { .update = update };
+
+/* ---- choice of the stamp tool's picture ---- */
+
+#define TILE_UNITS 64
+
+/* Readable form of a file name: "wood-grain_2.png" is Wood grain 2. */
+static void name_of(const char *path, WrText *out)
+{
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    size_t length = dot && dot > name ? (size_t)(dot - name) : strlen(name);
+    wr_text_clear(out);
+    for (size_t i = 0; i < length; i++) {
+        char c = name[i] == '-' || name[i] == '_' ? ' ' : name[i];
+        wr_text_addf(out, "%c", i == 0 && c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
+    }
+}
+
+static int index_of(const WrApp *app, const char *path)
+{
+    for (int i = 0; path && i < app->stamp->stamps.count; i++)
+        if (strcmp(app->stamp->stamps.data[i], path) == 0) return i;
+    return -1;
+}
+
+/* Add a file opened by the user to the list. */
+static int offer(WrApp *app, const char *path)
+{
+    int index = index_of(app, path);
+    if (index >= 0 || !path) return index;
+    wr_array_push(&app->stamp->stamps, wr_strdup(path));
+    return app->stamp->stamps.count - 1;
+}
+
+static void all(WrApp *app)
+{
+    int columns = 6, count = app->stamp->stamps.count, chosen = index_of(app, app->stamp->tip_path);
+    double side = wr_gui_px(TILE_UNITS);
+    int rows = (count + 1 + columns - 1) / columns;
+    WrText name = { 0 };
+    wr_gui_width_at_least(columns * (TILE_UNITS + 4) + 24);
+    wr_gui_list_begin("stamps", (rows < 5 ? rows : 5) * (side + wr_gui_px(6)) + wr_gui_px(16));
+    for (int i = -1; i < count; i++) {
+        if ((i + 1) % columns) wr_gui_same_line(4);
+        else if (i >= 0) wr_gui_space(-4);
+        wr_gui_push_id(i + 1);
+        SDL_Texture *picture = !wr_gui_will_see(side) ? NULL
+                               : i < 0                ? wr_thumb_of(app, -1, wr_gui_px(52))
+                                                      : wr_thumb_of_stamp(app, i, wr_gui_px(52));
+        bool pressed = wr_gui_tile("stamp", picture, side, i == chosen, false) == 1;
+        wr_gui_as_it_is(i >= 0);
+        if (i >= 0) name_of(app->stamp->stamps.data[i], &name);
+        wr_gui_tip(i < 0 ? "The round brush" : wr_text_get(&name));
+        wr_gui_as_it_is(false);
+        wr_gui_pop_id();
+        if (pressed) stamp_choose(app, i < 0 ? NULL : app->stamp->stamps.data[i]);
+    }
+    wr_gui_list_end();
+    wr_text_fini(&name);
+}
+
+/* a picture in the option row that opens the list */
+static void stamp_picker(WrApp *app)
+{
+    stamps_find(app);
+    int chosen = offer(app, app->stamp->tip_path);
+    SDL_Texture *picture = chosen < 0 ? wr_thumb_of(app, -1, wr_gui_px(52))
+                                      : wr_thumb_of_stamp(app, chosen, wr_gui_px(52));
+    wr_gui_same_line(12);
+    wr_gui_centre(wr_gui_px(32));
+    if (wr_gui_tile("picture", picture, wr_gui_px(32), false, false)) {
+        wr_gui_popup_open("stamps");
+        app->redraw = 4; /* a list in a popup needs several frames for its layout */
+    }
+    wr_gui_centre_end(wr_gui_px(32));
+    wr_gui_tip("Click to choose a picture; the wheel sizes the stamp");
+    wr_gui_same_line(6);
+    wr_gui_centre(wr_gui_px(28));
+    if (wr_gui_glyph("open", WR_ICON_FOLDER, 28, WR_COLOUR_LABEL))
+        wr_action_run(app, WR_ACT(stamp_open));
+    wr_gui_centre_end(wr_gui_px(28));
+    wr_gui_tip("Open a picture, a .gbr or a .gih as a stamp");
+    if (!wr_gui_popup_begin("stamps")) return;
+    all(app);
+    wr_gui_popup_end();
+}

@@ -24,9 +24,9 @@ typedef struct WrStampState {
     bool stamps_known;
 } WrStampState;
 
-/* Use that picture, NULL: the round brush. False: unreadable, with a message. */
-bool wr_stamp_choose(WrApp *app, const char *path);
 void wr_stamp_take(WrApp *app, const char *path); /* handler of a chosen file */
 void wr_stamp_forget(WrApp *app);                 /* free it */
 
 extern const WrPart wr_part_stamp;
+
+/* ---- pictures for stamping, in the brush folders of the program, the user and GIMP ---- */

@@ -15,7 +15,7 @@
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_rows.h"
 #include "ui/views/grid.h"
-#include "ui/views/overlay_marks.h"
+#include "ui/views/marks.h"
 
 #include "base/exactmath.h"
 #include "base/text.h"

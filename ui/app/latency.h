@@ -1,4 +1,4 @@
-/* timing.h - frame times of the window for WRINKLE_TIMING. */
+/* latency.h - frame times of the window for WRINKLE_TIMING. */
 #pragma once
 #include "ui/state/app_state.h"
 

@@ -1,6 +1,7 @@
-/* picture_upload.h - conversion of a rendered frame to the preview's pixels, and comparison of pictures. */
+/* picture.h - conversion of a rendered frame to the preview's pixels, and comparison of pictures. */
 #pragma once
 #include <stdbool.h>
+#include <stdint.h>
 
 typedef struct WrError WrError;
 typedef struct WrFrame WrFrame;
@@ -22,3 +23,18 @@ bool wr_picture_room(WrPreviewPicture *picture, int width, int height, WrError *
 void wr_picture_compare(WrPreviewPicture *picture, const WrPreviewPicture *before);
 /* `missed`, the previous picture, will never be delivered: refer to the one before it. */
 void wr_picture_follow(WrPreviewPicture *picture, const WrPreviewPicture *missed);
+
+/* ---- effect heatmap of the preview ---- */
+
+/* Effects of each pixel from the renderer; pixels reused in a static view keep theirs. */
+typedef struct WrPictureRan {
+    uint8_t *map; /* [height][width], owned; NULL: none yet */
+    int width, height;
+} WrPictureRan;
+
+/* Make the request fill the map. Errors: out of memory. */
+bool wr_picture_heatmap_update(WrPictureRan *ran, WrFrameRequest *request, WrError *err);
+
+/* ---- checkerboard behind transparent areas of a picture ---- */
+
+typedef struct WrTone WrTone;
