@@ -2,7 +2,7 @@
    estimated errors. Private to tolerance*.c.
 
    Levels are 1, 2, 4, 8 and 16 samples a side. Each block climbs as far as necessary: the change from one level
-   to the next gives an estimate of both errors, since errors fall by a known order. */
+   to the next yields an estimate of both errors, since errors fall by a known order. */
 #pragma once
 #include "accuracy/tolerance_search.h"
 #include "render/frame/frame.h"

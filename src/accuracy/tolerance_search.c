@@ -525,7 +525,7 @@ int64_t wr_frame_covered(const WrFrame *frame)
 
 /* ---- speed ---- */
 
-/* Time per price on this machine: measured once and stored, so that the same time limit gives the same dials. */
+/* Time per price on this machine: measured once and stored, so that the same time limit produces the same dials. */
 
 #define RUNS 7
 #define SIDE 256
@@ -613,7 +613,7 @@ static void keep(const char *path, const char *text, const char *line, double va
 }
 
 /* Seconds per price on this machine with that many threads: measured once and stored in a file, so that the same
-   time limit gives the same dials. The renderer's last picture is lost. */
+   time limit produces the same dials. The renderer's last picture is lost. */
 static bool price_seconds(WrRenderer *renderer, double *out, WrError *err)
 {
     WrText path = { 0 }, line = { 0 };

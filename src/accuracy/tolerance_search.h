@@ -2,7 +2,7 @@
    resulting picture.
 
    The whole picture is rendered with one sample a pixel and with 2 x 2. The change in each block of
-   WR_FRAME_BLOCK pixels gives an estimate of both errors, since errors fall by a known order as samples are
+   WR_FRAME_BLOCK pixels yields an estimate of both errors, since errors fall by a known order as samples are
    added (tolerance_estimate.c). Blocks with too large an error get 4 x 4, then 8 x 8, then 16 x 16, until all
    together meet the tolerance (max=: until each does). Cheaper slopes and normals (none, bilinear, the paper's)
    are tested if they may save more than the test costs. Then a few blocks of each kind are rendered much finer:

@@ -674,7 +674,7 @@ static void drop_list(WrFileGroup *group)
 
 /* ---- names ---- */
 
-/* Gives the existing target a second name before any rename. Creating a name needs space in the folder;
+/* Creates a second name for the existing target before any rename. Creating a name needs space in the folder;
    a rename over an existing name hardly does. On file systems without hard links, place() renames the
    target. */
 static bool link_before(Member *m)

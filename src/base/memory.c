@@ -128,7 +128,7 @@ static void give(void *block)
     if (block) free(head_of(block)->raw);
 }
 
-/* Takes a cached block that is large enough and not much larger; NULL if none. */
+/* Returns a cached block that is large enough and not much larger; NULL if none. */
 static void *take_kept(size_t bytes)
 {
     void *block = NULL;

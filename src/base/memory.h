@@ -32,5 +32,5 @@ void *wr_realloc(void *block, size_t old_count, size_t count, size_t size);
 
 void wr_free(void *block); /* NULL is fine */
 
-char *wr_strdup(const char *text);                 /* caller frees with wr_free; NULL gives NULL */
+char *wr_strdup(const char *text);                 /* caller frees with wr_free; NULL for NULL */
 char *wr_strndup(const char *text, size_t length); /* copies exactly length bytes and a NUL */

@@ -149,7 +149,7 @@ static void run_on_all(WrPool *pool, int count, WrPiece piece, void *ctx, bool r
 
 static bool run(WrPool *pool, int count, WrPiece piece, void *ctx, bool reports)
 {
-    if (reports) wr_progress_report(0.0); /* whichever thread takes the first piece */
+    if (reports) wr_progress_report(0.0); /* whichever thread starts the first piece */
     if (count <= 0) return !wr_progress_stopped();
     if (!pool || pool->threads == 1 || count == 1) run_here(pool, count, piece, ctx, reports);
     else run_on_all(pool, count, piece, ctx, reports);

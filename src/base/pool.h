@@ -11,7 +11,7 @@ typedef struct WrPool WrPool;
    Never fails; if a thread cannot be started the pool is smaller. */
 WrPool *wr_pool_new(int threads);
 void wr_pool_free(WrPool *pool);         /* NULL is allowed; no run may be active */
-int wr_pool_threads(const WrPool *pool); /* number of workers, including the caller; NULL gives 1 */
+int wr_pool_threads(const WrPool *pool); /* number of workers, including the caller; 1 for NULL */
 
 /* Calls piece(index, worker, ctx) once for each index in 0..count-1, on any thread and in any order,
    and returns when all are done. worker is 0..threads-1 and never used twice at a time: index scratch

@@ -61,7 +61,7 @@ static inline bool v3_is_tame(double largest)
     return largest > 0x1p-200 && largest < 0x1p200;
 }
 
-/* |a| without overflow or underflow: exact scaling by a power of two first. Non-finite input gives a
+/* |a| without overflow or underflow: exact scaling by a power of two first. Non-finite input yields a
    non-finite result. */
 static inline double v3_len(WrVec3 a)
 {

@@ -1,6 +1,6 @@
 /* brush.h - brushes: dabs and strokes that change a height table.
 
-   Double arithmetic in a fixed order, so a replay gives the same bits on every processor and any number
+   Double arithmetic in a fixed order, so a replay produces the same bits on every processor and any number
    of threads, however the motion was divided into events. One exception: positions and sizes of a
    preset's dabs are computed by libmypaint (preset.h). Coverage c of the round brush at distance d from
    the path's nearest point, radius R, hardness k, in texels:

@@ -50,7 +50,7 @@ struct WrEngine {
     double last_x, last_y; /* of the previous dab, texels */
     double origin_x, origin_y; /* texels */
     WR_ARRAY(WrKnot) knots;    /* `seconds` is the engine's own monotonic time */
-    int at;                    /* `now` is within knots[at] .. knots[at + 1] */
+    int at;                    /* `now` is between samples at and at + 1 */
     double given;              /* original time of the last point */
     double now;                /* engine time of the last step */
     double left;               /* time not yet passed to the library */
@@ -89,7 +89,7 @@ static void engine_tap(WrEngine *engine);
 
 static void add_knot(WrEngine *engine, WrEnginePoint point, bool jump)
 {
-    if (engine->at > 1024) { /* earlier knots are no longer needed */
+    if (engine->at > 1024) { /* earlier samples are no longer needed */
         engine->knots.count -= engine->at;
         memmove(engine->knots.data, engine->knots.data + engine->at,
                 (size_t)engine->knots.count * sizeof *engine->knots.data);
@@ -162,7 +162,7 @@ void wr_engine_finish(WrEngine *engine)
 
 /* ---- steps ---- */
 
-/* The pen at a time within the knots. */
+/* The pen at a time within the samples. */
 static WrEnginePoint pen(const WrEngine *engine, double seconds)
 {
     const WrKnot *knots = engine->knots.data;

@@ -56,7 +56,7 @@ static void cover_to(const WrModeArgs *args, const float *start, const float *pa
             double step = c * args->strength;
             made = step < far ? f + sign * step : args->to;
         } else if (args->strength >= far) {
-            made = f * (1.0 - c) + args->to * c; /* a mean, so that c = 1 gives exactly `to` */
+            made = f * (1.0 - c) + args->to * c; /* a mean, so that c = 1 yields exactly `to` */
         } else {
             made = f + c * (sign * args->strength);
         }
@@ -64,7 +64,7 @@ static void cover_to(const WrModeArgs *args, const float *start, const float *pa
     }
 }
 
-/* The mean of the height and the target; part 1 gives exactly the target. */
+/* The mean of the height and the target; part 1 yields exactly the target. */
 static inline float towards(float start, float part, double target)
 {
     double c = part < 1.0f ? part : 1.0f;

@@ -53,7 +53,7 @@ static bool strengthens(const WrBrush *brush)
     return brush->pressure == WR_PRESSURE_STRENGTH || brush->pressure == WR_PRESSURE_BOTH;
 }
 
-/* At very low pressure the step is that of 1/64 of the brush, so that no path takes forever. */
+/* At very low pressure the step is that of 1/64 of the brush, so that every path ends. */
 static double step_after(const WrBrush *brush, double pressure)
 {
     double part = sizes(brush) ? (pressure > 1.0 / 64.0 ? pressure : 1.0 / 64.0) : 1.0;

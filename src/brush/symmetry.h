@@ -39,5 +39,5 @@ typedef struct WrCopy {
 /* Checks ranges, closing of the lattice, WR_COPIES_MAX; errors name the command's arguments. */
 bool wr_symmetry_check(const WrSymmetry *symmetry, WrError *err);
 /* The copies for a table of that size; the first is the identity. Returns their number; symmetry out of
-   range gives 1. Sine and cosine from base/exactmath.h. out: [WR_COPIES_MAX] */
+   range yields 1. Sine and cosine from base/exactmath.h. out: [WR_COPIES_MAX] */
 int wr_symmetry_copies(const WrSymmetry *symmetry, const WrField *field, WrCopy *out);

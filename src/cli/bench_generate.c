@@ -249,7 +249,7 @@ static bool time_write(const Bench *b, int channels, double *ms, WrError *err)
     return good;
 }
 
-/* Computed in memory: writing files of six channels takes far longer than the computation. */
+/* Computed in memory: writing files of six channels needs far longer than the computation. */
 static bool time_levels(const Bench *b, double *ms, WrError *err)
 {
     const WrExportOptions options = wr_export_default();

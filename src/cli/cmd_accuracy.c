@@ -113,7 +113,7 @@ static bool illusion_run(const WrCli *cli, const WrLadderRequest *request, const
 /* ---- Comparison of tolerance-driven dials with the best of all settings ---- */
 
 #define RUNS 3       /* runs per setting, at least ... */
-#define RUNS_SHORT 9 /* ... and per setting that takes less than SHORT seconds */
+#define RUNS_SHORT 9 /* ... and per setting that needs less than SHORT seconds */
 #define SHORT 0.02
 #define TOP_SAMPLES 16 /* samples along a pixel's side in the best setting */
 
@@ -328,7 +328,7 @@ static bool time_top(const WrBench *bench, WrContest *contest, WrError *err)
     return true;
 }
 
-/* Smallest number of pictures n for which choosing plus n - 1 pictures takes less than n pictures with the cheapest
+/* Smallest number of pictures n for which choosing plus n - 1 pictures needs less than n pictures with the cheapest
    setting. */
 static int pays_from(const WrContestRow *row)
 {
@@ -414,7 +414,7 @@ static bool run(const WrBench *bench, WrContest *contest, WrError *err)
 }
 
 /* Run on the request's scene (its own tolerance is ignored) with each of the tolerances, of kind rms or max.
-   Zero-initialise *out. May test all settings: takes minutes. */
+   Zero-initialise *out. May test all settings: needs minutes. */
 static bool contest_run(const WrLadderRequest *request, const WrTolerance *tolerances, int count,
                         WrContest *out, WrError *err)
 {
@@ -531,7 +531,7 @@ static void contest_json(const WrContest *contest, const char *name, WrText *tex
     wr_text_fini(&setting);
 }
 
-#define SIDE 256       /* default size in pixels: the reference then takes seconds, not minutes */
+#define SIDE 256       /* default size in pixels: the reference then needs seconds, not minutes */
 #define FULL_SCALE 0.1 /* linear intensity shown as white in all difference pictures */
 #define LARGEST 4096   /* largest side of the reference in pixels */
 

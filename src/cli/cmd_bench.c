@@ -132,7 +132,7 @@ static void print_frames(WrText *text, const WrBenchRow *rows, int count)
     }
 }
 
-/* Ratios to compare with the paper, section 6: bump mapping takes about 4 times as long as smooth shading and about 2
+/* Ratios to compare with the paper, section 6: bump mapping needs about 4 times as long as smooth shading and about 2
    times as long as a colour texture. */
 static void print_ratios(WrText *text, const WrBenchRow *rows, int count)
 {

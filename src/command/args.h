@@ -136,7 +136,7 @@ typedef struct WrText WrText;
 /* Write their arguments in the table's order; returns their number. */
 int wr_scene_args(const char *command, const char *form, WrArgSpec *out);
 /* Store the line's values in `owner` (the scene, or the light); parameters without a value get their default if their
-   row says so. */
+   row is marked so. */
 void wr_scene_take(const WrCall *call, const char *form, void *owner);
 /* Print " name=value" for each parameter that is written with its name. */
 void wr_scene_print_params(const char *command, const char *form, const void *owner, WrText *text);

@@ -114,7 +114,7 @@ void wr_session_forget_brushes(WrSession *session);
 
 /* The document; borrowed until the next call that changes the session. */
 const WrDocument *wr_session_document(const WrSession *session);
-/* True if the active layer, or its mask while that is edited, can be painted on; else the error says why: locked, hidden,
+/* True if the active layer, or its mask while that is edited, can be painted on; else the error is the reason: locked, hidden,
    or a filter. */
 bool wr_session_check_layer(const WrSession *session, WrError *err);
 /* True if layer `index` (from 0) is unlocked; else the error names it. */
@@ -197,7 +197,7 @@ WrHash wr_session_hash(const WrSession *session);
    until the session's next picture. */
 bool wr_session_frame(WrSession *session, int width, int height, double turn_deg, WrFrame *frame,
                       WrError *err);
-/* Cost of each effect in that picture, and the saving without it; takes seconds. Under a tolerance the already chosen
+/* Cost of each effect in that picture, and the saving without it; needs seconds. Under a tolerance the already chosen
    dials are used; the choice is not part of the measurement. */
 bool wr_session_savings(WrSession *session, int width, int height, double turn_deg,
                         WrSaving savings[WR_EFFECT_COUNT], WrError *err);

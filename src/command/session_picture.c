@@ -57,7 +57,7 @@ void wr_chosen_write(const WrChoice *choice, const WrFrameRequest *request, WrTe
 }
 
 /* If no dials are chosen for that picture yet, use the stored dials of the document if they fit. If they do not, a
-   note says so once. */
+   note reports it once. */
 static void session_recall_chosen(WrSession *session, const WrFrameRequest *request)
 {
     WrSessionState *state = &session->state;

@@ -150,7 +150,7 @@ static bool terrain_take_layer(WrSession *session, WrCall *call, WrScene *scene,
     return true;
 }
 
-/* True if the layer that object i takes its form from exists and has changed; *index is that layer. */
+/* True if the layer that holds the form of object i exists and has changed; *index is that layer. */
 static bool lags(const WrDocument *document, int i, int *index)
 {
     const WrScene *object = wr_scene_object(document->scene, i);

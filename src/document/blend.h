@@ -40,7 +40,7 @@ typedef struct WrBlendMode {
     const char *help;  /* one line */
     bool uses_radius;  /* true for the smooth modes */
     bool uses_cover;   /* w = o m c; else w = o m */
-    bool takes;        /* weight 1 gives exactly h, independent of the height below */
+    bool takes;        /* weight 1 yields exactly h, independent of the height below */
     float neutral;     /* a height that leaves b's bits unchanged at every weight; NaN: none */
     WrBlendSpan span;
 } WrBlendMode;

@@ -55,7 +55,7 @@ void wr_compositor_free(WrCompositor *compositor); /* NULL is fine */
 
      b = 0, the ground; then b = blend(layer, b) for each visible layer with opacity > 0, from the
      bottom up (blend.h). The lowest of these uses mix if its mode is add, which is equivalent
-     except for -0: so a single layer with opacity 1 gives exactly its heights.
+     except for -0: so a single layer with opacity 1 yields exactly its heights.
 
    The bits depend on the layers alone: not on the edits that led to them, nor on the threads, nor on which flat
    tiles are NULL.

@@ -90,7 +90,7 @@ bool wr_document_wrap_find(const char *word, WrWrap *wrap_u, WrWrap *wrap_v);
 bool wr_document_all_at(const float *texels, size_t pitch, int columns, int rows, float level);
 
 /* Saves by an atomic replacement (base/file.h). scene_text: one canonical command a line. Saving a loaded
-   document gives the same bytes. */
+   document produces the same bytes. */
 bool wr_document_save(const WrDocument *document, const char *scene_text, const char *path,
                       WrError *err);
 

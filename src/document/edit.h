@@ -8,7 +8,7 @@ typedef struct WrField WrField;
 
      before + s (after - before),   in double, rounded once; before's bits if s = 0, after's if s = 1
 
-   Unchanged tiles are shared with `before`. All fields have one size and wrap; selection NULL gives a share of
+   Unchanged tiles are shared with `before`. All fields have one size and wrap; without a selection, a share of
    after. The caller owns the result. */
 WrField *wr_edit_within(const WrField *before, const WrField *after, const WrField *selection);
 

@@ -32,7 +32,7 @@ typedef struct WrOraRange {
 } WrOraRange;
 
 /* Content of a layer's picture, chosen so that its composite-op, which has no heights below 0 and no scales,
-   gives the greys of the layer's result. R is the range from low to high, c the coverage, m the mask. */
+   yields the greys of the layer's result. R is the range from low to high, c the coverage, m the mask. */
 typedef enum WrOraShowing {
     WR_ORA_HEIGHTS, /* (h - low) / R, alpha c m */
     WR_ORA_MIXED,   /* (h - low) / R, alpha m: for a blend without coverage */

@@ -19,7 +19,7 @@
              wrinkle:name (bytes in hex, if XML cannot represent the name)  wrinkle:opacity  wrinkle:visible (for
              the lowest layer and with a solo layer, if the standard attributes differ)
 
-   So a saved document is restored bit for bit. The same document gives the same bytes. Source: OpenRaster
+   So a saved document is restored bit for bit. The same document produces the same bytes. Source: OpenRaster
    baseline specification 0.0.5; PKWARE APPNOTE for the archive. */
 #pragma once
 #include "document/document_file.h"

@@ -71,7 +71,7 @@ typedef struct WrOraZip WrOraZip;
 
 /* Opens an archive. Errors name the file. Writes no files, follows no paths, never waits on a pipe. */
 WrOraZip *wr_ora_zip_open(const char *path, WrError *err);
-/* Opens an archive from an open file, which it takes ownership of. */
+/* Opens an archive from an open file, which it then owns. */
 WrOraZip *wr_ora_zip_take(const char *name, int fd, WrError *err);
 void wr_ora_zip_close(WrOraZip *zip); /* NULL is fine */
 

@@ -1,6 +1,6 @@
 /* recover.h - recovery of journals that were left behind: listing, reading, and a trial run of a command that
-   may have crashed. All input is validated: a torn, damaged or hostile journal gives the lines with valid
-   checksums, marks those after damage, or gives a clear error.
+   may have crashed. All input is validated: a torn, damaged or hostile journal yields the lines with valid
+   checksums, marks those after damage, or causes a clear error.
 
    Steps of a recovery: wr_journal_list; wr_journal_claim for the chosen one, so that no other program recovers
    it too; wr_journal_read; restore the start state, or the file that was saved last, and compare its hash; run
@@ -59,7 +59,7 @@ typedef struct WrJournalRead {
 
 /* Reads and verifies a journal, in use or not. Damaged lines are skipped.
    Fails, with *out untouched, if it is not a regular file or not a journal, if its header is damaged and no
-   later line is whole, or if it was written by a newer program (the message says so; the file stays). Memory:
+   later line is whole, or if it was written by a newer program (the message reports it; the file stays). Memory:
    reads at most 1 GB of the file, and temporarily needs up to three times that. */
 bool wr_journal_read(const char *path, WrJournalRead *out, WrError *err);
 /* End of the lines from `from` on that can be run without a gap: the index of the first one that has lost lines

@@ -414,7 +414,7 @@ static bool film_check(WrFilm *film, WrFilmReport *report, WrError *err)
                    report->worst, film->kind->wrong);
 }
 
-#define PATIENCE 300.0 /* seconds: one frame of the largest size takes that order of time */
+#define PATIENCE 300.0 /* seconds: one frame of the largest size needs that order of time */
 #define LEAST_FPS 0.1
 #define MOST_FPS 240.0
 #define TAGS "-color_primaries", "bt709", "-color_trc", "iec61966-2-1"

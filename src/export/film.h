@@ -22,7 +22,7 @@ typedef struct WrFilmKind {
     const char *ending; /* file extension */
     const char *name;
     bool alpha;      /* frames may be R,G,B,A */
-    bool loops;      /* the file says how often it is played */
+    bool loops;      /* the file stores the number of repeats */
     bool even;       /* requires even sizes */
     double most_fps; /* highest frame rate that players support */
     int most_side;   /* pixels */

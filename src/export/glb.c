@@ -445,7 +445,7 @@ static void add_texture(Glb *glb, const char *name, int which)
     wr_text_add(&glb->json, "}");
 }
 
-/* The packed picture holds occlusion, roughness and metalness in red, green and blue, as glTF wants them. */
+/* The packed picture holds occlusion, roughness and metalness in red, green and blue, as glTF requires. */
 static void add_material(Glb *glb)
 {
     const WrMaterial *m = &glb->job->scene->material;

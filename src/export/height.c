@@ -103,7 +103,7 @@ void wr_export_height_prepare(WrExportJob *job)
     case WR_EXPORT_RANGE_AUTO:
         report->code_low = report->low;
         report->code_high = report->high;
-        /* Flat: any width gives code 0; 1 unless that is lost beside a huge height. */
+        /* Flat: any width yields code 0; 1 unless that is lost beside a huge height. */
         if (!(report->code_high > report->code_low))
             report->code_high = report->code_low + fmax(1.0, fabs(report->code_low) * 0x1p-20);
         break;

@@ -31,7 +31,7 @@ ALWAYS double slope(WrNormalStencil stencil, const double *at, ptrdiff_t along, 
            6.0;
 }
 
-/* True for a power of two: multiplying by its inverse gives the quotient's bits, and is much faster. */
+/* True for a power of two: multiplying by its inverse yields the quotient's bits, and is much faster. */
 static bool is_power(double cell)
 {
     int exponent;

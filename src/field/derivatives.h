@@ -1,7 +1,7 @@
 /* derivatives.h - slopes and second derivatives of a height table at the texels' centres.
 
    For every scheme they are a fixed stencil of table entries (for splines, of coefficients), so no
-   position is rounded: a table shifted by whole texels along its periodic axes gives the shifted
+   position is rounded: a table shifted by whole texels along its periodic axes produces the shifted
    result, to the bit. */
 #pragma once
 #include "field/scheme.h"

@@ -475,7 +475,7 @@ static int wrap_index(int64_t i, int n)
 }
 
 /* Copies by pieces of constant sizes: for one row of a tile the compiler would use a string instruction
- * whose start-up takes longer than the copy. */
+ * whose start-up needs longer than the copy. */
 static inline void copy_texels(const float *restrict in, int count, float *restrict out)
 {
     int k = 0;

@@ -108,7 +108,7 @@ size_t wr_field_bytes(const WrField *field);
  *
  *   U = r u;  U -= floor(U);  if !(U < 1) U = 0        (NUMERICS: HC35-HC41)
  *
- * Any input gives 0 <= U < 1; NaN and infinity give 0. In double, so that r = 1e6 is still right to
+ * For any input 0 <= U < 1; NaN and infinity give 0. In double, so that r = 1e6 is still right to
  * 1e-3 texel of 64 (HC40). */
 static inline double wr_field_reduce(double u, double replicate)
 {

@@ -11,7 +11,7 @@
  * |           | is twice its variance                                                               |
  * | slope_u, slope_v | dz/dx along u, dz/dy along v: scene units over scene units                       |
  *
- * A table shifted by whole texels along its periodic axes gives the shifted map, to the bit, on any
+ * A table shifted by whole texels along its periodic axes produces the shifted map, to the bit, on any
  * number of threads. */
 #pragma once
 #include "field/derivatives.h"

@@ -8,7 +8,7 @@
      occlusion = n_z sum of w (1/(1 + H^2) - s (acot H - H / (1 + H^2))),   n_z = 1 / sqrt(1 + p^2 + q^2),
 
    which is 1 if nothing rises above the plane of a level texel, and cos^2 of the horizon in a round
-   pit. A table shifted by whole texels along its periodic axes gives the shifted map, to the bit, on
+   pit. A table shifted by whole texels along its periodic axes produces the shifted map, to the bit, on
    any number of threads. */
 #pragma once
 #include "field/derivatives.h"

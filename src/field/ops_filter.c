@@ -24,7 +24,7 @@
  *   v = ((2r + 1) r (r + 1)/3 + 2 end (r + 1)^2) / (2r + 1 + 2 end),  0 <= end < 1.
  *
  * Box sums run along the row: one texel is added, one subtracted. They must not depend on their
- * starting point (a rolled table gives rolled heights, a flat place stays flat), so they are sums of
+ * starting point (a rolled table produces rolled heights, a flat place stays flat), so they are sums of
  * integers, which doubles represent exactly: heights are counted in steps of 2^-40 of the largest |F|,
  * rounded up to a power of two, and each box's result is rounded to whole steps again. A box has less
  * than 2^12 texels. */
@@ -171,7 +171,7 @@ static bool op_blur_wide(const WrOpJob *job, double sigma, WrOpPlane *plane)
  *
  *   out = c + sum over k = 1..R of w_k ((T[-k] + T[+k]) - 2 c),   c = T[0],
  *
- * which is sum w_k T[k] since the weights add to 1. In this form a flat neighbourhood gives exactly c,
+ * which is sum w_k T[k] since the weights add to 1. In this form a flat neighbourhood yields exactly c,
  * and float's rounding applies only to the differences. The tails beyond 4 sigma have a weight of 6e-5.
  *
  * A block is read with an apron of R texels, filtered along u, then along v. The block stays in the

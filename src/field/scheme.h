@@ -12,7 +12,7 @@
 
    With x = W u - 1/2 and y = H (1 - v) - 1/2 the taps are floor(x), floor(x) + 1 and so on. Rows run
    down, so dF/dv has a minus sign. Derivatives are formed from differences of taps, so that a flat
-   table gives exactly 0 at any level (HC42-HC48). */
+   table yields exactly 0 at any level (HC42-HC48). */
 #pragma once
 #include <stddef.h>
 

@@ -345,7 +345,7 @@ static int wrap_index(int i, int n)
 }
 
 /* square[i] = min over columns q of (i - q)^2 + down[q]^2. A parabola at q is lower than the one at p <
- * q from x = ((dq + q^2) - (dp + p^2)) / (2 (q - p)) on; for integer columns the rounded quotient gives
+ * q from x = ((dq + q^2) - (dp + p^2)) / (2 (q - p)) on; for integer columns the rounded quotient produces
  * the same decision as the exact one. */
 static void envelope_row(const Distance *d, const uint16_t *down, Envelope *e)
 {

@@ -37,13 +37,13 @@ WrField *wr_select_ellipse(const WrField *like, WrSelectPoint a, WrSelectPoint b
 /* The polygon through 3..WR_SELECT_POINTS points, closed automatically, which may cross itself:
  * even-odd rule. Points are rounded to 1/65536 texel; coverage is exact except where sides cross: there
  * within 1/500 for each crossing in the texel's row, as long as no more than 64 sides pass through that
- * row. A polygon without area gives an empty selection.
+ * row. A polygon without area yields an empty selection.
  * points   [count], joined by straight lines, not by the shorter way round the table */
 WrField *wr_select_lasso(const WrField *like, const WrSelectPoint *points, int count, WrPool *pool,
                          WrError *err);
 
 /* Texels whose height is in low..high: 1 there, falling linearly to 0 at `soft` height units outside;
- * soft 0 gives a hard edge, low and high included. low <= high, soft >= 0. */
+ * soft 0 yields a hard edge, low and high included. low <= high, soft >= 0. */
 WrField *wr_select_height(const WrField *field, double low, double high, double soft, WrPool *pool,
                           WrError *err);
 /* Texels whose slope angle is in low..high degrees (0..90), with a soft edge of `soft` degrees as
@@ -87,7 +87,7 @@ WrField *wr_select_invert(const WrField *a);
  *
  *   grown = max(a, clamp(r + 1 - d, 0, 1))
  *
- * so a straight edge moves by exactly r and a slanted one stays smooth; r = 0 gives a share of a. */
+ * so a straight edge moves by exactly r and a slanted one stays smooth; r = 0 yields a share of a. */
 WrField *wr_select_grow(const WrField *a, double r, WrPool *pool, WrError *err);
 /* Shrinks by r texels: with d the distance to the nearest centre where a < 1/2,
  *

@@ -29,7 +29,7 @@ bool wr_erode_thermal(WrSheet *sheet, const WrThermal *how, const WrGenerateJob 
  * A drop runs at most 64 texels. Water with a longer life first falls, in smaller numbers, on grids of
  * half the resolution, a quarter and so on; the changes there are interpolated by a cubic and added. On
  * each grid the rain falls in tiles whose drops cannot reach other tiles processed at the same time:
- * the same bits on any number of threads. Positions are those of the table, so a rolled table gives
+ * the same bits on any number of threads. Positions are those of the table, so a rolled table yields
  * another result. */
 typedef struct WrRain {
     double drops;               /* per texel */

@@ -40,5 +40,5 @@ bool wr_plane_turned_slope(const WrPlane *plane, int axis, WrSlopes slopes, WrEr
 /* Solves (Du^T Du + Dv^T Dv) x = z in place, with the given slope definition for each axis.
  * Undetermined components become 0: the mean, and the alternating function of a ring of even length
  * (for WR_SLOPES_SMOOTH always, for WR_SLOPES_CENTRAL if the other axis determines it too weakly). So z
- * = Du^T p + Dv^T q gives the heights whose slopes are nearest to (p, q) in the least-squares sense. */
+ * = Du^T p + Dv^T q yields the heights whose slopes are nearest to (p, q) in the least-squares sense. */
 bool wr_plane_solve(const WrPlane *plane, const WrSlopes slopes[2], WrError *err);

@@ -6,7 +6,7 @@
 
    - They wrap: on a periodic axis the pattern crosses the edge exactly, and the table rolled by whole
      texels equals the same generator with its origin moved by as much, bit for bit, wherever the
-     mathematics allows; the help of other rows says that they do not.
+     mathematics allows; the help of other rows states that they do not.
    - The same bits on every processor and for any number of threads.
    - Heights are finite. Lengths are in texels, heights in table units, angles in degrees anticlockwise
      as seen. */

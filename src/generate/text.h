@@ -103,7 +103,7 @@ typedef struct WrTextFinish {
 } WrTextFinish;
 
 /* The height of a texel with coverage `cover`, whose centre is inside or not, at this distance from the
- * rim; multiplied by the coverage it gives the profile. */
+ * rim; multiplied by the coverage it yields the profile. */
 float wr_text_height(const WrTextFinish *finish, double cover, bool centre, double distance);
 /* The relief of a shape: heights, and the coverage of each texel. */
 bool wr_text_relief(WrTextShape *shape, const WrTextFinish *finish, const WrGenerateJob *job,

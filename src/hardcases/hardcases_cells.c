@@ -200,7 +200,7 @@ static void check_steep(WrHardGauge *g, WrHeightColormap *of)
         wr_hard_holds(g, WR_HARD_DOUBLE, fabs(rgb[c] - of->steep_rgb[c]) < 1e-12);
 }
 
-/* Cliffs as high as float's maximum are steep, not NaN; a rolled table gives the rolled picture, to the bit. */
+/* Cliffs as high as float's maximum are steep, not NaN; a rolled table produces the rolled picture, to the bit. */
 static bool check_table(WrHardGauge *g, const WrHeightColormap *of, WrError *err)
 {
     WrField *field = wr_hard_rough(g, 13, 9, WR_WRAP_PERIODIC);

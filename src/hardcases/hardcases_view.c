@@ -861,7 +861,7 @@ bool wr_hard_hc29(WrHardGauge *g, WrError *err)
 
 /* ---- almost zero area ---- */
 
-/* u = k x, v = k y with 1e-15: det is 1e-30 of either sign, and a proportionally higher table gives the same
+/* u = k x, v = k y with 1e-15: det is 1e-30 of either sign, and a proportionally higher table produces the same
    bend. */
 bool wr_hard_hc30(WrHardGauge *g, WrError *err)
 {

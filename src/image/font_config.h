@@ -6,7 +6,7 @@
 typedef struct WrError WrError;
 
 /* Loads its list of installed fonts, once. Without a cache fontconfig reads every font itself, which
- * takes seconds, and fonts are untrusted: so this is tried first in a copy of the process, which may
+ * needs seconds, and fonts are untrusted: so this is tried first in a copy of the process, which may
  * crash.
  *
  * Errors   it fails, or a font makes it crash or hang; "cancelled". The next call tries again

@@ -19,7 +19,7 @@ typedef WR_ARRAY(WrFontEntry) WrFontList;
  *
  * list     zeroed; owned by the caller (wr_font_list_fini)
  * Errors   fontconfig does not work, or crashes on a font; cancelled
- * Threads  any; takes seconds if fontconfig has no cache */
+ * Threads  any; needs seconds if fontconfig has no cache */
 bool wr_font_list(WrFontList *list, WrError *err);
 void wr_font_list_fini(WrFontList *list);
 void wr_font_entry_fini(WrFontEntry *entry); /* frees its members */

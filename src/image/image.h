@@ -124,12 +124,12 @@ bool wr_image_apply_range(WrImage *image);
 
 /* Starts the reader process ahead of need and returns at once; any thread. Files are read by a separate
  * process, so that a hostile one can only crash that, with one clear error here. It is started by the
- * first read and kept; loading the library for formats other than PNG takes it a quarter of a second
+ * first read and kept; loading the library for formats other than PNG needs a quarter of a second
  * once. With WRINKLE_READER=inside in the environment files are read in this process, for debugging. */
 void wr_image_warm(void);
 /* Starts loading the writing library ahead of need and returns at once; any thread. The library writes
  * all formats except PNG; it is loaded into this process, with some 260 others, by the first such
- * write, which takes half a second, or a few on a slow disk. */
+ * write, which needs half a second, or a few on a slow disk. */
 void wr_image_warm_writing(void);
 
 /* sRGB transfer curves (IEC 61966-2-1), exact to float; for images only, never for heights. */

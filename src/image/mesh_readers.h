@@ -27,7 +27,7 @@ bool wr_obj_read(const char *bytes, size_t length, WrMeshBuild *build, const cha
 /* ASCII or binary, of either byte order. Part of the reader process, and of reading "inside". The library is not
    used because it crashes on hundreds of damaged files, overwrites the (u,v) of a point where faces have their
    own, drops strips and truncates coordinates to 32-bit floats. Every count is compared with the remaining bytes
-   before it is used, so that no file takes more steps than it has bytes. */
+   before it is used, so that no file needs more steps than it has bytes. */
 
 /* True if the bytes begin like a PLY file, whatever the extension of its name. */
 bool wr_ply_is(const char *bytes, size_t length);

@@ -513,7 +513,7 @@ static void set_attributes(ImageSpec &spec, const WrImageOut &part, const char *
 }
 
 /* Attributes that texture systems expect in a tiled mip-mapped file. Mantissas of slopes rarely repeat:
- * zip takes ten times as long as run-length compression and saves 3 to 5 % of such a file. */
+ * zip needs ten times as long as run-length compression and saves 3 to 5 % of such a file. */
 static void set_levels(ImageSpec &spec, const WrImageOut &part)
 {
     spec.tile_width = spec.tile_height = WR_IMAGE_TILE;

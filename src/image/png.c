@@ -330,7 +330,7 @@ static WrCodecReader *png_open(int fd, const char *format, int most, bool number
 {
     (void)format;
     (void)most;
-    (void)numbers; /* PNG has no tag that says so */
+    (void)numbers; /* PNG has no tag for it */
     WrCodecReader *reader = wr_alloc(1, sizeof *reader);
     reader->fd = fd;
     reader->block = wr_alloc(BLOCK, 1);

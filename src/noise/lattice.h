@@ -108,7 +108,7 @@ const double *wr_lattice_gradient(int dim, uint32_t h);
  *
  * Only for reproducing old images in double: float and double give uncorrelated numbers even for small
  * integer x and y. The sine used here is deterministic, so the bits are the same everywhere; a GLSL
- * double may differ in the last digits. The result is in [0, 1): the text's fract gives 1 for tiny
+ * double may differ in the last digits. The result is in [0, 1): the text's fract yields 1 for tiny
  * negative numbers, this function 0. Not finite: 0. */
 double wr_hash_lecture(double x, double y, double salt);
 

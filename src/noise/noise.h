@@ -84,7 +84,7 @@ bool wr_noise_check(const WrNoise *noise, WrError *err);
  * Errors   none      Threads  any number At lattice points f is exactly the prescribed value and, with
  *          a smooth fade, the slope exactly the prescribed one; perlin and sheared give exactly 0,
  *          simplex as near to 0 as its points can be represented (HC59). The same t plus whole periods
- *          gives the same bits as long as the sum is exact. */
+ *          produces the same bits as long as the sum is exact. */
 double wr_noise_at(const WrNoise *noise, const double *t, double *slope);
 
 /* The prescribed value and slope[dim] of a lattice at index c (within one period, each below

@@ -36,7 +36,7 @@ typedef enum WrFootprint {
 /* moments: the model of the distribution of slopes inside the footprint. C is their covariance as
    tangents of angles about n'. The program's lobe cos^s is approximated by the Gaussian exp(-s tan^2 /
    2), whose mean over Gaussian slopes is again a Gaussian; the result is written as a cosine's power,
-   so that C = 0 gives the bits of `point`:
+   so that C = 0 yields the bits of `point`:
      lean      (det(I + s C))^(-1/2) cos^s',  s' = t^T (C + I/s)^-1 t for the direction t from n' to h
      toksvig   (1 + s c)^-1 cos^(s / (1 + s c)),  c = trace(C) / 2
    Within 8 % of the peak for Gaussian slopes; for other distributions (bricks) the result may be worse

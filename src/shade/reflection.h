@@ -4,7 +4,7 @@
    The models themselves are the table shade/reflection_models.h; the formulas of one sample are in
    shade/reflection_body.h. The reference renderer intentionally has formulas of its own. This header is
    included widely, so a model's number is an int here: 0 <= model < wr_reflect_count, a WrReflect. A
-   lamp of strength 1 gives pi f (n.l), f the model's reflectance: so matt white is n.l. The albedo
+   lamp of strength 1 yields pi f (n.l), f the model's reflectance: so matt white is n.l. The albedo
    E(n.v) is the integral of f (n.l) over all directions: its colour in a white furnace. */
 #pragma once
 #include <stdbool.h>

@@ -2,7 +2,7 @@
    and j = k / 4 along v.
 
    Evaluated row by row: along u in each of the four rows of points (value and two derivatives), then
-   along v. Differences of points are computed first, so that a row whose points coincide gives
+   along v. Differences of points are computed first, so that a row whose points coincide yields
    derivatives of exactly 0 and the basis at u, v = 0, 1 is exactly 0 and 1. Where N = Pu x Pv = 0 the
    normal is the first nonzero Taylor coefficient of N in the direction of the patch's middle, du, dv =
    +1 in the lower half, -1 in the upper:

@@ -27,7 +27,7 @@ typedef struct WrProfilef {
 } WrProfilef;
 
 /* Parses "r,z;r,z;...". Errors: not such a list; the curve touches or crosses the axis other than at
-   its ends (the message gives the v); distinct points nearer to each other than 1e-5 of the length; too
+   its ends (the message contains the v); distinct points nearer to each other than 1e-5 of the length; too
    many points. */
 bool wr_profile_make(const char *text, WrProfiled *out, WrError *err);
 /* Parses only the points, r and z, without checking the curve: their number, 0 if the text is not such

@@ -17,7 +17,7 @@ static void span_of(double at, double half, int count, int *from, int *to)
     *to = (int)fmin(fmax(floor(at + half - 0.5), nearest), count - 1);
 }
 
-/* Mean heights about all knots, [rows + 1][columns + 1], v = 0 first; each row of heights is read once. */
+/* Mean heights about all grid corners, [rows + 1][columns + 1], v = 0 first; each row of heights is read once. */
 static void means_of(const WrTerrain *t, int columns, int rows, float *room, double *means)
 {
     for (int r = 0; r < t->h; r++) {
@@ -28,7 +28,7 @@ static void means_of(const WrTerrain *t, int columns, int rows, float *room, dou
             span_of((1 - (double)(k / (columns + 1)) / rows) * t->h, 0.5 * t->h / rows, t->h, &j0,
                     &j1);
             if (r < j0 || r > j1) {
-                k += columns - k % (columns + 1); /* none in this row of knots */
+                k += columns - k % (columns + 1); /* none in this row of corners */
                 continue;
             }
             span_of((double)(k % (columns + 1)) / columns * t->w, 0.5 * t->w / columns, t->w, &i0,

@@ -24,7 +24,7 @@ int64_t wr_triangles_find(const WrTriangles *triangles, double u, double v, int 
  *
  *   Pu = |N| grad v x n,  Pv = |N| n x grad u,  |N| = 1 / |grad u x grad v|
  *
- * Blinn's formula then gives unit(n - grad F). Where (u,v) are mirrored, Pu and Pv have the opposite
+ * Blinn's formula then yields unit(n - grad F). Where (u,v) are mirrored, Pu and Pv have the opposite
  * sign. Second derivatives and those of n are 0. Where (u,v) have no area, |N| is 1. */
 void wr_triangles_at(const WrTriangles *triangles, const WrTrianglesPlace *place,
                      WrSurfacePoint *out);

@@ -27,7 +27,7 @@ static mode_t read_umask(void)
     return mask;
 }
 
-/* Rights that a folder's default list gives to new files, as a mode: owner, mask or else group, others.
+/* Rights that a folder's default list sets for new files, as a mode: owner, mask or else group, others.
    A list consists of a 32-bit version and 64-bit entries: kind, rights, id; linux/posix_acl_xattr.h. */
 static mode_t passed_on(const char *list, size_t length)
 {

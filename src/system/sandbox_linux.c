@@ -65,7 +65,7 @@ void wr_sandbox_close_files(void)
 }
 
 /* System calls needed by allocation, decoder threads, reading open files and an open socket. None of
- * them takes a path or a process number. */
+ * them accepts a path or a process number. */
 static const int allowed[] = {
     SCMP_SYS(brk),
     SCMP_SYS(clock_gettime),

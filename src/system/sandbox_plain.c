@@ -1,5 +1,5 @@
 /* No sandbox: POSIX limits do not keep a process from files or other processes. So untrusted files are
-   rejected with a message that gives the reason, unless the user accepts the risk of reading them
+   rejected with the reason, unless the user accepts the risk of reading them
    inside the program (WRINKLE_READER=inside). Files just written by the program are read back inside
    it. Other systems have better mechanisms: sandbox_init on macOS, pledge on OpenBSD, cap_enter on
    FreeBSD; their sandbox would be a file like this one. */

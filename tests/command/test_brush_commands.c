@@ -37,7 +37,7 @@ static void write_preset(const char *path, double radius, const char *more)
     write_text(path, text);
 }
 
-/* An asymmetric tip. shade: gives it another content. */
+/* An asymmetric tip. shade: changes its content. */
 static void write_tip(const char *path, int shade)
 {
     uint8_t grey[12 * 20];

@@ -218,7 +218,7 @@ static void each_command_stops_at_a_report_and_leaves_no_trace(void **state)
     wr_pool_free(pool);
 }
 
-/* True if a complete run on a large table takes long in proportion to its texels: on a smaller one the pieces are as
+/* True if a complete run on a large table needs long in proportion to its texels: on a smaller one the pieces are as
    large. */
 static bool is_long(const char *line)
 {

@@ -100,7 +100,7 @@ static void documents_keep_them(void **state)
     expect_version("kept.exr", "8");
 }
 
-/* A document's version tells older programs about unknown words: each word requires the first version that has it. */
+/* A document's version protects older programs from unknown words: each word requires the first version that has it. */
 static void what_is_newer_has_a_newer_version(void **state)
 {
     static const struct {

@@ -149,7 +149,7 @@ static void they_are_undone_and_redone_bit_for_bit(void **state)
     wr_session_free(s);
 }
 
-/* Every form of every family, from the table: its defaults run, and the stored line gives the same. */
+/* Every form of every family, from the table: its defaults run, and the stored line produces the same. */
 static void every_form_runs_and_replays_to_the_same_bits(void **state)
 {
     (void)state;

@@ -489,7 +489,7 @@ static void what_a_journal_began_with_comes_back_or_nothing_does(void **state)
     char *path = in(folder, "my.exr"), *journal = left_by_one_step_on(path, &want);
     WrSession *session = recover(journal, false, &how);
     assert_hash(session, want, &how);
-    assert_true(wr_session_file_changed(session)); /* saving then asks first */
+    assert_true(wr_session_file_changed(session)); /* saving then needs confirmation */
     wr_recovered_fini(&how);
     wr_session_free(session);
     wr_free(journal);

@@ -184,7 +184,7 @@ static WrPlan plan_of(WrRenderer *renderer, const WrField *field, const WrScene 
     return *frame.plan;
 }
 
-/* Every row with every kind of value over all sorts of scenes: it changes a plan if, and only if, the row says so. */
+/* Every row with every kind of value over all sorts of scenes: it changes a plan if, and only if, the row is marked so. */
 static void the_plan_looks_at_what_says_so_and_at_nothing_else(void **state)
 {
     static const char *const scenes[][4] = {

@@ -64,7 +64,7 @@ static void a_font_file_is_kept_with_its_checksum(void **state)
 }
 
 /* Choices made by the program are added to the stored line: checksum of the named font, fallback fonts of single
- * letters. The line then gives the same result on any machine, or an error. */
+ * letters. The line then produces the same result on any machine, or an error. */
 static void the_kept_line_names_the_fonts_that_wrote_it(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 /* OpenRaster files of the program in other programs: an independent reader of the format (layer list, pictures,
-   composite-ops) computes the same picture; no program asks for a colour profile. */
+   composite-ops) computes the same picture; no program requests a colour profile. */
 #include "test.h"
 #include "test_folder.h"
 
@@ -268,7 +268,7 @@ static uint32_t number_at(const uint8_t *at)
     return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
 }
 
-/* Krita asks for the profile of each 16-bit picture without an iCCP chunk; gAMA and sRGB do not help. */
+/* Krita requests the profile of each 16-bit picture without an iCCP chunk; gAMA and sRGB do not help. */
 static void check_profile(zip_t *archive, const char *name)
 {
     size_t length;

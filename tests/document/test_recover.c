@@ -267,7 +267,7 @@ static void leftovers_of_killed_programs_are_removed_after_a_day(void **state)
         }
         if (old[i]) make_old(paths[i]);
     }
-    int held = open(paths[7], O_RDONLY); /* a program that takes a day to start */
+    int held = open(paths[7], O_RDONLY); /* a program that needs a day to start */
     assert_int_equal(flock(held, LOCK_EX), 0);
     wr_journal_finish(begin_at(*state));
     close(held);

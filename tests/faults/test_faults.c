@@ -321,7 +321,7 @@ static void a_save_that_fails_keeps_the_journal(void **state)
             if (child == 0) save_journaled(kinds[k], 1, (FaultMode)mode);
             int status = fault_wait(child);
             bool there = access("work.exr", F_OK) == 0;
-            /* After a save the journal stays, and the report says so. */
+            /* After a save the journal stays, and the report mentions it. */
             if (there != (status == 0) || (!there && journals() != 1))
                 fail_msg("%s, %s: status %x, %d journals", wr_fault_kinds[kinds[k]],
                          wr_fault_modes[mode], status, journals());

@@ -193,7 +193,7 @@ static void occlusion_is_the_sky_that_horizons_leave(void **state)
     wr_field_free(field);
 }
 
-/* Level ground sees the whole sky at any height; exactly 1. */
+/* Level ground is open to the whole sky at any height; exactly 1. */
 static void level_ground_sees_the_whole_sky(void **state)
 {
     (void)state;
@@ -277,7 +277,7 @@ static void the_horizon_of_a_trough_is_known(void **state)
     wr_field_free(field);
 }
 
-/* A plane tilted against a level horizon sees (1 + cos) / 2; against its own plane, everything. Both on wide level
+/* A plane tilted against a level horizon is open to (1 + cos) / 2; against its own plane, everything. Both on wide level
    ground. */
 static void a_tilted_plane_sees_what_it_faces(void **state)
 {

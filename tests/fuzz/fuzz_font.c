@@ -1,4 +1,4 @@
-/* fuzz_font.c - untrusted fonts: for any bytes, a font is refused with a message or gives a text with a valid result,
+/* fuzz_font.c - untrusted fonts: for any bytes, a font is refused with a message or produces a text with a valid result,
    in which every outline can be drawn. The first byte selects the prefix: none, a valid BDF font with the fuzzer's
    bytes written over it, a compressed file, or an installed font of each kind with the bytes written over it. */
 #include "base/error.h"

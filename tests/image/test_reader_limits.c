@@ -47,7 +47,7 @@ static double seconds_of_children(void)
     return (double)(user + system) / (double)sysconf(_SC_CLK_TCK);
 }
 
-/* One face with so many corners that triangulation takes minutes. */
+/* One face with so many corners that triangulation needs minutes. */
 static void write_busy_mesh(WrText *text)
 {
     wr_text_add(text, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf");

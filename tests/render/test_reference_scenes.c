@@ -392,7 +392,7 @@ static void hc06_hc07_hc08_odd_surfaces_give_finite_pictures(void **state)
     wr_field_free(field);
 }
 
-/* Scaled by 10^20 either way together with its heights, an object gives the same picture. */
+/* Scaled by 10^20 either way together with its heights, an object produces the same picture. */
 static void hc09_size_does_not_matter(void **state)
 {
     (void)state;

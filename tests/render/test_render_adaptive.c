@@ -83,7 +83,7 @@ static void bounded_refinement_keeps_within_its_contrast(void **state)
 /* ---- cases without savings ---- */
 
 /* Relief finer than pixels everywhere: fewer samples would never suffice, so all are used at once, and the plan
-   reports it. Gentle relief gives the opposite report. */
+   reports it. Gentle relief produces the opposite report. */
 static void what_would_spare_nothing_takes_all_at_once(void **state)
 {
     (void)state;

@@ -297,7 +297,7 @@ static void hc94_a_flat_table_under_moments_has_the_bits_of_point(void **state)
     wr_field_free(flat);
 }
 
-/* Every pixel covers a whole number of periods: the mean slope is 0, so filtering gives the smooth plane. */
+/* Every pixel covers a whole number of periods: the mean slope is 0, so filtering produces the smooth plane. */
 static void far_away_the_filtered_table_is_smooth(void **state)
 {
     (void)state;

@@ -354,7 +354,7 @@ static void ground_without_end_is_its_mean(void **state)
 
 /* ---- rotation (HC120) ---- */
 
-/* An object rotated by quarters together with its camera gives the same bits: the texture is fixed to it. */
+/* An object rotated by quarters together with its camera produces the same bits: the texture is fixed to it. */
 static void turning_leaves_the_grains_bits(void **state)
 {
     (void)state;

@@ -54,7 +54,7 @@ static inline bool start_bus(void)
 
 typedef struct Act {
     bool replies, dies, fails; /* it accepts the request, then ends; it answers with an error */
-    bool old;                  /* and gives it another name */
+    bool old;                  /* and renames it */
     bool waits;                /* until it is asked to close */
     bool stranger;             /* another sender answers first, with /tmp/stranger */
     dbus_uint32_t code;

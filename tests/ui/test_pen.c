@@ -79,7 +79,7 @@ static void more_pressure_is_never_less_whatever_the_curve(void **state)
     }
 }
 
-/* Between knots the curve bends, but has no corner: one-sided slopes at a point agree to the first
+/* Between samples the curve bends, but has no corner: one-sided slopes at a point agree to the first
    order of the step. */
 static void the_curve_is_smooth_at_its_points(void **state)
 {
@@ -715,7 +715,7 @@ static void hostile_recordings_are_refused_with_their_line(void **state)
     }
 }
 
-/* A valid file truncated or changed anywhere is refused, or gives events in range. */
+/* A valid file truncated or changed anywhere is refused, or produces events in range. */
 static void a_damaged_recording_never_gives_events_out_of_range(void **state)
 {
     (void)state;

@@ -46,7 +46,7 @@ static void the_word_says_what_becomes_of_pens(void **state)
         { { NULL, ":1", "wayland-0", "wayland" }, "wayland", "opened no window" },
         { { NULL, NULL, "wayland-0", "wayland" }, "wayland", "no XWayland" },
         { { "wayland", ":1", "wayland-0", NULL }, "wayland", "SDL_VIDEODRIVER opens" },
-        { { "x11", ":1", "wayland-0", NULL }, "x11", NULL }, /* as asked for */
+        { { "x11", ":1", "wayland-0", NULL }, "x11", NULL }, /* as requested */
         { { NULL, ":1", "wayland-0", NULL }, "dummy", NULL },
         { { NULL, ":1", "wayland-0", NULL }, NULL, NULL },
     };
@@ -69,7 +69,7 @@ static void a_window_that_nobody_sees_is_found_out(void **state)
     assert_true(wr_display_no_output(NULL, "dummy"));
     assert_true(wr_display_no_output(NULL, "offscreen"));
     assert_true(wr_display_no_output("x11,wayland", "offscreen"));
-    assert_false(wr_display_no_output("dummy", "dummy")); /* asked for: by tests */
+    assert_false(wr_display_no_output("dummy", "dummy")); /* requested by tests */
     assert_false(wr_display_no_output("offscreen,x11", "offscreen"));
     assert_false(wr_display_no_output(NULL, "x11"));
     assert_false(wr_display_no_output(NULL, "wayland"));

@@ -169,7 +169,7 @@ static void second(Hour *hour)
 
 /* ---- the hour ---- */
 
-/* Load the picture library, which takes 110 to 200 MB and which the journal otherwise loads at its first restart, at any time. */
+/* Load the picture library, which needs 110 to 200 MB and which the journal otherwise loads at its first restart, at any time. */
 static void load_library(void)
 {
     WrError err;

@@ -663,7 +663,7 @@ static void give_file(WrGenerateState *generate)
                                  mesh ? "cube.obj" : WR_SOURCE_DIR "/samples/wood-normal.jpg");
 }
 
-/* An answer that names the file: it lacks what the choice asks for, such as alpha. */
+/* An answer that names the file: it lacks what the choice requires, such as alpha. */
 static bool is_about_file(const Walk *walk)
 {
     for (int i = 0; i < walk->app->messages->list.count; i++)

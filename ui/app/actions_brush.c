@@ -75,7 +75,7 @@ static void scale_strength(WrApp *app, double factor)
     double *strength = wr_strength_setting(app);
     double s = clamp(*strength * factor, 1e-4, wr_paints_mask(app) ? 1.0 : 1e6);
     double unit = pow(10.0, floor(log10(s)) - 1.0), digits = rint(s / unit);
-    /* Division by a power of ten gives the double nearest to the decimal number; a product with 0.01 would not. */
+    /* Division by a power of ten yields the double nearest to the decimal number; a product with 0.01 would not. */
     *strength = unit < 1.0 ? digits / rint(1.0 / unit) : digits * unit;
 }
 

@@ -209,7 +209,7 @@ static double measure_idle(WrApp *app, double seconds)
     return fmax(0.0, both - share_of(app, wait_once, fmin(seconds, 2.0)));
 }
 
-/* Draw the first frames and fill caches, however long that takes with a large table. */
+/* Draw the first frames and fill caches, however long that lasts with a large table. */
 static void settle(WrApp *app)
 {
     const double end = wr_clock_seconds() + MOST_SECONDS;

@@ -62,7 +62,7 @@ void wr_canvas_free(WrCanvas *canvas); /* must be freed before the renderer; NUL
 /* Height difference between two contour lines. */
 double wr_canvas_contour_step(const WrCanvas *canvas);
 
-/* Update the picture and draw it into the view's rectangle. Averaging large tables takes at most about `budget`
+/* Update the picture and draw it into the view's rectangle. Averaging large tables needs at most about `budget`
  * seconds; true if another call would improve the picture. second: slopes along v, if `field` holds those along u;
  * else NULL. kept: borrowed until the next call. hold: mode of the automatic range. */
 bool wr_canvas_draw(WrCanvas *canvas, WrRetainedFrame *kept, const WrCanvasView *view,

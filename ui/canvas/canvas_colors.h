@@ -22,7 +22,7 @@ typedef struct WrCanvasInk {
 void wr_canvas_ink_make(WrCanvasInk *ink, const WrCanvasLook *look, double low, double high);
 /* The colour of a height, without contours. */
 uint32_t wr_canvas_ink_colour(const WrCanvasInk *ink, double height);
-/* Height difference of contours that gives about 10 of them from `low` to `high`: 1, 2 or 5 times a power of 10. */
+/* Height difference of contours that yields about 10 of them from `low` to `high`: 1, 2 or 5 times a power of 10. */
 double wr_canvas_ink_step(double low, double high);
 
 /* Colours of a row of pixels. left: height to the left of the first; above: heights of the previous row, NULL: none.

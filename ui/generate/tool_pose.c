@@ -385,7 +385,7 @@ static void drag(WrApp *app, const WrPointer *at)
     wr_generate_changed(app);
 }
 
-/* A click on a text gives its field the keyboard focus. */
+/* A click on a text moves the keyboard focus to its field. */
 static void release(WrApp *app, const WrPointer *at)
 {
     WrGenerateState *hand = app->generate;

@@ -18,7 +18,7 @@ bool wr_guide_run_place(const WrApp *app, const char *line, int *x, int *y);
 
 /* ---- commands of the guide's pages that run in the window ---- */
 
-/* Which lines of code are commands, and a sentence that says what a line would change. */
+/* Which lines of code are commands, and the sentence that describes the effect of a line. */
 
 /* Whether a line of code is a command of the language; lines for a shell are not. */
 bool wr_guide_is_command(const char *line);

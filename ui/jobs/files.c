@@ -36,7 +36,7 @@ struct WrFiles {
     Uint32 done_event;
     WrFilePurpose purpose;
     char answer[PATH_SIZE]; /* "" if cancelled */
-    /* the native dialog asked before it returned the name of an existing file */
+    /* the native dialog confirmed before it returned the name of an existing file */
     bool agreed;
     char *from; /* owned: initial file of the dialog, as a path */
     WrFileWay way;
@@ -292,7 +292,7 @@ bool wr_files_ask(WrFiles *files, WrFilePurpose purpose, const char *folder, con
     return native;
 }
 
-/* The native dialog has seen the name without the added extension, so it has not asked about the file of the full
+/* The native dialog has seen the name without the added extension, so it has not confirmed the file of the full
    name. */
 static void take_native(WrFiles *files)
 {

@@ -57,7 +57,7 @@ bool wr_files_hear(WrFiles *files);
 /* To be called after the event: the chosen path, or NULL if cancelled. Valid until the next dialog. A file to be
  * written has an extension: that of its kind if none was typed. */
 const char *wr_files_answer(WrFiles *files, WrFilePurpose *purpose);
-/* True if the native dialog has already asked about overwriting an existing file. */
+/* True if the native dialog has already confirmed overwriting an existing file. */
 bool wr_files_agreed(const WrFiles *files);
 bool wr_files_writes(WrFilePurpose purpose); /* true for a file to be written */
 

@@ -24,7 +24,7 @@ typedef enum WrPortalEnd {
 
 /* Fast check; false: certainly no portal. */
 bool wr_portal_may_be(void);
-/* Open the dialog and wait for the answer, however long the user takes.
+/* Open the dialog and wait for the answer, however long the user needs.
  *
  * stop     non-zero, set by any thread, closes the dialog: CANCELLED
  * path     [size]: the chosen file; the first of several

@@ -86,7 +86,7 @@ void wr_surface_run(WrApp *app, const WrShape *shape, const char *const *text)
     run_file(app, shape, text, file, table);
 }
 
-/* Choice of the layer that a terrain takes its heights from, or a file. */
+/* Choice of the layer that holds the heights of a terrain, or a file. */
 static void form_layer(WrApp *app)
 {
     const WrScene *scene = wr_app_scene(app);

@@ -181,7 +181,7 @@ static double layer_bytes(const WrLayer *layer)
     return layer->mask ? bytes + (double)wr_field_bytes(layer->mask) : bytes;
 }
 
-/* Measured at intervals, since counting the tiles of a large table takes a moment. */
+/* Measured at intervals, since counting the tiles of a large table needs a moment. */
 static void measure(WrApp *app)
 {
     WrMeter *meter = app->meter;
@@ -342,7 +342,7 @@ static void right_side(WrApp *app)
     }
 }
 
-/* Progress of the computation for a dialog, if it takes longer than a moment. */
+/* Progress of the computation for a dialog, if it needs longer than a moment. */
 static bool work(WrApp *app)
 {
     double fraction, seconds;

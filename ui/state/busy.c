@@ -81,7 +81,7 @@ void wr_busy_wait(WrApp *app)
         else app->roster->step(app);
 }
 
-/* Handle delayed events: the result of the file dialog, then a request to close, which asks about unsaved work. */
+/* Handle delayed events: the result of the file dialog, then a request to close, which offers to save unsaved work. */
 static void catch_up(const WrApp *app, const WrBusy *busy)
 {
     if (busy->file_chosen) SDL_PushEvent(&(SDL_Event){ .type = app->file_event });

@@ -127,7 +127,7 @@ void wr_gui_keys_begin()
     for (const auto &pair : keys) ImGui::GetIO().KeyMap[pair.imgui] = pair.sdl;
 }
 
-/* From the events between two frames ImGui takes all letters first (none while Ctrl is held), and only one of the
+/* From the events between two frames ImGui reads all letters first (none while Ctrl is held), and only one of the
    keys that move or delete. So a frame gets letters, or one such key; the rest waits for the next frame, which
    follows at once. */
 

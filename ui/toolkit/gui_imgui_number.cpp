@@ -39,7 +39,7 @@ static void print_value(const WrNumber *spec, double value, char *text, size_t s
     else snprintf(text, size, "%.4g", value);
 }
 
-/* Round to the displayed digits: a drag gives 0.3, not 0.30000000000000004. */
+/* Round to the displayed digits: a drag yields 0.3, not 0.30000000000000004. */
 static double round_as_shown(const WrNumber *spec, double value)
 {
     char text[64];

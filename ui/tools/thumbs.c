@@ -53,7 +53,7 @@ struct WrThumbs {
     WR_ARRAY(int) wishes; /* slots visible in this frame that have no picture yet */
     int side;
     uint64_t round;
-    uint64_t of; /* shelf.serial of the slots */
+    uint64_t of; /* serial number of the slots */
 };
 
 /* ---- on the worker thread ---- */

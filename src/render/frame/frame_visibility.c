@@ -98,7 +98,7 @@ static bool is_any_forced(const WrForce *force)
     return any;
 }
 
-/* True if no effect is forced and the request wants only the picture. */
+/* True if no effect is forced and the request is only for the picture. */
 static bool may_be_steady(const WrFrameRequest *request)
 {
     return is_whole(request) && !request->normals && !request->map &&

@@ -16,7 +16,7 @@ extern const float wr_srgb_borders[256];
 /* [WR_CODE_BINS + 1]: code | border << 8, in steps; WR_CODE_STEPS if the bin has no border. */
 void wr_code_bins_fill(uint32_t bins[WR_CODE_BINS + 1]);
 
-/* Position among the bins; NaN gives 0. Separate from wr_code_at: a loop that clamps and indexes at once does
+/* Position among the bins; 0 for NaN. Separate from wr_code_at: a loop that clamps and indexes at once does
    not vectorise. */
 static inline float wr_srgb_bin_position(float x)
 {

@@ -1,6 +1,6 @@
 /* kern_double_math.h - transcendental functions in double for span loops.
    Private to the renderer. Branch-free, without library calls, built from + - * / and integer operations only,
-   so that compilers vectorise them and every processor gives the same bits (the build forbids contraction).
+   so that compilers vectorise them and every processor produces the same bits (the build forbids contraction).
    Arguments and meaning are those of base/kernmath.h. Series are Taylor's, except the arctangent's, which
    interpolates at Chebyshev nodes. */
 #pragma once

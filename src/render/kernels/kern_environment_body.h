@@ -38,7 +38,7 @@ SURROUND_ROW(1, 0)
 SURROUND_ROW(1, 1)
 SURROUND_ROW(1, 2)
 
-/* NaN gives low */
+/* low for NaN */
 ALWAYS REAL between(REAL x, REAL low, REAL high)
 {
     x = x > low ? x : low;

@@ -266,7 +266,7 @@ static inline Weights catmull_weights(REAL t)
 }
 
 /* 4 x 4 taps: first down the rows, four columns side by side, then across. Each value is the second tap plus
-   weighted differences (the weights sum to 1), so that a flat table gives its own height and slopes of exactly 0
+   weighted differences (the weights sum to 1), so that a flat table yields its own height and slopes of exactly 0
    (HC47). Slopes are per texel. */
 ALWAYS void look_cubic(const LOOK *look, STRIP *strip, Weights (*const weights)(REAL t))
 {

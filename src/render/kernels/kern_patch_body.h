@@ -1,10 +1,10 @@
 /* kern_patch_body.h - ray hits on bicubic patches (surface/patches.h). Part of kern_body.h, after
    kern_triangle_body.h, whose conventions for Pu, Pv it keeps.
 
-   The triangle of a sample gives the patch and approximate (u,v). Newton's method then finds the patch's own
+   The triangle of a sample yields the patch and approximate (u,v). Newton's method then finds the patch's own
    point on the ray; position, normal and tangents are the patch's.
 
-   The chart gives the table's u and v as whole multiples of the patch's: with grad u = Pv x n / |N| and grad v =
+   The chart yields the table's u and v as whole multiples of the patch's: with grad u = Pv x n / |N| and grad v =
    n x Pu / |N|, for table's u = c1 u + c2 v, v = c4 u + c5 v
      Pv := n x grad u = (c1 Pv - c2 Pu) / |N|      Pu := grad v x n = (c5 Pu - c4 Pv) / |N| */
 

@@ -468,7 +468,7 @@ static void run_there(const SHAPE *shape, int first, int to, STRIP *strip)
             run_there(shape, from, to, strip);                                                     \
             return;                                                                                \
         }                                                                                          \
-        const SHAPE own = *shape; /* a copy, so that the compiler sees that no store changes it */ \
+        const SHAPE own = *shape; /* a copy: for the compiler, no store can change it */           \
         FN(BezierPlane) ready;                                                                     \
         const Patch still = { &own, &ready };                                                      \
         if (LATE(name)) FN(bezier_ready)(&own, &ready);                                            \

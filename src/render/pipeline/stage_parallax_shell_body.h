@@ -109,7 +109,7 @@ static bool enter_shell(const WrTileJob *job, const Rays *rays, Strip *s, int i,
     return in.from < in.to;
 }
 
-/* Ends the interval at the lowest F, which a ray cannot pass; a ray that began below the relief sees it from
+/* Ends the interval at the lowest F, which a ray cannot pass; a ray that began below the relief meets it from
    there. */
 static void leave_shell(const WrTileJob *job, const Strip *s, int i, March *m)
 {

@@ -300,7 +300,7 @@ static double pair_sum(double *values, int count)
 
 static const WrReferenceShare all = { 0, 1 };
 
-/* For light from all directions each of a pixel's k x k samples takes 1/k of them, by a lattice in which each
+/* For light from all directions each of a pixel's k x k samples uses 1/k of them, by a lattice in which each
    part occurs k times, evenly spread. */
 static WrReferenceShare share_of(int k, int i, int j)
 {
@@ -430,7 +430,7 @@ static bool render_pass(const Set *set, const WrReferenceRequest *request, int k
     return true;
 }
 
-/* Largest k if the caller sets no limit: a ray takes ten times as long with displacement or parallax. */
+/* Largest k if the caller sets no limit: a ray needs ten times as long with displacement or parallax. */
 static int most_of(const WrReferenceRequest *request)
 {
     bool displaced = false;

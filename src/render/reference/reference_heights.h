@@ -26,6 +26,6 @@ bool wr_reference_table_init(WrReferenceTable *table, const WrField *field, WrPo
 void wr_reference_table_fini(WrReferenceTable *table); /* also for a zeroed one */
 
 /* F and its derivatives at (u, v) of the patch, height and replication included, as in wr_scene_height; beyond
-   the ends of a clamped axis F is constant and its slope 0. A table without coefficients gives 0. */
+   the ends of a clamped axis F is constant and its slope 0. A table without coefficients yields 0. */
 void wr_reference_table_at(const WrReferenceTable *table, const WrScene *scene, double u, double v,
                            double *f, double *fu, double *fv);

@@ -32,7 +32,7 @@ void wr_reference_mesh_fini(WrReferenceMesh *mesh); /* also for a zeroed one */
 bool wr_reference_mesh_hit(const WrReferenceMesh *mesh, bool cull, const WrReferenceRay *ray,
                            WrReferenceHit *hit);
 /* The point there: P, n, and Pu, Pv, perpendicular to n, as  grad v x n  and  n x grad u  times |N|, so that
-   Blinn's formula gives unit(n - grad F). With mirrored (u,v) both have the opposite sign; with (u,v) of area 0,
+   Blinn's formula yields unit(n - grad F). With mirrored (u,v) both have the opposite sign; with (u,v) of area 0,
    |N| is 1. The normal of a face towards the eye is turned towards the eye as well, by a cosine of at least
    1e-4. */
 void wr_reference_mesh_at(const WrReferenceMesh *mesh, const WrReferenceHit *hit, WrVec3 eye,

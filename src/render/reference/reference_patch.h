@@ -87,7 +87,7 @@ static inline bool wr_reference_bounds_met(const WrReferenceBounds *box, const W
 }
 
 /* n, N, Pu and Pv of a point from the gradients of u and v, which are perpendicular to n: Pu = grad v x n and Pv
-   = n x grad u, times |N| = 1 / |grad u x grad v|, so that Blinn's formula gives unit(n - grad F). |N| is 1 if
+   = n x grad u, times |N| = 1 / |grad u x grad v|, so that Blinn's formula yields unit(n - grad F). |N| is 1 if
    the gradients are parallel or 0. */
 static inline void wr_reference_lay(WrVec3 n, WrVec3 grad_u, WrVec3 grad_v, WrSurfacePoint *out)
 {

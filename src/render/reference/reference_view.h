@@ -27,7 +27,7 @@ typedef struct WrReferenceView {
     double width, height;                   /* pixels */
     WrVec3 eye, right, up, forward, middle; /* middle: point of the view axis at the object */
     WrVec3 toward;                          /* -forward */
-    /* For a stretched object (WrPlacement): right, up and forward are the transformed camera axes, deep gives
+    /* For a stretched object (WrPlacement): right, up and forward are the transformed camera axes, deep yields
        the depth. lit_*: along the object's axes, in world proportions. */
     bool stretched;
     WrVec3 deep, stretch, cofactor, lit_eye, lit_toward;

@@ -379,7 +379,7 @@ static int border_corner(const WrDiceFace *f, int k)
     return left < f->nv - 1 ? (left + 1) * row : (left - (f->nv - 1) + 1) * row + f->nu;
 }
 
-/* Gives corners at one position equal rates: along a seam for each axis, along the edges of a cube for both. */
+/* Sets equal rates for corners at one position: along a seam for each axis, along the edges of a cube for both. */
 static void join_corners(WrDicing *d)
 {
     int32_t count = 0;

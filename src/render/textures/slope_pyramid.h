@@ -83,8 +83,7 @@ void wr_pyramid_drop(WrPyramid *pyramid);
 /* Weights of the source texels in target texel i of m, which covers [i n/m, (i+1) n/m) of n: the texels start at
    `from`, and the weights sum to 1. */
 typedef struct WrShare {
-    int from,
-        count; /* 1..3: n is at most 3 where m is 1, else n/m < 3 takes a part at either end */
+    int from, count; /* 1..3: n is at most 3 where m is 1, else n/m < 3 uses a part at either end */
     double weight[4];
 } WrShare;
 WrShare wr_pyramid_box_weights(int i, int n, int m);
