@@ -85,9 +85,13 @@ struct WrCli {
     bool measure;    /* --measure */
     const char *map; /* --map */
 
+    char **argv;                /* the shell line, for another program */
     WrPool *pool;               /* made by main; owned by it */
     const volatile int *cancel; /* set by an interrupt */
 };
+
+/* Default side of accuracy's pictures in pixels: the reference then takes seconds, not minutes. */
+#define WR_ACCURACY_SIDE 256
 
 typedef enum WrOption {
     WR_OPTION_OUT,
@@ -130,6 +134,7 @@ bool wr_cli_option(const WrSubcommand *command, bool common, int i, const char *
 /* A session with FILE loaded (an empty document without one) after every --do line. outputs: perform output commands
  * among the --do lines. The caller owns it; NULL and an error on failure. */
 WrSession *wr_cli_load(const WrCli *cli, bool outputs, WrError *err);
+const char *wr_cli_file_name(const WrCli *cli); /* FILE without its folder; "" if none is named */
 /* Load FILE, if one is named. */
 bool wr_cli_open(const WrCli *cli, WrSession *session, WrError *err);
 /* An empty session with notes to standard error. */
@@ -166,5 +171,8 @@ int wr_cli_explain(const WrCli *cli);
 int wr_cli_accuracy(const WrCli *cli);
 int wr_cli_recover(const WrCli *cli);
 int wr_cli_brushes(const WrCli *cli);
-int wr_cli_bench(const WrCli *cli); /* parses its own options from words */
+/* The measurements of `bench`, which parses its own options from words, and of `accuracy --tolerance`: in wrinkle both
+ * start the program wrinkle-bench, which has them (tests/bench/). */
+int wr_cli_bench(const WrCli *cli);
+int wr_cli_contest(const WrCli *cli);
 int wr_cli_help_command(const WrCli *cli);

@@ -63,6 +63,12 @@ bool wr_cli_run_dos(const WrCli *cli, WrSession *session, WrError *err)
     return true;
 }
 
+const char *wr_cli_file_name(const WrCli *cli)
+{
+    const char *slash = cli->file ? strrchr(cli->file, '/') : NULL;
+    return slash ? slash + 1 : cli->file ? cli->file : "";
+}
+
 bool wr_cli_open(const WrCli *cli, WrSession *session, WrError *err)
 {
     WrFileInfo info;

@@ -67,7 +67,7 @@ static int run(WrCli *cli)
 
 int main(int argc, char **argv)
 {
-    WrCli cli = { .cancel = &interrupted };
+    WrCli cli = { .argv = argv, .cancel = &interrupted };
     WrError err;
     int status = WR_EXIT_USAGE;
     /* If work ignores the cancellation, the process ends anyway; the journal has the finished commands. */

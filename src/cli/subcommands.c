@@ -88,7 +88,6 @@ const WrSubcommand wr_subcommands[] = {
       "out.\n"
       "--sheet paints the same stroke with each and shows them lit, with their names.",
       wr_cli_brushes },
-#ifdef WR_HAVE_BENCH
     { "bench",
       "bench [PART...|all|generate|brushes|window] [--quick] [--exact] [--lines] [--size WxH] "
       "[--json]",
@@ -105,7 +104,6 @@ const WrSubcommand wr_subcommands[] = {
       "a\n"
       "measurement, for programs; --json: all parts and these lines, or what is named.",
       wr_cli_bench },
-#endif
     { "help", "help [VERB...] [--json|--markdown]", "the commands of scripts and --do",
       BIT(JSON) | BIT(MARKDOWN) | BIT(ALL_WORDS),
       "--markdown prints what the guide's pages hold: of a VERB its arguments; `verbs` all verbs, "

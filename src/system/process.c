@@ -16,6 +16,12 @@ bool wr_process_lives(WrPid process)
     return kill((pid_t)process, 0) == 0 || errno != ESRCH;
 }
 
+int wr_process_become(const char *program, char *const *arguments)
+{
+    execv(program, arguments);
+    return errno;
+}
+
 bool wr_process_machine(char *name, size_t size)
 {
     if (gethostname(name, size) != 0) return false;

@@ -45,6 +45,9 @@ bool wr_process_has_cage(void);
 
 /* ---- the end ---- */
 
+/* Continues as another program, with the same number, open standard streams and folder. arguments: the first is its
+   name, the last NULL. Returns only on failure, with errno's value. */
+int wr_process_become(const char *program, char *const *arguments);
 /* Ends at once: nothing is flushed and no exit handler runs. */
 _Noreturn void wr_process_leave(int status);
 /* Registers a function that runs at exit with the program's status, before handlers registered earlier;

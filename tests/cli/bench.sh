@@ -61,7 +61,7 @@ says 'arithmetic and isa' '.arithmetic == "exact" and .isa == "v1" and (.section
 # All at once takes a minute: what --lines prints is there too.
 if [[ ${WR_FULL-} == 1 ]]; then
     "$program" bench --json --quick --size 16x16 >json 2>err || complain "bench --json fails: $(cat err)"
-    says 'lines beside all parts' '(.sections | length) == 10 and (.lines | length >= 27) and
+    says 'lines beside all parts' '(.sections | length) == 11 and (.lines | length >= 27) and
         (.lines | all(.ms >= 0 and .table >= 0 and .threads > 0)) and
         ([.lines[].what] | contains(["sphere", "bezier", "brush", "make"]))'
 fi
@@ -78,5 +78,16 @@ refuse 'stands alone' generate schemes
 refuse '--size' --size 16x16
 refuse 'needs --json' schemes --lines
 refuse 'v9' schemes --isa v9
+
+# Without the program that measures: one message, with its place.
+mkdir alone
+cp "$program" alone/wrinkle
+for words in bench 'accuracy --tolerance rms=0.1'; do
+    # shellcheck disable=SC2086  # words
+    alone/wrinkle $words >out 2>err
+    [[ $? == 1 && ! -s out && $(wc -l <err) == 1 ]] || complain "not one message without wrinkle-bench: $words: $(cat err)"
+    grep -qF "${words%% *} needs the program wrinkle-bench, looked for at: $PWD/alone/wrinkle-bench; build it" err ||
+        complain "not told what is missing: $words: $(cat err)"
+done
 
 exit $((failures > 0))

@@ -2,7 +2,7 @@
 if(TARGET wrinkle)
     wr_script(cli cli.sh heavy $<TARGET_FILE:wrinkle>)
     wr_script(export_watch export_watch.sh quick $<TARGET_FILE:wrinkle>)
-    if(EXISTS ${PROJECT_SOURCE_DIR}/src/cli/cmd_bench.c)
+    if(TARGET wrinkle-bench)
         wr_script(bench bench.sh heavy $<TARGET_FILE:wrinkle>)
     endif()
     wr_script(turntable turntable.sh heavy ${PROJECT_SOURCE_DIR} $<TARGET_FILE:wrinkle>)

@@ -23,10 +23,10 @@ unset WRINKLE_DATA
 configure outside -DWR_TESTS=ON || complain "configuring outside the checkout: $(tail -n 5 "$folder/outside.log")"
 cmake --build "$folder/outside" --target run_base --parallel 2 >"$folder/build.log" 2>&1 ||
     complain "building outside the checkout: $(tail -n 5 "$folder/build.log")"
-(cd / && "$folder/outside/run_base" data >"$folder/data.log" 2>&1) || complain "$(cat "$folder/data.log")"
+(cd / && "$folder/outside/run_base" data_files >"$folder/data.log" 2>&1) || complain "$(cat "$folder/data.log")"
 mkdir "$folder/elsewhere"
 cp "$folder/outside/run_base" "$folder/elsewhere"
-(cd / && "$folder/elsewhere/run_base" data >/dev/null 2>&1) && complain "a copy finds the checkout's files"
+(cd / && "$folder/elsewhere/run_base" data_files >/dev/null 2>&1) && complain "a copy finds the checkout's files"
 
 # ---- without cmocka: no tests, unless they are asked for ----
 mkdir "$folder/bin"

@@ -5,11 +5,11 @@
  * process, minus that of a process that only loads and saves the picture. */
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/pool.h"
 #include "base/progress.h"
 #include "base/enum_rows.h"
 #include "base/text.h"
-#include "cli/bench.h"
+#include "bench/bench.h"
+#include "cli/cli.h"
 #include "command/session.h"
 #include "document/document.h"
 #include "export/export.h"
@@ -102,7 +102,7 @@ typedef struct Bench {
 static bool shell(const Bench *b, const char *command, double *ms, WrError *err)
 {
     WrText line = { 0 };
-    int threads = b->cli->threads > 0 ? b->cli->threads : wr_pool_threads(b->cli->pool);
+    int threads = wr_bench_threads(b->cli);
     wr_text_addf(&line,
                  "cd '%s' && GEGL_USE_OPENCL=no GEGL_SWAP=RAM GEGL_CACHE_SIZE=4096 GEGL_THREADS=%d "
                  "%s >/dev/null 2>&1",
@@ -296,7 +296,7 @@ static bool time_ours(const Bench *b, Kind kind, double *ms, WrError *err)
 static bool time_file(const Bench *b, const Row *row, double *whole, double *bare, WrError *err)
 {
     char command[96];
-    int threads = b->cli->threads > 0 ? b->cli->threads : wr_pool_threads(b->cli->pool);
+    int threads = wr_bench_threads(b->cli);
     snprintf(command, sizeof command,
              "oiiotool --threads %d -i:now=1 table.tif --cut 1x1 -o out.tif", threads);
     if (!shell(b, command, bare, err)) return false;
@@ -330,7 +330,7 @@ static bool time_oiiotool(Bench *b, WrError *err)
 {
     char command[96];
     double bare, whole;
-    int threads = b->cli->threads > 0 ? b->cli->threads : wr_pool_threads(b->cli->pool);
+    int threads = wr_bench_threads(b->cli);
     if (!b->oiiotool) return true;
     snprintf(command, sizeof command, "oiiotool --threads %d crop.tif -o out.tif", threads);
     if (!shell(b, command, &bare, err)) return false;
@@ -399,7 +399,7 @@ static void print_table(Bench *b, WrText *text)
 
 static void print_lines(Bench *b, WrText *text)
 {
-    int threads = b->cli->threads > 0 ? b->cli->threads : wr_pool_threads(b->cli->pool);
+    int threads = wr_bench_threads(b->cli);
     for (int kind = 0; kind < KIND_COUNT; kind++) {
         wr_text_addf(text, "make %s wrinkle %d %d %.4f\n", rows[kind].name, TABLE, threads,
                      wr_bench_median(b->ours[kind], b->rounds));

@@ -1,8 +1,7 @@
-/* bench_peak.h - peak arithmetic and copy rates of this machine, for comparison with rendering. Measured with the
-   threads of the pool; the best of several rounds. */
+/* peak.h - peak arithmetic and copy rates of this machine, for comparison with rendering. Measured with the threads of
+   the pool; the best of several rounds. */
 #pragma once
 #include <stdbool.h>
-#include <stddef.h>
 
 typedef struct WrError WrError;
 typedef struct WrPool WrPool;

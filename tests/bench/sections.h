@@ -1,7 +1,7 @@
-/* bench_sections.h - benchmark sections, each of which varies one thing. The pictures of a section are measured in
-   turn and compared with a base row of the same section. Private to bench_section*.c and cmd_bench.c. */
+/* sections.h - benchmark sections, each of which varies one thing. The pictures of a section are measured in turn and
+   compared with a base row of the same section. */
 #pragma once
-#include "cli/bench_peak.h"
+#include "bench/peak.h"
 #include "render/plan/plan.h"
 
 #include <stdbool.h>
@@ -9,9 +9,7 @@
 
 typedef struct WrCli WrCli;
 typedef struct WrError WrError;
-typedef struct WrFrame WrFrame;
 typedef struct WrScene WrScene;
-typedef struct WrText WrText;
 
 typedef enum WrBenchView {
     WR_BENCH_TURNS,  /* a new view in each round */
@@ -69,17 +67,4 @@ struct WrBenchSections {
     int count;
 };
 
-extern const WrBenchSection wr_bench_sections[]; /* the last row has name NULL */
-int wr_bench_section_find(const char *name);     /* -1 if there is none */
-
-/* Fill and measure one section; clear frees its scenes. */
-bool wr_bench_section_measure(WrBenchSections *all, const WrBenchSection *section, WrError *err);
-void wr_bench_section_clear(WrBenchSections *all);
-
-/* Print as tables, and as members of a JSON object. */
-void wr_bench_peaks_print(const WrBenchSections *all, WrText *text);
-void wr_bench_section_print(const WrBenchSections *all, WrText *text);
-void wr_bench_head_json(const WrBenchSections *all, WrText *text);
-void wr_bench_section_json(const WrBenchSections *all, WrText *text);
-/* Convert the six-word lines of --lines to a JSON array of objects. */
-void wr_bench_lines_json(const char *lines, WrText *text);
+extern const WrBenchSection wr_bench_section_table[]; /* the last row has name NULL */
