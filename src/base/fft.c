@@ -8,7 +8,6 @@
 #include <string.h>
 
 #define FACTORS 16
-#define RADIX_MOST 13
 
 struct WrFft {
     int n, passes;

@@ -344,77 +344,29 @@ static Place locate(double u, int n, WrWrap wrap, bool runs_down, WrSchemeTaps t
     return place;
 }
 
-struct WrFieldBand {
-    const WrField *field;
-    WrScheme scheme;
-    int width, first, tall; /* columns and rows of taps, from column -2 and row `first` */
-    double taps[];
-};
-
-static WrFieldBand *read_band(const WrField *field, WrScheme scheme, int first, int tall)
-{
-    const int width = wr_field_width(field) + 4;
-    const size_t texels = (size_t)width * (size_t)tall;
-    WrFieldBand *band = wr_try_alloc(1, sizeof *band + texels * sizeof(double), "taps", NULL);
-    if (!band) return NULL;
-    *band = (WrFieldBand){ field, scheme, width, first, tall };
-    if (wr_schemes[scheme].taps == WR_TAPS_FITTED) {
-        wr_field_read_fitted_double(field, -2, first, width, tall, band->taps, (size_t)width);
-        return band;
-    }
-    float *row = wr_alloc_unset((size_t)width, sizeof *row);
-    for (int j = 0; j < tall; j++) {
-        wr_field_read(field, -2, first + j, width, 1, row, (size_t)width);
-        double *taps = band->taps + (size_t)j * (size_t)width;
-        for (int i = 0; i < width; i++) taps[i] = (double)row[i];
-    }
-    wr_free(row);
-    return band;
-}
-
-#define BAND_MARGIN 3 /* rows: a texel beyond, and the taps about it */
-
-WrFieldBand *wr_field_band_new(const WrField *field, WrScheme scheme, int row, int rows)
-{
-    return read_band(field, scheme, row - BAND_MARGIN, rows + 2 * BAND_MARGIN + 1);
-}
-
-void wr_field_band_free(WrFieldBand *band)
-{
-    wr_free(band);
-}
-
 /* Fits the whole table with a margin of two texels; NULL if fitting the taps of single points is
  * cheaper (about 200 texels' worth each) or memory is exhausted. */
-static WrFieldBand *fit_whole(const WrField *field, WrScheme scheme, size_t count)
+static double *fit_whole(const WrField *field, WrScheme scheme, size_t count)
 {
     const int width = wr_field_width(field) + 4, height = wr_field_height(field) + 4;
-    if (wr_schemes[scheme].taps != WR_TAPS_FITTED) return NULL;
-    if (count < (size_t)width * (size_t)height / 200) return NULL;
-    return read_band(field, scheme, -2, height);
+    const size_t texels = (size_t)width * (size_t)height;
+    if (wr_schemes[scheme].taps != WR_TAPS_FITTED || count < texels / 200) return NULL;
+    double *whole = wr_try_alloc(texels, sizeof *whole, "taps", NULL);
+    if (whole) wr_field_read_fitted_double(field, -2, -2, width, height, whole, (size_t)width);
+    return whole;
 }
 
-/* True if the band contains the 16 taps whose first is (i, j); copies them. */
-static bool copy_taps(const WrFieldBand *band, int i, int j, double taps[16])
+/* The 16 taps whose first is (i, j); whole: the fitted table with its margin, or NULL. */
+static void read_taps(const WrField *field, WrSchemeTaps kind, const double *whole, int i, int j,
+                      double taps[16])
 {
-    int row = j - band->first;
-    const int height = wr_field_height(band->field);
-    if (wr_field_wrap_v(band->field) == WR_WRAP_PERIODIC && (row < 0 || row + 4 > band->tall))
-        row = row % height + (row % height < 0 ? height : 0);
-    if (row < 0 || row + 4 > band->tall || i < -2 || i + 6 > band->width) return false;
-    for (int k = 0; k < 4; k++)
-        memcpy(taps + 4 * k, band->taps + (size_t)(row + k) * (size_t)band->width + (i + 2),
-               4 * sizeof *taps);
-    return true;
-}
-
-/* The 16 taps whose first is (i, j); band: may be NULL. */
-static void read_taps(const WrField *field, WrSchemeTaps kind, const WrFieldBand *band, int i,
-                      int j, double taps[16])
-{
+    const size_t pitch = (size_t)wr_field_width(field) + 4;
     float texels[16];
-    if (band && copy_taps(band, i, j, taps)) return;
-    if (kind == WR_TAPS_FITTED) {
+    if (whole) {
+        for (int k = 0; k < 4; k++)
+            memcpy(taps + 4 * k, whole + (size_t)(j + 2 + k) * pitch + (size_t)(i + 2),
+                   4 * sizeof *taps);
+    } else if (kind == WR_TAPS_FITTED) {
         wr_field_read_fitted_double(field, i, j, 4, 4, taps, 4);
     } else {
         wr_field_read(field, i, j, 4, 4, texels, 4);
@@ -422,9 +374,10 @@ static void read_taps(const WrField *field, WrSchemeTaps kind, const WrFieldBand
     }
 }
 
-static void sample(const WrField *field, WrScheme scheme, const WrFieldBand *band, size_t count,
-                   const double *u, const double *v, double *f, double *fu, double *fv)
+void wr_field_sample(const WrField *field, WrScheme scheme, size_t count, const double *u,
+                     const double *v, double *f, double *fu, double *fv)
 {
+    double *whole = fit_whole(field, scheme, count);
     const WrSchemeInfo *info = &wr_schemes[scheme];
     int width = wr_field_width(field), height = wr_field_height(field);
     Place last_x = { .cell = -2 }, last_y = last_x; /* no point is in cell -2 */
@@ -433,7 +386,7 @@ static void sample(const WrField *field, WrScheme scheme, const WrFieldBand *ban
         Place x = locate(u[k], width, wr_field_wrap_u(field), false, info->taps);
         Place y = locate(v[k], height, wr_field_wrap_v(field), true, info->taps);
         if (x.cell != last_x.cell || y.cell != last_y.cell)
-            read_taps(field, info->taps, band, x.cell - 1, y.cell - 1, taps);
+            read_taps(field, info->taps, whole, x.cell - 1, y.cell - 1, taps);
         last_x = x, last_y = y;
         double out[3];
         info->eval(taps, x.fraction, y.fraction, out);
@@ -441,20 +394,7 @@ static void sample(const WrField *field, WrScheme scheme, const WrFieldBand *ban
         if (fu) fu[k] = x.varies ? width * out[1] : 0.0;
         if (fv) fv[k] = y.varies ? 0.0 - height * out[2] : 0.0; /* rows run down; 0 - 0 is +0 */
     }
-}
-
-void wr_field_sample(const WrField *field, WrScheme scheme, size_t count, const double *u,
-                     const double *v, double *f, double *fu, double *fv)
-{
-    WrFieldBand *whole = fit_whole(field, scheme, count);
-    sample(field, scheme, whole, count, u, v, f, fu, fv);
-    wr_field_band_free(whole);
-}
-
-void wr_field_band_sample(const WrFieldBand *band, size_t count, const double *u, const double *v,
-                          double *f, double *fu, double *fv)
-{
-    sample(band->field, band->scheme, band, count, u, v, f, fu, fv);
+    wr_free(whole);
 }
 
 /* FVAL of the paper, with v up and texels at their centres. */

@@ -66,18 +66,6 @@ int wr_scheme_find(const char *name);
 void wr_field_sample(const WrField *field, WrScheme scheme, size_t count, const double *u,
                      const double *v, double *f, double *fu, double *fv);
 
-/* A sampler for many calls near the same rows: their taps are read, and fitted, once.
- *
- * row, rows  of the table, from the top; points may lie up to a texel outside. Points farther away are
- *            correct but slow.
- * Errors     NULL when out of memory
- * Owner      the caller; the field must not change meanwhile The bits are those of wr_field_sample. */
-typedef struct WrFieldBand WrFieldBand;
-WrFieldBand *wr_field_band_new(const WrField *field, WrScheme scheme, int row, int rows);
-void wr_field_band_free(WrFieldBand *band); /* NULL is allowed */
-void wr_field_band_sample(const WrFieldBand *band, size_t count, const double *u, const double *v,
-                          double *f, double *fu, double *fv);
-
 /* The paper's formula to the letter, for the historical rung of the ladder and for tests: four bilinear
  * look-ups, FU = (FVAL(U + E, V) - FVAL(U - E, V)) / (2 E) with E = 1/W, FV with 1/H. Equals `central`
  * to rounding, except within 1.5 texels of the ends of a clamped axis, where FVAL is constant outside.

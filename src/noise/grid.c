@@ -484,19 +484,3 @@ void wr_octaves_scale(double level, double amplitude, int count, float *f)
 {
     wr_noise_kernels()->scale(level, amplitude, count, f);
 }
-
-void wr_octaves_warped_grid(const WrOctavesPlan *plan, const WrOctavesPlan *const *warp,
-                            double amount, const WrNoiseGrid *grid, float *f, float *fu, float *fv,
-                            size_t pitch)
-{
-    for (int j = 0; j < grid->count_j; j++)
-        for (int i = 0; i < grid->count_i; i++) {
-            double p[2] = { wr_noise_grid_u(grid, grid->i + i),
-                            wr_noise_grid_v(grid, grid->j + j) };
-            double slope[2];
-            size_t at = (size_t)j * pitch + (size_t)i;
-            f[at] = (float)wr_octaves_warped_at(plan, warp, amount, p, slope);
-            if (fu) fu[at] = (float)slope[0];
-            if (fv) fv[at] = (float)slope[1];
-        }
-}

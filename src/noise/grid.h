@@ -40,9 +40,3 @@ void wr_octaves_grid(const WrOctavesPlan *plan, const WrNoiseGrid *grid, float *
 
 /* f[i] = level + amplitude f[i], in double and rounded once. */
 void wr_octaves_scale(double level, double amplitude, int count, float *f);
-
-/* Fills a rectangle with wr_octaves_warped_at: point by point in double, about 100 ns per texel and
- * octave. */
-void wr_octaves_warped_grid(const WrOctavesPlan *plan, const WrOctavesPlan *const *warp,
-                            double amount, const WrNoiseGrid *grid, float *f, float *fu, float *fv,
-                            size_t pitch);

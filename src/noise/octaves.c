@@ -81,18 +81,6 @@ double wr_octaves_warped_at(const WrOctavesPlan *plan, const WrOctavesPlan *cons
     return n;
 }
 
-void wr_octaves_span(const WrOctavesPlan *plan, size_t count, const double *const *p, double *f,
-                     double *const *slope)
-{
-    for (size_t i = 0; i < count; i++) {
-        double at[WR_NOISE_AXES] = { 0 }, d[WR_NOISE_AXES];
-        for (int a = 0; a < plan->dim; a++) at[a] = p[a][i];
-        f[i] = wr_octaves_at(plan, at, d);
-        for (int a = 0; slope && a < plan->dim; a++)
-            if (slope[a]) slope[a][i] = d[a];
-    }
-}
-
 const char *const wr_octaves_words[] = { WR_OCTAVES_MODES(WR_WORD) NULL };
 
 WrOctaves wr_octaves_default(int dim)

@@ -120,8 +120,3 @@ double wr_octaves_at(const WrOctavesPlan *plan, const double *p, double *slope);
  * slope    as above */
 double wr_octaves_warped_at(const WrOctavesPlan *plan, const WrOctavesPlan *const *warp,
                             double amount, const double *p, double *slope);
-
-/* wr_octaves_at for a span: p[a][i], f[i], slope[a][i]; slope or any of slope[a] may be NULL. The bits
- * are those of single calls. */
-void wr_octaves_span(const WrOctavesPlan *plan, size_t count, const double *const *p, double *f,
-                     double *const *slope);

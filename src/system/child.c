@@ -86,11 +86,6 @@ void wr_child_kill(WrPid child)
     kill((pid_t)child, SIGKILL);
 }
 
-void wr_child_ask_to_end(WrPid child)
-{
-    kill((pid_t)child, SIGTERM);
-}
-
 WrPid wr_child_fork(void)
 {
     return (WrPid)fork();

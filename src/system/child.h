@@ -41,7 +41,6 @@ bool wr_child_ended(WrPid child,
 /* it ended (and is reaped), or is not a child of this process */
 bool wr_child_is_gone(WrPid child);
 void wr_child_kill(WrPid child);
-void wr_child_ask_to_end(WrPid child);
 
 /* ---- forks ---- */
 

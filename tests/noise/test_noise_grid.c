@@ -213,24 +213,6 @@ static void without_usable_octaves_a_table_is_flat(void **state)
     for (int k = 0; k < 36; k++) assert_true(f[k] == 0.0f && fu[k] == 0.0f && fv[k] == 0.0f);
 }
 
-static void a_warped_grid_is_the_warped_point_function(void **state)
-{
-    (void)state;
-    enum { W = 40, H = 30 };
-    WrOctaves octaves = wr_octaves_default(2);
-    octaves.count = 3;
-    WrOctavesPlan plan = plan_of(&octaves);
-    octaves.seed = 9;
-    WrOctavesPlan by = plan_of(&octaves);
-    const WrOctavesPlan *warp[2] = { &by, &plan };
-    wr_octaves_warped_grid(&plan, warp, 0.05, &(WrNoiseGrid){ W, H, 0, 0, W, H }, f, fu, fv, W);
-    for (int k = 0; k < W * H; k++) {
-        double p[2] = { (k % W + 0.5) / W, 1.0 - (k / W + 0.5) / H }, d[2];
-        assert_true(f[k] == (float)wr_octaves_warped_at(&plan, warp, 0.05, p, d));
-        assert_true(fu[k] == (float)d[0] && fv[k] == (float)d[1]);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -241,7 +223,6 @@ int main(void)
         cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
         cmocka_unit_test(hc63_fine_lattices_are_filled_too),
         cmocka_unit_test(without_usable_octaves_a_table_is_flat),
-        cmocka_unit_test(a_warped_grid_is_the_warped_point_function),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

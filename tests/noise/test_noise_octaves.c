@@ -450,22 +450,6 @@ static void warped_noise_has_its_slopes_and_tiles(void **state)
     }
 }
 
-static void spans_are_points_one_by_one(void **state)
-{
-    (void)state;
-    enum { N = 67 };
-    WrOctaves octaves = wr_octaves_default(3);
-    WrOctavesPlan plan = plan_of(&octaves);
-    double x[N], y[N], z[N], f[N], fy[N];
-    for (int i = 0; i < N; i++) x[i] = i * 0.31, y[i] = i == 5 ? NAN : -i * 0.17, z[i] = i * 1e17;
-    wr_octaves_span(&plan, N, (const double *[]){ x, y, z }, f, (double *[]){ NULL, fy, NULL });
-    for (int i = 0; i < N; i++) {
-        double d[3];
-        assert_true(same_bits(f[i], wr_octaves_at(&plan, (double[]){ x[i], y[i], z[i] }, d)));
-        assert_true(same_bits(fy[i], d[1]));
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -482,7 +466,6 @@ int main(void)
         cmocka_unit_test(hc68_counts_of_cells_are_whole_and_both_frequency_and_period),
         cmocka_unit_test(slopes_grow_as_the_root_of_the_octaves_when_r_is_s),
         cmocka_unit_test(warped_noise_has_its_slopes_and_tiles),
-        cmocka_unit_test(spans_are_points_one_by_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -49,7 +49,6 @@ typedef struct WrPatch {
     bool outstanding; /* a requested moving picture has not arrived */
     bool held;        /* rotation is paused for painting */
     double wished_at, rest_at;
-    double still_since;
     /* for a drag */
     WrRotation from; /* the object's own rotation at the start */
     WrVec3 from_at;  /* its position and size at the start */
