@@ -1,4 +1,6 @@
-/* Splits a text into lines, and lines into parts by direction (Unicode's bidirectional algorithm). */
+/* Splits a text into lines, and lines into parts by direction (Unicode's bidirectional algorithm, by FriBidi).
+   libraqm would do this and shape too, but through FreeType's scaled font; here HarfBuzz shapes in font units
+   (font_free.c), and fonts without a shaper use the same parts. */
 #include "image/font_internal.h"
 
 #include "base/error.h"
