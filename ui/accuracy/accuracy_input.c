@@ -32,7 +32,6 @@
 #include "scene/dials.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
-#include "shade/bump.h"
 #include "system/clock.h"
 
 #include <SDL.h>

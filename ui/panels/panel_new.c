@@ -5,7 +5,6 @@
 #include "ui/state/action.h"
 #include "ui/state/line.h"
 #include "ui/toolkit/gui.h"
-#include "ui/toolkit/theme.h"
 #include "ui/jobs/files.h"
 #include "ui/panels/panels.h"
 

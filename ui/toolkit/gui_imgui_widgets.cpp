@@ -8,7 +8,6 @@
 #include <string.h>
 
 extern "C" {
-#include "system/clock.h"
 }
 
 #include <imgui_internal.h>
