@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-#define RUNS_LEAST 3
-#define RUNS_MOST 25
+#define RUNS_MIN 3
+#define MAX_RUNS 25
 #define SECONDS 0.5 /* minimum time for an effect's runs */
 
 /* One of the two alternating renderers. */
@@ -76,8 +76,8 @@ static WrEffects also_turned(const Measure *m, WrEffect effect)
 
 static int runs_of(double pair)
 {
-    const double runs = pair > 0 ? SECONDS / pair : RUNS_MOST;
-    return runs < RUNS_LEAST ? RUNS_LEAST : runs > RUNS_MOST ? RUNS_MOST : (int)runs;
+    const double runs = pair > 0 ? SECONDS / pair : MAX_RUNS;
+    return runs < RUNS_MIN ? RUNS_MIN : runs > MAX_RUNS ? MAX_RUNS : (int)runs;
 }
 
 /* One frame of each, alternating which comes first, so that drift of the machine favours neither. */
@@ -108,7 +108,7 @@ static bool measure_one(Measure *m, WrEffect effect, WrSaving *saving, WrError *
 {
     const WrPlanRow *planned = &m->planned.plan.rows[effect];
     const WrPlanRow *forced = &m->forced.plan.rows[effect];
-    double more[RUNS_MOST], as_planned[RUNS_MOST], as_forced[RUNS_MOST];
+    double more[MAX_RUNS], as_planned[MAX_RUNS], as_forced[MAX_RUNS];
     *saving = (WrSaving){ .run = planned->run, .tiles = planned->tiles, .pixels = planned->pixels };
     saving->why_not = why_not(planned, &wr_effects[effect]);
     if (saving->why_not) return true;

@@ -369,10 +369,10 @@ static bool measure(Pictures *p, WrIllusion *out, WrError *err)
 
 bool wr_illusion_measure(const WrIllusionRequest *request, WrIllusion *out, WrError *err)
 {
-    if (request->width < 1 || request->height < 1 || request->width > WR_ILLUSION_MOST ||
-        request->height > WR_ILLUSION_MOST)
+    if (request->width < 1 || request->height < 1 || request->width > WR_ILLUSION_MAX ||
+        request->height > WR_ILLUSION_MAX)
         return wr_fail(err, "a picture of %dx%d to compare: each side must be 1..%d",
-                       request->width, request->height, WR_ILLUSION_MOST);
+                       request->width, request->height, WR_ILLUSION_MAX);
     if (!any_to_move(request, err)) return false;
     WrIllusion made = { .width = request->width,
                         .height = request->height,

@@ -42,13 +42,13 @@ typedef struct WrIllusionRequest {
     const WrField *const *fields; /* as in WrFrameRequest; NULL: `field` for all objects */
     const WrField *field;
     const WrScene *scene;
-    int width, height; /* 1..WR_ILLUSION_MOST each */
+    int width, height; /* 1..WR_ILLUSION_MAX each */
     double turn_deg;
     int threads; /* 0: all */
     const char *isa;
     const WrProgress *progress; /* may be NULL */
 } WrIllusionRequest;
-#define WR_ILLUSION_MOST 2048
+#define WR_ILLUSION_MAX 2048
 
 /* Zero-initialise *out. Errors: those of frames and of the reference; nothing in the scene can be displaced. */
 bool wr_illusion_measure(const WrIllusionRequest *request, WrIllusion *out, WrError *err);

@@ -300,7 +300,7 @@ void wr_setting_print(const WrSetting *setting, WrText *text)
     wr_text_fini(&words);
 }
 
-#define RUNS_LEAST 3
+#define RUNS_MIN 3
 #define RUNS_MAX 64
 #define NOISE 1.02 /* an error must be smaller by more than this factor to justify more time */
 
@@ -389,8 +389,7 @@ static bool time_rungs(const WrBench *bench, WrScene **scenes, WrLadder *ladder,
     bool good = true;
     for (; good && done < runs; done++) {
         const double spent = wr_clock_seconds() - start;
-        if (request->budget > 0 && done >= RUNS_LEAST &&
-            spent * (done + 1) / done > request->budget)
+        if (request->budget > 0 && done >= RUNS_MIN && spent * (done + 1) / done > request->budget)
             break;
         for (int i = 0; good && i < ladder->count; i++) {
             WrRung *rung = &ladder->rungs[i];

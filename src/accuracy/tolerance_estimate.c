@@ -499,7 +499,7 @@ void wr_study_fini(Study *study)
 
 /* One inside of this many is rendered at 2 x 2, to calibrate the predictions of the others. */
 #define LOOKED_AT 10
-#define LOOKED_LEAST 12
+#define LOOKED_MIN 12
 #define LIVELIER 16.0 /* ratio of predicted squares from which a neighbour counts as lively */
 #define LIVELIEST 6   /* in root mean squares: predicted largest error of a block's pixels */
 
@@ -605,7 +605,7 @@ static int by_off(const void *a, const void *b)
 /* Adds every n-th block, from calm to lively, to the mask, including the liveliest. */
 static void look_at_some(Study *study, Inside *list, int64_t count)
 {
-    const int64_t wanted = count / LOOKED_AT > LOOKED_LEAST ? count / LOOKED_AT : LOOKED_LEAST;
+    const int64_t wanted = count / LOOKED_AT > LOOKED_MIN ? count / LOOKED_AT : LOOKED_MIN;
     qsort(list, (size_t)count, sizeof *list, by_off);
     for (int64_t i = 0; i < wanted; i++)
         study->mask[list[count - 1 - i * count / wanted].block] = 1;
@@ -746,7 +746,7 @@ bool wr_study_take_best(Study *study, WrError *err)
 bool wr_study_survey(Study *study, const WrTolerance *tolerance, WrError *err)
 {
     const int64_t count = find_insides(study, tolerance);
-    const bool some = count > (int64_t)LOOKED_LEAST;
+    const bool some = count > (int64_t)LOOKED_MIN;
     Inside *list = wr_alloc((size_t)count + 1, sizeof *list);
     int64_t n = 0;
     for (int64_t b = 0; b < study->count; b++)
@@ -769,18 +769,18 @@ bool wr_study_survey(Study *study, const WrTolerance *tolerance, WrError *err)
      noise finer than the samples, p = 1   1/5;   smooth, p = 2   1/9, and the coarser 16/9.
    The fall of c from one step to the next distinguishes them roughly: by 8, by 4, by 16. */
 #define FINER 0.18
-#define COARSER_LEAST 1.0
-#define COARSER_MOST 1.8
+#define COARSER_MIN 1.0
+#define COARSER_MAX 1.8
 #define FALL 8.0 /* of c from one step to the next: assumed for prediction ... */
-#define FALL_MOST                                                                                  \
+#define FALL_MAX                                                                                   \
     2.0 /* ... and for the largest of many pixels, which falls more slowly than the mean */
 #define FELL 14.0 /* largest credible fall: a smaller step than that is chance */
-#define FELL_MOST 3.0
+#define FELL_MAX 3.0
 static const double finer_most[LEVELS] = { 0, 0.85, 0.85, 0.75, 0.7 };
 
 /* The actual errors of blocks that climbed correct the estimates of the others: from this number on, within
    these bounds. */
-#define LEARNT_LEAST 6
+#define LEARNT_MIN 6
 #define LEARNT_LOW 0.4
 #define LEARNT_HIGH 4.0
 
@@ -795,7 +795,7 @@ static const int probe_level[PROBED] = { 2, 3, 3 };
 #define FEW 4       /* with fewer probes a ratio is uncertain: only large deviations count */
 #define FAR 2.0
 #define LEAST_WEIGHT 0.7
-#define MOST_WEIGHT 1000.0
+#define MAX_WEIGHT 1000.0
 #define WORSE 1.15 /* a larger factor requires a new pick */
 
 /* ---- error of a block ---- */
@@ -813,13 +813,13 @@ static Change times(Change a, double squares, double most)
 /* At a level: by the step to it, but at least the prediction of the steps before. */
 static Change predicted(const Block *block, int level)
 {
-    if (level == 0) return times(block->change[1], COARSER_LEAST, 1);
+    if (level == 0) return times(block->change[1], COARSER_MIN, 1);
     Change off = block->step[level];
     double fall = FINER, fall_most = finer_most[level];
     for (int n = level; n >= 1; n--) {
         off = larger(off, times(block->change[n], fall, fall_most));
         fall /= FELL;
-        fall_most /= FELL_MOST;
+        fall_most /= FELL_MAX;
     }
     return off;
 }
@@ -828,14 +828,14 @@ static Change predicted(const Block *block, int level)
 static double coarser(const Block *block, int level)
 {
     const double before = block->change[level].squares, after = block->change[level + 1].squares;
-    if (level == 0 || !(after > 0)) return COARSER_LEAST;
-    return fmax(COARSER_LEAST, fmin(COARSER_MOST, before / after / 9));
+    if (level == 0 || !(after > 0)) return COARSER_MIN;
+    return fmax(COARSER_MIN, fmin(COARSER_MAX, before / after / 9));
 }
 
 /* Prediction `above` levels higher, from the error here. */
 static Change off_above(Change here, int above)
 {
-    return times(here, pow(1 / FALL, above), pow(1 / FALL_MOST, above));
+    return times(here, pow(1 / FALL, above), pow(1 / FALL_MAX, above));
 }
 
 /* At its own level, corrected by the results of others of its kind. */
@@ -844,7 +844,7 @@ static Change off_here(const Study *study, const Block *block)
     const int level = block->level;
     const Learnt *learnt = &study->learnt[level][block->edge];
     const Change off = predicted(block, level);
-    if (learnt->blocks < LEARNT_LEAST || !(learnt->predicted > 0)) return off;
+    if (learnt->blocks < LEARNT_MIN || !(learnt->predicted > 0)) return off;
     const double caution = 1 + 1 / sqrt((double)learnt->blocks);
     const double right = caution * learnt->measured / learnt->predicted;
     return times(off, fmax(LEARNT_LOW, fmin(LEARNT_HIGH, right)), 1);
@@ -1072,7 +1072,7 @@ static bool probe_pick(Study *study, int pick, bool *worse, WrError *err)
     Doubt *doubt = &study->doubt[pick];
     doubt->blocks = count;
     const double factor = cautious(&ratio), before = doubt->weight;
-    doubt->weight = fmax(LEAST_WEIGHT, fmin(MOST_WEIGHT, before * factor));
+    doubt->weight = fmax(LEAST_WEIGHT, fmin(MAX_WEIGHT, before * factor));
     doubt->weight_most *= fmax(1, ratio.most);
     *worse = *worse || factor > WORSE || ratio.most > WORSE;
     return true;

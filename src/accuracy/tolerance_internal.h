@@ -144,7 +144,7 @@ double wr_price_pass(int64_t pixels);
 /* Kinds of blocks for descriptions: outlines, and insides by the size of the change by 2 x 2 samples. A part's
    `kinds` has two bits for each. */
 enum { KIND_EDGE, KIND_CALM, KIND_RELIEF, KIND_ROUGH, KIND_COUNT };
-enum { HAS_NONE, HAS_SOME, HAS_MOST, HAS_ALL };
+enum { HAS_NONE, HAS_SOME, HAS_MAX, HAS_ALL };
 #define KIND_BITS 2
 
 #define PARTS_MAX (PAIRS_MAX * LEVELS)

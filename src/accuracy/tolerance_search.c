@@ -352,7 +352,7 @@ static unsigned kinds_of(const Study *study, int setting)
     for (int k = 0; k < KIND_COUNT; k++) {
         const unsigned has = here[k] == 0           ? HAS_NONE
                              : here[k] == all[k]    ? HAS_ALL
-                             : 2 * here[k] > all[k] ? HAS_MOST
+                             : 2 * here[k] > all[k] ? HAS_MAX
                                                     : HAS_SOME;
         kinds |= has << (KIND_BITS * k);
     }
@@ -529,7 +529,7 @@ int64_t wr_frame_covered(const WrFrame *frame)
 
 #define RUNS 7
 #define SIDE 256
-#define KEPT_MOST 4096 /* maximum bytes of the file */
+#define KEPT_MAX 4096 /* maximum bytes of the file */
 
 /* $WRINKLE_STATE/speed if that is set, else $XDG_CACHE_HOME/wrinkle/speed, else ~/.cache/wrinkle/speed; creates
    its folder. False: there is no place to store it. */
@@ -621,7 +621,7 @@ static bool price_seconds(WrRenderer *renderer, double *out, WrError *err)
     size_t length;
     const bool kept = find_file(&path);
     name_line(renderer, &line);
-    if (!kept || !wr_file_read(wr_text_get(&path), KEPT_MOST, &text, &length, NULL)) text = NULL;
+    if (!kept || !wr_file_read(wr_text_get(&path), KEPT_MAX, &text, &length, NULL)) text = NULL;
     double value = text ? find_line(text, wr_text_get(&line)) : 0;
     bool good = value > 0 || measure(renderer, &value, err);
     if (good && kept && !(text && find_line(text, wr_text_get(&line)) > 0))
@@ -639,7 +639,7 @@ static bool price_seconds(WrRenderer *renderer, double *out, WrError *err)
    most expensive setting of any. Frames between those are tested, where the error is estimated at a fraction of
    a frame's cost. */
 
-#define STUDIED_MOST 4  /* frames for which dials are chosen ... */
+#define STUDIED_MAX 4   /* frames for which dials are chosen ... */
 #define STUDIED_SHARE 4 /* ... and at most one of this many */
 #define LOOKED_SHARE 8  /* one of this many of each part's blocks is tested */
 #define COARSER_LOOK                                                                               \
@@ -864,7 +864,7 @@ static bool check(Turn *turn, double turn_deg, WrError *err)
     return true;
 }
 
-static void say_turn(Turn *turn, int count, double spent)
+static void print_turn(Turn *turn, int count, double spent)
 {
     const WrTolerance *tolerance = &turn->request.scene->tolerance;
     WrChoice *choice = &turn->choice;
@@ -896,7 +896,7 @@ bool wr_tolerance_turn(WrRenderer *renderer, const WrFrameRequest *request, cons
     Turn turn = { .renderer = renderer, .request = *request };
     const double start = wr_clock_seconds();
     const int share = count / STUDIED_SHARE;
-    const int studied = share < 1 ? 1 : share < STUDIED_MOST ? share : STUDIED_MOST;
+    const int studied = share < 1 ? 1 : share < STUDIED_MAX ? share : STUDIED_MAX;
     bool good = true;
     for (int i = 0; good && i < studied; i++)
         good = study(&turn, turn_deg[(int64_t)i * count / studied], err);
@@ -911,7 +911,7 @@ bool wr_tolerance_turn(WrRenderer *renderer, const WrFrameRequest *request, cons
     }
     turn.choice.turning = true;
     turn.choice.studies = turn.studied;
-    say_turn(&turn, count, wr_clock_seconds() - start);
+    print_turn(&turn, count, wr_clock_seconds() - start);
     wr_choice_fini(out);
     *out = turn.choice;
     return true;
@@ -1057,7 +1057,7 @@ static bool holds(const WrTolerance *tolerance, const WrChoice *choice)
     return true;
 }
 
-static void say_reason(const WrTolerance *tolerance, WrChoice *out)
+static void print_reason(const WrTolerance *tolerance, WrChoice *out)
 {
     char more[160];
     snprintf(more, sizeof more,
@@ -1086,7 +1086,7 @@ static void tell(const Study *study, const WrTolerance *tolerance, double start,
     out->top_seconds = pace * top_cost(study);
     out->spent = wr_clock_seconds() - start;
     out->met = holds(tolerance, out);
-    say_reason(tolerance, out);
+    print_reason(tolerance, out);
 }
 
 /* ---- interface ---- */

@@ -13,9 +13,9 @@
 #include <string.h>
 
 #define FORMAT '2'
-#define FORMAT_WIDE '1'         /* with blocks of twice the side; only read */
-#define BLOCKS_MOST (256 << 10) /* bytes */
-#define SIDE_MOST 65536         /* pixels */
+#define FORMAT_WIDE '1'        /* with blocks of twice the side; only read */
+#define BLOCKS_MAX (256 << 10) /* bytes */
+#define MAX_SIDE 65536         /* pixels */
 _Static_assert(PARTS_MAX <= 26, "every part has a letter");
 
 typedef struct WrittenPart {
@@ -79,7 +79,7 @@ static void add_parts(const WrChoice *choice, WrText *text)
     WrText blocks = { 0 };
     add_blocks(choice->part_of, count, &blocks);
     wr_text_add(text, " parts=");
-    if (blocks.length <= BLOCKS_MOST) {
+    if (blocks.length <= BLOCKS_MAX) {
         for (int i = 0; i < choice->count; i++) {
             if (i > 0) wr_text_add(text, ";");
             add_part(&choice->parts[i], text);
@@ -237,8 +237,8 @@ static const char *parse(const char *text, Written *out)
     if ((*p != FORMAT && *p != FORMAT_WIDE) || p[1] != ' ') return "version";
     out->wide = *p == FORMAT_WIDE;
     p += 2;
-    if (!take_whole(&p, "", 'x', 1, SIDE_MOST, &out->width) ||
-        !take_whole(&p, "", ' ', 1, SIDE_MOST, &out->height))
+    if (!take_whole(&p, "", 'x', 1, MAX_SIDE, &out->width) ||
+        !take_whole(&p, "", ' ', 1, MAX_SIDE, &out->height))
         return "size";
     if (!take_turn(&p, out)) return "turn";
     if (!take_hash(&p, "table=", out->table)) return "table";

@@ -99,7 +99,7 @@ size_t wr_file_peek(const char *path, void *bytes, size_t count)
 {
     WrError err;
     uint64_t length;
-    int fd = wr_file_open(path, WR_FILE_MOST, &length, &err);
+    int fd = wr_file_open(path, WR_FILE_MAX, &length, &err);
     if (fd < 0) return 0;
     int64_t n = wr_fd_read_at(fd, bytes, count < length ? count : (size_t)length, 0);
     wr_fd_close(fd);

@@ -12,7 +12,7 @@ typedef struct WrText WrText;
 
 /* ---- files named by people, scripts or other files ---- */
 
-#define WR_FILE_MOST ((uint64_t)64 << 30) /* bytes; limit of a file that has no other limit */
+#define WR_FILE_MAX ((uint64_t)64 << 30) /* bytes; limit of a file that has no other limit */
 
 /* Opens a file, or the target of a link, for reading. All files from outside are opened by this
  * function. Other kinds (device, pipe, socket, folder) are rejected with an error that names the kind;

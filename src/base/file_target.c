@@ -548,7 +548,7 @@ bool wr_file_write(const char *path, const void *bytes, size_t length, WrError *
 #define LIST_ENDING "together"
 #define LIST_FIRST "files that belong together\n"
 #define LIST_LAST "/\n"
-#define LIST_MOST 65536 /* bytes */
+#define LIST_MAX 65536 /* bytes */
 
 typedef struct Member {
     char *temporary, *path; /* owned */
@@ -819,8 +819,8 @@ static void file_group_finish(const char *folder, WrFolder *dir, const char *nam
     if (length < ending || strcmp(name + length - ending, ".part." LIST_ENDING) != 0) return;
     int fd = wr_folder_open_unheld(dir, name);
     if (fd < 0) return;
-    char *text = wr_alloc(LIST_MOST + 1, 1);
-    int64_t have = wr_fd_read(fd, text, LIST_MOST);
+    char *text = wr_alloc(LIST_MAX + 1, 1);
+    int64_t have = wr_fd_read(fd, text, LIST_MAX);
     if (have > 0) finish_all(folder, dir, file_owner(name), text);
     wr_free(text);
     wr_fd_close(fd);

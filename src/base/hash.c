@@ -82,7 +82,7 @@ void wr_sha256_bytes(const void *bytes, size_t count, char hex[65])
 bool wr_sha256_file(const char *path, char hex[65], WrError *err)
 {
     uint64_t left;
-    int fd = wr_file_open(path, WR_FILE_MOST, &left, err);
+    int fd = wr_file_open(path, WR_FILE_MAX, &left, err);
     if (fd < 0) return false;
     uint8_t block[65536], digest[SHA256_DIGEST_LENGTH];
     SHA2_CTX ctx;

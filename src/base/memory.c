@@ -14,11 +14,11 @@
 #define PAGED ((size_t)33 << 20)
 #define PAGE ((size_t)2 << 20)
 /* Range of block sizes, in bytes, that are cached after wr_free. */
-#define KEPT_LEAST ((size_t)4 << 20)
+#define KEPT_MIN ((size_t)4 << 20)
 #ifdef __SANITIZE_ADDRESS__
-#define KEPT_MOST ((size_t)0) /* no cache: the sanitizer must detect any use after free */
+#define KEPT_MAX ((size_t)0) /* no cache: the sanitizer must detect any use after free */
 #else
-#define KEPT_MOST ((size_t)128 << 20)
+#define KEPT_MAX ((size_t)128 << 20)
 #endif
 #define KEPT 2 /* cached blocks */
 
@@ -72,7 +72,7 @@ static void *aligned(size_t bytes, bool zeroed)
     if (bytes > SIZE_MAX - align - sizeof(Head)) return NULL;
     size_t whole = bytes + align + sizeof(Head);
     char *raw = zeroed ? calloc(1, whole) : malloc(whole);
-    if (!raw && whole >= KEPT_LEAST) { /* cached blocks may be using the memory that is missing */
+    if (!raw && whole >= KEPT_MIN) { /* cached blocks may be using the memory that is missing */
         wr_memory_trim();
         raw = zeroed ? calloc(1, whole) : malloc(whole);
     }
@@ -157,7 +157,7 @@ static void *keep(void *block)
 void *wr_try_alloc_unset(size_t count, size_t size, const char *what, WrError *err)
 {
     size_t bytes;
-    if (__builtin_mul_overflow(count, size, &bytes) || bytes < KEPT_LEAST || bytes > KEPT_MOST)
+    if (__builtin_mul_overflow(count, size, &bytes) || bytes < KEPT_MIN || bytes > KEPT_MAX)
         return wr_try_alloc(count, size, what, err);
     void *block = take_kept(bytes);
     if (block) {

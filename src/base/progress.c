@@ -3,7 +3,7 @@
 static _Thread_local const WrProgress *here;
 static _Thread_local int64_t checks;
 
-bool wr_cancel_asked(const volatile int *cancel)
+bool wr_cancel_requested(const volatile int *cancel)
 {
     return cancel && __atomic_load_n(cancel, __ATOMIC_RELAXED) != 0;
 }
@@ -11,7 +11,7 @@ bool wr_cancel_asked(const volatile int *cancel)
 /* Not inline: a test replaces these functions to measure the time between two checks. */
 bool wr_progress_cancelled(const WrProgress *progress)
 {
-    return progress && wr_cancel_asked(progress->cancel);
+    return progress && wr_cancel_requested(progress->cancel);
 }
 
 bool wr_progress_step(const WrProgress *progress, double fraction)

@@ -16,7 +16,7 @@ typedef struct WrProgress {
 } WrProgress;
 
 /* True if *cancel is nonzero, set by any thread or signal handler. NULL: false. */
-bool wr_cancel_asked(const volatile int *cancel);
+bool wr_cancel_requested(const volatile int *cancel);
 /* True if the work was cancelled. Any thread. */
 bool wr_progress_cancelled(const WrProgress *progress);
 

@@ -121,7 +121,7 @@ void *wr_slab_take(WrSlabs *slabs)
     return wr_alloc_unset(1, slabs->bytes);
 }
 
-void wr_slab_give(WrSlabs *slabs, void *piece)
+void wr_slab_free(WrSlabs *slabs, void *piece)
 {
     (void)slabs, (void)give;
     wr_free(piece);
@@ -137,7 +137,7 @@ void *wr_slab_take(WrSlabs *slabs)
     return piece;
 }
 
-void wr_slab_give(WrSlabs *slabs, void *piece)
+void wr_slab_free(WrSlabs *slabs, void *piece)
 {
     if (!piece) return;
     wr_mutex_lock(&slabs->lock);

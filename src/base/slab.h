@@ -23,7 +23,7 @@ typedef struct WrSlabs {
 void *wr_slab_take(WrSlabs *slabs);
 /* Frees a piece of the same slabs; NULL does nothing. Some empty blocks are cached for reuse, because
  * the system clears fresh pages; the others return to the system. */
-void wr_slab_give(WrSlabs *slabs, void *piece);
+void wr_slab_free(WrSlabs *slabs, void *piece);
 /* Returns the cached empty blocks to the system. Any thread; pieces in use are unchanged. */
 void wr_slab_trim(WrSlabs *slabs);
 

@@ -21,8 +21,8 @@
    black pixels beside one stay exactly black. */
 
 #define WR_SMOOTH_LEVELS 8
-#define WR_SMOOTH_MOST 24 /* maximum steps of diffusion for each level */
-#define WR_SMOOTH_LEAST 6
+#define WR_SMOOTH_MAX 24 /* maximum steps of diffusion for each level */
+#define WR_SMOOTH_MIN 6
 #define WR_SMOOTH_WORK (1 << 27) /* pixels times steps, above which fewer steps are used */
 #define WR_SMOOTH_STAIR 1.5f     /* codes; larger differences are edges */
 
@@ -200,8 +200,8 @@ bool wr_tip_smooth(float *values, int width, int height, WrError *err)
     Picture given = { values, width, height };
     float *rows = wr_try_alloc((size_t)width * 3, sizeof *rows, "smoothing a brush tip", err);
     int last = 0, steps = WR_SMOOTH_WORK / (width * height);
-    steps = steps < WR_SMOOTH_LEAST ? WR_SMOOTH_LEAST : steps;
-    steps = steps > WR_SMOOTH_MOST ? WR_SMOOTH_MOST : steps;
+    steps = steps < WR_SMOOTH_MIN ? WR_SMOOTH_MIN : steps;
+    steps = steps > WR_SMOOTH_MAX ? WR_SMOOTH_MAX : steps;
     bool good = rows && picture_new(&codes[0], width, height, err);
     if (good) punch(&given, &codes[0]);
     while (good && last < WR_SMOOTH_LEVELS && (codes[last].width > 1 || codes[last].height > 1)) {

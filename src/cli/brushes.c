@@ -326,7 +326,7 @@ static bool fill_sheet(const WrCli *cli, Sheet *sheet, const WrBrushList *list,
                                                              : NULL;
         if (good) draw_name(sheet, entry, why, x, y);
         wr_preset_free(preset);
-        if (good && wr_cancel_asked(cli->cancel)) good = wr_fail(err, "cancelled");
+        if (good && wr_cancel_requested(cli->cancel)) good = wr_fail(err, "cancelled");
     }
     note_progress(list->count, list->count);
     wr_free(sample);
@@ -396,7 +396,7 @@ static bool brushes_thumbnails(const WrCli *cli, const WrBrushList *list, const 
                                      sample, err);
         wr_preset_free(preset);
         wr_free(path);
-        if (good && wr_cancel_asked(cli->cancel)) good = wr_fail(err, "cancelled");
+        if (good && wr_cancel_requested(cli->cancel)) good = wr_fail(err, "cancelled");
     }
     note_progress(list->count, list->count);
     wr_text_fini(&name);
@@ -411,19 +411,19 @@ static bool brushes_thumbnails(const WrCli *cli, const WrBrushList *list, const 
 
 typedef void Tell(WrText *text, const char *name, double value);
 
-static void tell_line(WrText *text, const char *name, double value)
+static void report_line(WrText *text, const char *name, double value)
 {
     char number[WR_NUMBER_SIZE];
     wr_text_addf(text, "    %-14s %s\n", name, wr_number_print(value, number));
 }
 
-static void tell_json(WrText *text, const char *name, double value)
+static void report_json(WrText *text, const char *name, double value)
 {
     wr_text_addf(text, ",\"%s\":", name);
     wr_text_add_json_number(text, value);
 }
 
-static void tell_numbers(const WrBrush *brush, Tell *tell, WrText *text)
+static void report_numbers(const WrBrush *brush, Tell *tell, WrText *text)
 {
     unsigned uses = wr_brush_modes[brush->mode].uses;
     tell(text, "radius", brush->radius);
@@ -494,7 +494,7 @@ static void setting_json(const WrPreset *preset, int index, WrText *text)
 
 /* ---- whole description ---- */
 
-static void tell_text(const WrPresetEntry *entry, const WrPreset *preset, WrText *text)
+static void report_text(const WrPresetEntry *entry, const WrPreset *preset, WrText *text)
 {
     const WrBrush brush = wr_preset_brush(preset);
     const WrTip *tip = wr_preset_tip(preset);
@@ -509,43 +509,43 @@ static void tell_text(const WrPresetEntry *entry, const WrPreset *preset, WrText
     if (wr_preset_is_colour_only(preset))
         wr_text_add(text, "  changes colours alone: nothing for heights\n");
     wr_text_addf(text, "  brush\n    %-14s %s\n", "mode", wr_brush_modes[brush.mode].name);
-    tell_numbers(&brush, tell_line, text);
+    report_numbers(&brush, report_line, text);
     settings_lines(preset, WR_SETTING_USED, "settings, as MyPaint means them", text);
     settings_lines(preset, WR_SETTING_MAPPED, "settings that mean something for heights instead",
                    text);
     settings_lines(preset, WR_SETTING_IGNORED, "settings that are left out: colour", text);
 }
 
-static void tell_flag(WrText *text, const char *name, bool value)
+static void report_flag(WrText *text, const char *name, bool value)
 {
     wr_text_addf(text, ",\"%s\":%s", name, value ? "true" : "false");
 }
 
-static void tell_string(WrText *text, const char *name, const char *value)
+static void report_string(WrText *text, const char *name, const char *value)
 {
     wr_text_addf(text, ",\"%s\":", name);
     if (value) wr_text_add_json_string(text, value);
     else wr_text_add(text, "null");
 }
 
-static void tell_object(const WrPresetEntry *entry, const WrPreset *preset, WrText *text)
+static void report_object(const WrPresetEntry *entry, const WrPreset *preset, WrText *text)
 {
     const WrBrush brush = wr_preset_brush(preset);
     wr_text_add(text, "{\"id\":");
     wr_text_add_json_string(text, entry->id);
-    tell_string(text, "name", entry->name);
-    tell_string(text, "collection", entry->collection);
-    tell_string(text, "group", entry->group);
-    tell_string(text, "file", entry->path);
-    tell_string(text, "picture", entry->picture);
-    tell_string(text, "description", wr_preset_description(preset));
-    tell_flag(text, "smudges", wr_preset_smudges(preset));
-    tell_flag(text, "sprays", wr_preset_sprays(preset));
-    tell_flag(text, "colour_only", wr_preset_is_colour_only(preset));
-    tell_flag(text, "tip", wr_preset_tip(preset) != NULL);
+    report_string(text, "name", entry->name);
+    report_string(text, "collection", entry->collection);
+    report_string(text, "group", entry->group);
+    report_string(text, "file", entry->path);
+    report_string(text, "picture", entry->picture);
+    report_string(text, "description", wr_preset_description(preset));
+    report_flag(text, "smudges", wr_preset_smudges(preset));
+    report_flag(text, "sprays", wr_preset_sprays(preset));
+    report_flag(text, "colour_only", wr_preset_is_colour_only(preset));
+    report_flag(text, "tip", wr_preset_tip(preset) != NULL);
     wr_text_addf(text, ",\"brush\":{\"mode\":\"%s\"", wr_brush_modes[brush.mode].name);
-    tell_numbers(&brush, tell_json, text);
-    tell_flag(text, "buildup", brush.buildup);
+    report_numbers(&brush, report_json, text);
+    report_flag(text, "buildup", brush.buildup);
     wr_text_add(text, "},\"settings\":[");
     for (int i = 0, any = 0; i < wr_preset_setting_count(); i++) {
         if (!is_told(preset, i)) continue;
@@ -559,8 +559,8 @@ static void tell_object(const WrPresetEntry *entry, const WrPreset *preset, WrTe
 static void brushes_report(const WrPresetEntry *entry, const WrPreset *preset, bool json,
                            WrText *text)
 {
-    if (json) tell_object(entry, preset, text);
-    else tell_text(entry, preset, text);
+    if (json) report_object(entry, preset, text);
+    else report_text(entry, preset, text);
 }
 
 /* ---- cmd brushes ---- */
@@ -652,7 +652,7 @@ static void list_lines(const WrBrushList *list, WrText *text)
     }
 }
 
-static bool tell_each(const WrCli *cli, const WrBrushList *list, WrText *text, WrError *err)
+static bool report_each(const WrCli *cli, const WrBrushList *list, WrText *text, WrError *err)
 {
     for (int i = 0; i < list->count; i++) {
         WrPreset *preset = wr_preset_read(list->entry[i]->path, list->entry[i]->id, err);
@@ -691,7 +691,7 @@ static bool answer(const WrCli *cli, const WrBrushList *list, WrText *text, WrEr
     if (cli->thumbnails && !brushes_thumbnails(cli, list, cli->thumbnails, err)) return false;
     if (cli->settings) settings_table(text);
     if (cli->sheet || cli->thumbnails || cli->settings) return true;
-    if (cli->word_count > 0 || cli->json) return tell_each(cli, list, text, err);
+    if (cli->word_count > 0 || cli->json) return report_each(cli, list, text, err);
     list_lines(list, text);
     return true;
 }

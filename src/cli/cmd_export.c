@@ -194,7 +194,7 @@ static int export_once(const WrCli *cli, Last *last)
 
 static bool is_cancelled(const WrCli *cli)
 {
-    return wr_cancel_asked(cli->cancel);
+    return wr_cancel_requested(cli->cancel);
 }
 
 /* True if the file or one of its inputs has changed. A missing input, as during its replacement, counts when it is

@@ -324,7 +324,7 @@ static bool inspect_input(const WrCli *cli, const WrDocument *document, const Wr
 {
     char line[256];
     for (int number = 1; fgets(line, sizeof line, stdin); number++) {
-        if (wr_cancel_asked(cli->cancel)) return wr_fail(err, "cancelled");
+        if (wr_cancel_requested(cli->cancel)) return wr_fail(err, "cancelled");
         line[strcspn(line, "\r\n")] = '\0';
         if (*line && !inspect_one(cli, document, noise, line, text, err)) {
             wr_error_prefix(err, "--at -: line %d: ", number);

@@ -95,7 +95,7 @@ static void print_notes(const WrText *text)
 }
 
 /* Recovery was incomplete: the journal stays; print the options for it. */
-static bool tell_rest(const char *word, WrRecovered *recovered, WrError *err)
+static bool report_rest(const char *word, WrRecovered *recovered, WrError *err)
 {
     WrText *report = &recovered->report;
     if (recovered->more)
@@ -125,7 +125,7 @@ static bool recover_one(const WrCli *cli, const char *journal, const char *path,
     wr_cli_report_end();
     if (!good && wr_progress_stopped())
         wr_text_addf(&recovered.report, "%s was kept whole: recover it another time\n", journal);
-    if (good && !recovered.whole) good = tell_rest(cli->words[0], &recovered, err);
+    if (good && !recovered.whole) good = report_rest(cli->words[0], &recovered, err);
     print_notes(&recovered.report);
     wr_recovered_fini(&recovered);
     wr_session_free(session);

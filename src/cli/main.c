@@ -20,7 +20,7 @@ static void on_interrupt(void)
 
 int wr_cli_fail(const WrCli *cli, int status, const WrError *err)
 {
-    bool stopped = wr_cancel_asked(cli->cancel) && status == WR_EXIT_FAILED;
+    bool stopped = wr_cancel_requested(cli->cancel) && status == WR_EXIT_FAILED;
     wr_cli_report_end();
     fprintf(stderr, "wrinkle: %s\n", stopped ? "interrupted" : err->text);
     return stopped ? WR_EXIT_INTERRUPTED : status;

@@ -167,7 +167,7 @@ static WrImage *find_picture(WrSession *session, WrCall *call, const char *name,
     WrImageRequest wish = wr_call_request(call);
     wish.keep_lost = true;
     WrImage *image = NULL;
-    if (wr_session_check_sha256(call, path, err)) image = wr_image_read_wish(path, &wish, err);
+    if (wr_session_check_sha256(call, path, err)) image = wr_image_read_request(path, &wish, err);
     if (image) wr_session_note_read(session, path, image);
     wr_free(path);
     return image;

@@ -12,8 +12,8 @@
 
 /* ---- error messages for lines that do not parse ---- */
 
-#define NAMED_MOST 3 /* arguments that one message suggests */
-#define FORMS_MOST 2 /* forms of other commands in one message */
+#define NAMED_MAX 3 /* arguments that one message suggests */
+#define FORMS_MAX 2 /* forms of other commands in one message */
 
 /* ---- lists of names ---- */
 
@@ -54,11 +54,11 @@ static const char *joint(int i, int count)
    many. */
 static bool add_commands_of_form(const char *name, WrText *text)
 {
-    int found[FORMS_MOST], count = 0;
+    int found[FORMS_MAX], count = 0;
     WrForm form;
     for (int i = 0; i < wr_command_count; i++)
         if (wr_commands[i]->form && wr_command_form(wr_commands[i], name, &form) >= 0) {
-            if (count == FORMS_MOST) return false;
+            if (count == FORMS_MAX) return false;
             found[count++] = i;
         }
     for (int k = 0; k < count; k++)
@@ -105,7 +105,7 @@ static bool add_forms_of_argument(const WrCommand *command, const char *name, si
     WrForm form;
     WrArgSpec specs[WR_ARGS_MAX];
     int found = 0;
-    for (int i = 0; found < FORMS_MOST && command->form(i, &form); i++) {
+    for (int i = 0; found < FORMS_MAX && command->form(i, &form); i++) {
         int count = wr_command_specs(command, i, specs);
         for (int k = 0; k < count; k++)
             if (!specs[k].positional && strlen(specs[k].name) == length &&
@@ -229,10 +229,10 @@ static bool belongs_to_name(const WrCall *call, const char *value)
     return best_rank(call, value) <= RANK_NUMBERS;
 }
 
-/* "height=0.1 or width=0.1": the first `most` arguments of that rank, at most NAMED_MOST. */
+/* "height=0.1 or width=0.1": the first `most` arguments of that rank, at most NAMED_MAX. */
 static void add_named(const WrCall *call, const char *value, Rank rank, int most, WrText *text)
 {
-    int found[NAMED_MOST], count = 0;
+    int found[NAMED_MAX], count = 0;
     for (int i = 0; i < call->count && count < most; i++)
         if (rank_of(call, i, value) == rank) found[count++] = i;
     for (int k = 0; k < count; k++) {
@@ -319,7 +319,7 @@ static bool fail_extra(const WrCall *call, const WrArg *last, const char *value,
         wr_fail(err, "%s: \"%s\" is one value too many: a text with spaces goes in quotes: %s",
                 wr_text_get(&title), excerpt, wr_text_get(&right));
     } else if (rank < RANK_NONE && *value) {
-        add_named(call, value, rank, NAMED_MOST, &right);
+        add_named(call, value, rank, NAMED_MAX, &right);
         wr_fail(err, "%s: \"%s\" needs a name: did you mean %s? It takes %s", wr_text_get(&title),
                 excerpt, wr_text_get(&right), wr_text_get(&names));
     } else if (names.length) {

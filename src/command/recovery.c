@@ -117,7 +117,7 @@ static bool check_hash(const WrSession *session, const WrHash *hash, const char 
 }
 
 /* Load the state before the journal's first command. If the first line is damaged, this is a guess. */
-static bool bring_start(Replay *r, WrError *err)
+static bool update_start(Replay *r, WrError *err)
 {
     static const WrHash none;
     const WrJournalStart *start = &r->read->start;
@@ -148,7 +148,7 @@ static bool bring_start(Replay *r, WrError *err)
 }
 
 /* Load the last saved file, if its content is unchanged. */
-static bool bring_saved(Replay *r, WrError *err)
+static bool update_saved(Replay *r, WrError *err)
 {
     const WrJournalSave *saved = &r->read->saved;
     return wr_session_load(r->session, saved->path, err) &&
@@ -296,7 +296,7 @@ static bool replay(Replay *r, bool from_saved, WrError *err)
     r->session->opening = true;
     WrProgressPart part;
     const WrProgress *whole = wr_progress_enter(&part, 0.0, START_PART);
-    bool good = from_saved ? bring_saved(r, err) : bring_start(r, err);
+    bool good = from_saved ? update_saved(r, err) : update_start(r, err);
     wr_progress_set(whole);
     if (good) wr_session_rebase(r->session);
     r->end = r->beyond ? read->total : wr_journal_sound_end(read, r->from, r->known);

@@ -146,11 +146,11 @@ void wr_session_set_journal(WrSession *session, bool journal);
 /* True if every command so far can be recovered after a crash, or no journal is kept. Else *reason is the cause (""
    if safe; valid until the next call). */
 bool wr_session_journal_safe(const WrSession *session, const char **reason);
-/* True if wr_session_journal_tend has work to do. */
-bool wr_session_journal_wants(const WrSession *session);
+/* True if wr_session_journal_compact has work to do. */
+bool wr_session_journal_needs_compacting(const WrSession *session);
 /* Idle-time upkeep: restart the journal from a snapshot if it has grown long, or if lines are missing because the
    disk was full. May take as long as a save. True if it did something. */
-bool wr_session_journal_tend(WrSession *session);
+bool wr_session_journal_compact(WrSession *session);
 /* Keep the journal for recovery when the session ends (its work could not be saved). */
 void wr_session_journal_leave(WrSession *session);
 

@@ -41,7 +41,8 @@ WrImage *wr_input_image(const char *path, const WrImageRequest *wish, WrError *e
     int index;
     char *bytes;
     WrText name = { 0 };
-    if (!wr_gltf_names_picture(path, &length, &index)) return wr_image_read_wish(path, wish, err);
+    if (!wr_gltf_names_picture(path, &length, &index))
+        return wr_image_read_request(path, wish, err);
     if (wish->channel || wish->part) {
         wr_fail(err, "%s: channel= and part= are of picture files, not of pictures in a glTF",
                 path);
@@ -186,7 +187,7 @@ static bool run_lines(WrSession *session, Lines lines, const char *name, WrError
         const char *text = wr_text_get(&line);
         if (number == 1 && strncmp(text, "\xEF\xBB\xBF", 3) == 0) text += 3; /* byte order mark */
         good = result == LINE_READ && run_line(session, text, &place, size, err);
-        if (good) wr_session_journal_tend(session);
+        if (good) wr_session_journal_compact(session);
         if (!good) {
             wr_error_prefix(err, "%s:%lld: ", name, (long long)number);
             break;
@@ -204,7 +205,7 @@ bool wr_session_run_stream(WrSession *session, FILE *stream, const char *name, W
 bool wr_session_run_script(WrSession *session, const char *path, WrError *err)
 {
     Lines lines;
-    int fd = wr_file_open(path, WR_FILE_MOST, &lines.left, err);
+    int fd = wr_file_open(path, WR_FILE_MAX, &lines.left, err);
     if (fd < 0) return false;
     lines.stream = wr_fd_stream(fd, "r");
     if (!lines.stream) {
@@ -364,7 +365,7 @@ static bool look_at_file(const char *path, bool *exr, WrError *err)
 {
     static const char magic[4] = { 0x76, 0x2f, 0x31, 0x01 };
     char start[4];
-    int fd = wr_file_open(path, WR_FILE_MOST, NULL, err);
+    int fd = wr_file_open(path, WR_FILE_MAX, NULL, err);
     if (fd < 0) return false;
     wr_fd_close(fd);
     *exr = wr_file_peek(path, start, sizeof start) == sizeof start &&
@@ -717,16 +718,16 @@ bool wr_session_journal_anew(WrSession *session, WrError *err)
     return restart(session, true, err);
 }
 
-bool wr_session_journal_wants(const WrSession *session)
+bool wr_session_journal_needs_compacting(const WrSession *session)
 {
     if (!session->journal || session->stroke) return false;
     WrJournalState state = wr_journal_state(session->journal);
     return !state.busy && state.want != WR_JOURNAL_WANT_NOTHING;
 }
 
-bool wr_session_journal_tend(WrSession *session)
+bool wr_session_journal_compact(WrSession *session)
 {
-    if (!wr_session_journal_wants(session)) return false;
+    if (!wr_session_journal_needs_compacting(session)) return false;
     restart(session, false, NULL);
     return true;
 }

@@ -48,7 +48,7 @@ typedef struct WrSessionState {
     char *newer_path; /* file of a newer version that must not be overwritten; owned; NULL: none */
     /* stored dials of the document for its tolerance (wr_choice_write); owned; NULL: none */
     char *chosen;
-    bool chosen_told; /* the note that they do not fit was sent */
+    bool misfit_reported; /* the note that they do not fit was sent */
 } WrSessionState;
 
 struct WrSession {

@@ -21,7 +21,7 @@ void wr_session_keep_chosen(WrSession *session, const char *text)
 {
     wr_free(session->state.chosen);
     session->state.chosen = text ? wr_strdup(text) : NULL;
-    session->state.chosen_told = false;
+    session->state.misfit_reported = false;
 }
 
 const char *wr_session_chosen(const WrSession *session)
@@ -62,11 +62,11 @@ static void session_recall_chosen(WrSession *session, const WrFrameRequest *requ
 {
     WrSessionState *state = &session->state;
     const char *misfit = wr_chosen_recall(state->chosen, request, &session->choice);
-    if (misfit && !state->chosen_told) {
+    if (misfit && !state->misfit_reported) {
         wr_session_note(session,
                         "the document keeps dials that were chosen for another %s: chosen anew",
                         misfit);
-        state->chosen_told = true;
+        state->misfit_reported = true;
     }
 }
 
@@ -287,7 +287,7 @@ static void count_clipped(Picture *picture, int rows, const uint8_t *codes)
 
 #define CLIPPED_TOLD 0.005 /* share of over-exposed pixels that is reported: less is sparkle */
 
-static void tell_clipped(const Picture *picture, const char *path)
+static void report_clipped(const Picture *picture, const char *path)
 {
     const double pixels = (double)picture->request.width * picture->request.height;
     const double share = (double)picture->clipped / pixels;
@@ -346,7 +346,7 @@ static bool draw_first(Picture *picture, WrError *err)
     return true;
 }
 
-static void tell_choice(WrSession *session, const char *path)
+static void report_choice(WrSession *session, const char *path)
 {
     if (session->state.document->scene->tolerance.kind == WR_TOLERANCE_NONE ||
         session->choice.count == 0 || session->choice.met || session->choice.shown)
@@ -369,7 +369,7 @@ static bool write_picture(Picture *picture, const char *path, WrError *err)
     if (picture->replaced)
         wr_session_note(picture->session, "%s: %lld values were not finite and became 0", path,
                         (long long)picture->replaced);
-    tell_clipped(picture, path);
+    report_clipped(picture, path);
     return true;
 }
 
@@ -455,7 +455,7 @@ bool wr_session_render(WrSession *session, const char *path, int width, int heig
     bool good = draw_first(&picture, err);
     wr_progress_set(whole);
     if (!good) return false;
-    tell_choice(session, path);
+    report_choice(session, path);
     wr_progress_enter(&part, picture.drawn > 0 ? 0.0 : DRAWN, 1.0);
     good = write_picture(&picture, path, err);
     wr_progress_set(whole);

@@ -89,7 +89,7 @@ static WrTriangles *terrain_read(WrSession *session, const char *path, const WrS
                                  WrError *err)
 {
     const WrImageRequest wish = { .elevation = true };
-    WrImage *image = wr_image_read_wish(path, &wish, err);
+    WrImage *image = wr_image_read_request(path, &wish, err);
     if (!image) return NULL;
     wr_session_note_read(session, path, image);
     note_needle(session, path, image, shape);
@@ -315,26 +315,26 @@ static void add_map(WrText *text, const WrTriangles *mesh)
                      "in several places",
                      100 * share);
     add_count(text, outside, "triangles reach beyond u, v of 0..1, where the table repeats");
-    add_count(text, mesh->told.no_map, "triangles without texture coordinates: no slope there");
-    add_count(text, mesh->told.collinear,
+    add_count(text, mesh->report.no_map, "triangles without texture coordinates: no slope there");
+    add_count(text, mesh->report.collinear,
               "with u, v along a line: no tangent frame, slopes are exact");
-    add_count(text, mesh->told.mirrored, "mirrored");
-    add_count(text, mesh->told.near_uv,
+    add_count(text, mesh->report.mirrored, "mirrored");
+    add_count(text, mesh->report.near_uv,
               "corners differ from another by a rounding of u, v: tangent frames part there");
 }
 
 static void note_mesh(WrSession *session, const char *path, const WrTriangles *mesh)
 {
     WrText text = { 0 };
-    const WrTrianglesTold *told = &mesh->told;
+    const WrTrianglesReport *report = &mesh->report;
     wr_text_addf(&text, "%s: %d triangles", path, (int)mesh->triangle_count);
     add_parts(&text, mesh);
     wr_text_add(&text, mesh->closed ? ", closed" : ", open");
-    if (told->inside_out) wr_text_add(&text, "; it was inside out and has been turned");
-    add_count(&text, told->no_area, "without area were left out");
-    add_count(&text, told->no_normal + told->bad_normal,
+    if (report->inside_out) wr_text_add(&text, "; it was inside out and has been turned");
+    add_count(&text, report->no_area, "without area were left out");
+    add_count(&text, report->no_normal + report->bad_normal,
               "corners without a normal have the mean of their faces'");
-    add_count(&text, told->face_normal, "corners have their face's normal");
+    add_count(&text, report->face_normal, "corners have their face's normal");
     add_map(&text, mesh);
     char ending[16];
     wr_path_ending(path, ending);
@@ -370,21 +370,23 @@ static void note_patches(WrSession *session, const char *path, const WrTriangles
 {
     WrText text = { 0 };
     const WrPatches *set = mesh->patches;
-    const WrPatchesTold *told = &set->told;
+    const WrPatchesReport *report = &set->report;
     wr_text_addf(&text, "%s: %d patches in %d triangles, %s; %d shared edges", path,
                  (int)set->count, (int)mesh->triangle_count, mesh->closed ? "closed" : "open",
-                 (int)told->shared);
-    if (told->open > 0)
-        wr_text_addf(&text, "; %d open ones in %d loops", (int)told->open, (int)told->loops);
-    add_count(&text, told->collapsed, "collapsed to a point");
-    add_count(&text, told->crowded, "of more than two patches");
-    add_count(&text, told->turned, "patches were turned to the side of the others");
-    add_count(&text, told->against, "between patches that face to different sides");
-    if (told->crease_deg > 0)
-        wr_text_addf(&text, "; %d creased, patches %d and %d by %.2f degrees", (int)told->creased,
-                     (int)told->crease_of[0] + 1, (int)told->crease_of[1] + 1, told->crease_deg);
+                 (int)report->shared);
+    if (report->open > 0)
+        wr_text_addf(&text, "; %d open ones in %d loops", (int)report->open, (int)report->loops);
+    add_count(&text, report->collapsed, "collapsed to a point");
+    add_count(&text, report->crowded, "of more than two patches");
+    add_count(&text, report->turned, "patches were turned to the side of the others");
+    add_count(&text, report->against, "between patches that face to different sides");
+    if (report->crease_deg > 0)
+        wr_text_addf(&text, "; %d creased, patches %d and %d by %.2f degrees", (int)report->creased,
+                     (int)report->crease_of[0] + 1, (int)report->crease_of[1] + 1,
+                     report->crease_deg);
     if (set->table == WR_PATCH_JOINED || set->table == WR_PATCH_SPLIT)
-        wr_text_addf(&text, "; the table runs on across %d of the shared edges", (int)told->joined);
+        wr_text_addf(&text, "; the table runs on across %d of the shared edges",
+                     (int)report->joined);
     if (set->columns > 1 || set->rows > 1)
         wr_text_addf(&text, ", in cells of %d x %d", (int)set->columns, (int)set->rows);
     wr_session_note(session, "%s", wr_text_get(&text));

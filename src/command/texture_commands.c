@@ -248,34 +248,34 @@ static void print_normals_content(const WrScene *scene, WrText *text)
     print_normals_line(scene, !*scene->normals.laid.sha256, text);
 }
 
-static void note_codes(WrText *text, const WrImage *file, const WrNormalTold *told)
+static void note_codes(WrText *text, const WrImage *file, const WrNormalMapReport *report)
 {
     const double last = wr_pixel_last(file->type);
-    wr_text_addf(text, "%dx%d, %d channels of ", file->width, file->height, told->channels);
+    wr_text_addf(text, "%dx%d, %d channels of ", file->width, file->height, report->channels);
     if (last > 0) wr_text_addf(text, "%d bits", last > 255 ? 16 : 8);
     else
         wr_text_addf(text, "floats, %s",
-                     told->own ? "the vectors' own (coding=signed)"
-                               : "coded in 0..1 (coding=unit)");
-    if (told->channels == 2) wr_text_add(text, ", z rebuilt");
-    if (told->centred) wr_text_addf(text, "; code %d stands for 0", (int)(last + 1) / 2);
+                     report->own ? "the vectors' own (coding=signed)"
+                                 : "coded in 0..1 (coding=unit)");
+    if (report->channels == 2) wr_text_add(text, ", z rebuilt");
+    if (report->centred) wr_text_addf(text, "; code %d stands for 0", (int)(last + 1) / 2);
 }
 
 /* Note the interpretation of a normal map and possible faults in it. */
 static void note_normals(WrSession *session, const char *name, const WrImage *file, WrGreen asked,
-                         bool labelled, const WrNormalTold *told)
+                         bool labelled, const WrNormalMapReport *report)
 {
     WrText text = { 0 };
-    note_codes(&text, file, told);
-    wr_text_addf(&text, "; green %s%s", told->green_down ? "down" : "up",
+    note_codes(&text, file, report);
+    wr_text_addf(&text, "; green %s%s", report->green_down ? "down" : "up",
                  asked != WR_GREEN_AUTO ? ""
                  : labelled             ? ", as its label says"
-                 : told->undecided ? ", undecided: its slopes fit either; green=down takes it so"
-                                   : ", found from its slopes");
-    if (told->away)
+                 : report->undecided ? ", undecided: its slopes fit either; green=down takes it so"
+                                     : ", found from its slopes");
+    if (report->away)
         wr_text_addf(&text, "; %lld texels that look away were brought to the horizon",
-                     (long long)told->away);
-    if (told->converted)
+                     (long long)report->away);
+    if (report->converted)
         wr_text_add(&text, "; its mean is that of a picture that went through an sRGB conversion: "
                            "normals are data, and would be bent");
     wr_session_note(session, "%s: %s", name, wr_text_get(&text));
@@ -291,17 +291,17 @@ static WrImage *read_normals(WrSession *session, const WrCall *call, const char 
     const WrCoding coding = (WrCoding)wr_call_choice(call, "coding");
     const bool labelled = file->label.green != 0;
     WrGreen green = asked;
-    WrNormalTold told;
+    WrNormalMapReport report;
     if (green == WR_GREEN_AUTO && labelled)
         green = file->label.green < 0 ? WR_GREEN_DOWN : WR_GREEN_UP;
     WrImage *image =
         map->object
-            ? wr_normal_map_read_object(file, green == WR_GREEN_DOWN, coding, &told, err)
-            : wr_normal_map_read(file, green, channels ? channels + 1 : 0, coding, &told, err);
+            ? wr_normal_map_read_object(file, green == WR_GREEN_DOWN, coding, &report, err)
+            : wr_normal_map_read(file, green, channels ? channels + 1 : 0, coding, &report, err);
     if (!image) return NULL;
-    map->channels = told.channels;
-    map->green_down = told.green_down;
-    note_normals(session, name, file, map->object ? WR_GREEN_UP : asked, labelled, &told);
+    map->channels = report.channels;
+    map->green_down = report.green_down;
+    note_normals(session, name, file, map->object ? WR_GREEN_UP : asked, labelled, &report);
     return image;
 }
 
@@ -717,7 +717,7 @@ static void list(WrText *text, const char *what)
 /* Load a picture of the file by running another command; -1: no picture, which removes the present one. An unreadable
    picture is skipped with a note. */
 static bool take_picture(WrSession *session, const char *file, int image, const char *verb,
-                         const char *rest, const char *what, Told *told, WrError *err)
+                         const char *rest, const char *what, Told *report, WrError *err)
 {
     WrText line = { 0 }, name = { 0 };
     WrError why = { "" };
@@ -731,18 +731,18 @@ static bool take_picture(WrSession *session, const char *file, int image, const 
     wr_text_fini(&name);
     if (!good && wr_progress_stopped()) return wr_fail(err, "cancelled");
     if (!good && image < 0) return wr_fail(err, "%s", wr_error_message(&why));
-    if (good && image >= 0) list(&told->taken, what);
+    if (good && image >= 0) list(&report->taken, what);
     if (!good) {
         WrText both = { 0 };
         wr_text_addf(&both, "the picture of %s (%s)", what, why.text);
-        list(&told->left, wr_text_get(&both));
+        list(&report->left, wr_text_get(&both));
         wr_text_fini(&both);
     }
-    return good || take_picture(session, file, -1, verb, "", what, told, err);
+    return good || take_picture(session, file, -1, verb, "", what, report, err);
 }
 
 /* Note roughness and metalness factors that a picture replaces. */
-static void note_factors(const WrScene *scene, const WrGltfLook *look, Told *told)
+static void note_factors(const WrScene *scene, const WrGltfLook *look, Told *report)
 {
     const double factor[WR_FACET_KINDS] = {
         [WR_FACET_ROUGHNESS] = look->roughness, [WR_FACET_METALNESS] = look->metalness
@@ -756,13 +756,13 @@ static void note_factors(const WrScene *scene, const WrGltfLook *look, Told *tol
         wr_text_addf(&words, "the factor ");
         wr_text_add_number(&words, factor[k]);
         wr_text_addf(&words, " of its picture of %s", names[k]);
-        list(&told->left, wr_text_get(&words));
+        list(&report->left, wr_text_get(&words));
         wr_text_fini(&words);
     }
 }
 
-static bool take_pictures(WrSession *session, const char *file, const WrGltfLook *look, Told *told,
-                          WrError *err)
+static bool take_pictures(WrSession *session, const char *file, const WrGltfLook *look,
+                          Told *report, WrError *err)
 {
     WrText strength = { 0 };
     /* a factor of 0 cancels the picture */
@@ -771,26 +771,26 @@ static bool take_pictures(WrSession *session, const char *file, const WrGltfLook
     wr_text_add(&strength, " repeat=once space=tangent green=up strength=");
     wr_text_add_number(&strength, look->normal_scale);
     const bool good =
-        take_picture(session, file, look->base, "colour", " repeat=once", "colours", told, err) &&
-        take_picture(session, file, rough, "roughness", " repeat=once", "roughness", told, err) &&
-        take_picture(session, file, metal, "metalness", " repeat=once", "metalness", told, err) &&
+        take_picture(session, file, look->base, "colour", " repeat=once", "colours", report, err) &&
+        take_picture(session, file, rough, "roughness", " repeat=once", "roughness", report, err) &&
+        take_picture(session, file, metal, "metalness", " repeat=once", "metalness", report, err) &&
         take_picture(session, file, look->normal, "normalmap", wr_text_get(&strength), "normals",
-                     told, err);
+                     report, err);
     wr_text_fini(&strength);
     return good;
 }
 
-static void note(WrSession *session, const char *path, const WrGltfLook *look, const Told *told)
+static void note(WrSession *session, const char *path, const WrGltfLook *look, const Told *report)
 {
     WrText text = { 0 };
     char shown[WR_EXCERPT_SIZE];
     wr_text_addf(&text, "%s: material %d of %d", path, look->index + 1, look->count);
     if (look->name[0]) wr_text_addf(&text, " \"%s\"", wr_excerpt(look->name, shown));
     wr_text_add(&text, ": its numbers");
-    if (told->taken.length > 0)
-        wr_text_addf(&text, ", and pictures of %s", wr_text_get(&told->taken));
+    if (report->taken.length > 0)
+        wr_text_addf(&text, ", and pictures of %s", wr_text_get(&report->taken));
     WrText left = { 0 };
-    if (told->left.length > 0) list(&left, wr_text_get(&told->left));
+    if (report->left.length > 0) list(&left, wr_text_get(&report->left));
     if (look->left[0]) list(&left, look->left);
     if (look->alpha != 1) list(&left, "the opacity of its colour");
     if (look->count > 1) list(&left, "other materials: an object has one (part= takes another)");
@@ -803,19 +803,19 @@ static void note(WrSession *session, const char *path, const WrGltfLook *look, c
 static bool take(WrSession *session, const char *name, const char *path, const WrGltfLook *look,
                  WrError *err)
 {
-    Told told = { 0 };
+    Told report = { 0 };
     WrScene *before = wr_scene_clone(session->state.document->scene);
     const bool good =
-        take_numbers(session, look, err) && take_pictures(session, name, look, &told, err);
+        take_numbers(session, look, err) && take_pictures(session, name, look, &report, err);
     if (good) {
-        note_factors(session->state.document->scene, look, &told);
-        note(session, path, look, &told);
+        note_factors(session->state.document->scene, look, &report);
+        note(session, path, look, &report);
         wr_scene_free(before);
     } else {
         wr_session_replace_scene(session, before);
     }
-    wr_text_fini(&told.taken);
-    wr_text_fini(&told.left);
+    wr_text_fini(&report.taken);
+    wr_text_fini(&report.left);
     return good;
 }
 
@@ -872,8 +872,8 @@ const WrCommand wr_command_gltf = {
 /* The command colouring: a picture coloured by height, slope and cavity, computed again when one of its inputs has
    changed. */
 
-#define FORM_SIDE_MOST 512 /* texels: terrain patches are smooth, more adds no detail */
-#define FORM_SIDE_LEAST 64
+#define FORM_SIDE_MAX 512 /* texels: terrain patches are smooth, more adds no detail */
+#define FORM_SIDE_MIN 64
 
 enum { FORM_RAMP, FORM_OFF, COLOURING_FORMS };
 
@@ -913,7 +913,7 @@ static WrImage *made_by_table(const WrSession *session, const WrScene *object, W
 
 static int side_of(int size)
 {
-    return size < FORM_SIDE_LEAST ? FORM_SIDE_LEAST : size > FORM_SIDE_MOST ? FORM_SIDE_MOST : size;
+    return size < FORM_SIDE_MIN ? FORM_SIDE_MIN : size > FORM_SIDE_MAX ? FORM_SIDE_MAX : size;
 }
 
 static WrImage *made_by_form(const WrSession *session, const WrScene *object, WrError *err)

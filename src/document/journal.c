@@ -100,7 +100,7 @@ static bool copy_open(int from, const char *path, const char *target, const char
 
 static bool copy_file(const char *path, const char *target, const char *sha256, WrError *err)
 {
-    int from = wr_file_open(path, WR_FILE_MOST, NULL, err);
+    int from = wr_file_open(path, WR_FILE_MAX, NULL, err);
     if (from < 0) return false;
     bool ok = copy_open(from, path, target, sha256, err);
     wr_fd_close(from);
@@ -184,7 +184,7 @@ bool wr_journal_kept_file(const char *journal_path, const char *sha256, const ch
 #define MAX_BYTES ((int64_t)64 << 20)
 #define MAX_LINES 20000
 #define PATIENCE_SECONDS 10.0
-#define PATIENCE_MOST_SECONDS 300.0
+#define PATIENCE_MAX_SECONDS 300.0
 #define PROBE_BYTES 65536 /* free disk space that counts as "writing works again" */
 
 typedef enum Open { OPEN_NOTHING, OPEN_COMMAND, OPEN_STROKE } Open;
@@ -563,7 +563,7 @@ void wr_journal_put_off(WrJournal *journal)
 {
     journal->ask_at = wr_clock_seconds() + journal->patience;
     journal->patience *= 2;
-    if (journal->patience > PATIENCE_MOST_SECONDS) journal->patience = PATIENCE_MOST_SECONDS;
+    if (journal->patience > PATIENCE_MAX_SECONDS) journal->patience = PATIENCE_MAX_SECONDS;
 }
 
 /* ---- neighbouring files ---- */

@@ -100,7 +100,7 @@ bool wr_journal_sync_path(const char *path, WrError *err)
 
 int wr_journal_open(const char *path, WrError *err)
 {
-    return wr_file_open_no_link(path, WR_FILE_MOST, NULL, err);
+    return wr_file_open_no_link(path, WR_FILE_MAX, NULL, err);
 }
 
 bool wr_journal_lock(int fd, const char *path, WrLock how)

@@ -762,11 +762,11 @@ static zip_int64_t on_source(void *ctx, void *data, zip_uint64_t length, zip_sou
     if (command == ZIP_SOURCE_ERROR) return answer_error(data, length);
     if (command == ZIP_SOURCE_STAT) {
         if (!entry->known && !render(entry)) return -1;
-        zip_stat_t *told = data;
-        zip_stat_init(told);
-        told->size = entry->length;
-        told->valid = ZIP_STAT_SIZE;
-        return sizeof *told;
+        zip_stat_t *report = data;
+        zip_stat_init(report);
+        report->size = entry->length;
+        report->valid = ZIP_STAT_SIZE;
+        return sizeof *report;
     }
     if (command == ZIP_SOURCE_OPEN) {
         entry->at = 0;

@@ -34,7 +34,7 @@ struct WrOraZip {
 
 WrOraZip *wr_ora_zip_open(const char *path, WrError *err)
 {
-    int fd = wr_file_open(path, WR_FILE_MOST, NULL, err);
+    int fd = wr_file_open(path, WR_FILE_MAX, NULL, err);
     return fd < 0 ? NULL : wr_ora_zip_take(path, fd, err);
 }
 
@@ -139,12 +139,12 @@ static zip_int64_t answer_error(const WrOraSink *sink, void *data, zip_uint64_t 
 
 static zip_int64_t answer_stat(void *data, zip_uint64_t length)
 {
-    zip_stat_t *told = data;
-    if (length < sizeof *told) return -1;
-    zip_stat_init(told);
-    told->size = 0;
-    told->valid = ZIP_STAT_SIZE;
-    return sizeof *told;
+    zip_stat_t *report = data;
+    if (length < sizeof *report) return -1;
+    zip_stat_init(report);
+    report->size = 0;
+    report->valid = ZIP_STAT_SIZE;
+    return sizeof *report;
 }
 
 static zip_int64_t write_bytes(WrOraSink *sink, const char *bytes, zip_uint64_t length)

@@ -690,7 +690,7 @@ static WrProbeEnd judge(const Verdict *verdict, WrError *err)
     return WR_PROBE_FALSE;
 }
 
-static WrProbeEnd tell_crash(WrChildEnd end, WrError *err)
+static WrProbeEnd report_crash(WrChildEnd end, WrError *err)
 {
     const char *name = wr_child_crash(end.number);
     if (end.why == WR_CHILD_LEFT)
@@ -717,7 +717,7 @@ WrProbeEnd wr_journal_trial(WrProbeFunction function, void *ctx, double seconds,
     const WrTryResult result = wr_child_try(&it, &end);
     verdict.err.text[sizeof verdict.err.text - 1] = '\0';
     if (result == WR_TRY_ANSWERED) return judge(&verdict, err);
-    if (result == WR_TRY_ENDED) return tell_crash(end, err);
+    if (result == WR_TRY_ENDED) return report_crash(end, err);
     if (result == WR_TRY_LATE) {
         wr_fail(err, "it took more than %g s", seconds);
         return WR_PROBE_TIMEOUT;

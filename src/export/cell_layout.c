@@ -24,10 +24,10 @@ typedef struct WrField WrField;
 
 /* ---- atlas ---- */
 
-#define CELLS_MOST 256
+#define MAX_CELLS 256
 
 typedef struct Cells {
-    WrField *cell[CELLS_MOST]; /* owned */
+    WrField *cell[MAX_CELLS]; /* owned */
     int count, columns;
     int wide, high; /* of a grid place, margins included */
 } Cells;
@@ -83,8 +83,7 @@ static WrField *from_file(const char *path, WrError *err)
 
 static bool add_file(Cells *cells, const char *path, WrError *err)
 {
-    if (cells->count == CELLS_MOST)
-        return wr_fail(err, "an atlas holds up to %d cells", CELLS_MOST);
+    if (cells->count == MAX_CELLS) return wr_fail(err, "an atlas holds up to %d cells", MAX_CELLS);
     WrField *field = from_file(path, err);
     if (field) cells->cell[cells->count++] = field;
     return field != NULL;

@@ -318,10 +318,11 @@ static bool is_grey(const WrImage *image)
     return true;
 }
 
-static bool looks_normal(const WrImage *image, const WrNormalTold *told)
+static bool looks_normal(const WrImage *image, const WrNormalMapReport *report)
 {
     const double texels = (double)image->width * (double)image->height;
-    return told->off_mean < NORMAL_OFF && (double)(told->away - told->level) < NORMAL_AWAY * texels;
+    return report->off_mean < NORMAL_OFF &&
+           (double)(report->away - report->level) < NORMAL_AWAY * texels;
 }
 
 static const char *label_of(const WrImageLabel *label)
@@ -335,41 +336,42 @@ static const char *label_of(const WrImageLabel *label)
     return export ? export->name : NULL;
 }
 
-static WrCheckKind kind_of(const WrImage *image, const WrNormalTold *told, const WrCheck *check)
+static WrCheckKind kind_of(const WrImage *image, const WrNormalMapReport *report,
+                           const WrCheck *check)
 {
     const WrLabelKind label = image->label.kind;
     if (label == WR_LABEL_NORMAL_UP || label == WR_LABEL_NORMAL_DOWN) return WR_CHECK_NORMAL;
     if (image->channels < 3 || label == WR_LABEL_HEIGHT || is_grey(image)) return WR_CHECK_HEIGHT;
-    if (check->label || !looks_normal(image, told)) return WR_CHECK_COLOUR;
+    if (check->label || !looks_normal(image, report)) return WR_CHECK_COLOUR;
     return WR_CHECK_NORMAL;
 }
 
 /* ---- normals ---- */
 
-static void take_told(const WrNormalTold *told, WrCheckNormals *normals)
+static void take_report(const WrNormalMapReport *report, WrCheckNormals *normals)
 {
-    normals->green_known = !told->undecided;
-    normals->green_down = told->green_down;
-    normals->lengths = told->channels == 3;
-    normals->own = told->own;
-    normals->centred = told->centred;
-    normals->off = told->off;
-    normals->away = told->away - told->level;
-    normals->converted = told->converted;
+    normals->green_known = !report->undecided;
+    normals->green_down = report->green_down;
+    normals->lengths = report->channels == 3;
+    normals->own = report->own;
+    normals->centred = report->centred;
+    normals->off = report->off;
+    normals->away = report->away - report->level;
+    normals->converted = report->converted;
 }
 
 static bool check_normals(const WrImage *image, int kind, WrCoding coding, WrCheck *check,
                           WrError *err)
 {
-    WrNormalTold told = { 0 };
+    WrNormalMapReport report = { 0 };
     const bool could = kind == WR_CHECK_NORMAL || (kind < 0 && image->channels >= 3);
-    WrImage *map = could ? wr_normal_map_read(image, WR_GREEN_AUTO, 0, coding, &told, err) : NULL;
+    WrImage *map = could ? wr_normal_map_read(image, WR_GREEN_AUTO, 0, coding, &report, err) : NULL;
     if (could && !map) return false;
-    check->kind = kind < 0 ? kind_of(image, &told, check) : (WrCheckKind)kind;
+    check->kind = kind < 0 ? kind_of(image, &report, check) : (WrCheckKind)kind;
     const bool codes = check->numbers.bits < 32;
     const double step = codes ? 2.0 / ((1 << check->numbers.bits) - 1) : 1e-6;
     if (check->kind == WR_CHECK_NORMAL && map) {
-        take_told(&told, &check->normals);
+        take_report(&report, &check->normals);
         check_curl(map, step, &check->normals);
     }
     wr_image_free(map);
@@ -379,7 +381,7 @@ static bool check_normals(const WrImage *image, int kind, WrCoding coding, WrChe
 /* Converts slopes (p, q) to the normals that have them. */
 static bool check_slopes(const WrImage *slopes, WrCheck *check, WrError *err)
 {
-    WrNormalTold told;
+    WrNormalMapReport report;
     WrImage *normals = wr_image_new(slopes->width, slopes->height, 3, err);
     if (!normals) return false;
     normals->type = WR_PIXEL_F32;
@@ -390,9 +392,9 @@ static bool check_slopes(const WrImage *slopes, WrCheck *check, WrError *err)
         normals->data[3 * i + 1] = (float)(-q * unit);
         normals->data[3 * i + 2] = (float)unit;
     }
-    WrImage *map = wr_normal_map_read(normals, WR_GREEN_AUTO, 3, WR_CODING_SIGNED, &told, err);
+    WrImage *map = wr_normal_map_read(normals, WR_GREEN_AUTO, 3, WR_CODING_SIGNED, &report, err);
     if (map) {
-        take_told(&told, &check->normals);
+        take_report(&report, &check->normals);
         check->normals.lengths = false; /* computed here */
         check_curl(map, 1e-6, &check->normals);
     }
@@ -417,10 +419,10 @@ static double most_off(const WrCheck *check)
 static bool labels_lie(const WrImage *image, const WrCheck *check)
 {
     const bool down = image->label.kind == WR_LABEL_NORMAL_DOWN;
-    const bool told = down || image->label.kind == WR_LABEL_NORMAL_UP;
+    const bool report = down || image->label.kind == WR_LABEL_NORMAL_UP;
     if (image->label.refused[0] && !label_of(&image->label)) return true;
     if (image->label.refused[0] && image->label.kind != WR_LABEL_NONE) return true;
-    return told && check->normals.green_known && check->normals.green_down != down;
+    return report && check->normals.green_known && check->normals.green_down != down;
 }
 
 static void find_problems(const WrImage *image, WrCheck *check)

@@ -180,7 +180,7 @@ bool wr_export_set_contact_tile(WrExportOptions *options, const char *value, WrE
 }
 
 /* Collects the requested kinds in kinds: [WR_EXPORT_KIND_COUNT * 2]. */
-#define KINDS_MOST 64
+#define KINDS_MAX 64
 static int kinds_of(const WrExportOptions *options, const WrExportKind **kinds)
 {
     int count = 0;
@@ -191,13 +191,13 @@ static int kinds_of(const WrExportOptions *options, const WrExportKind **kinds)
             if (is_usual(&wr_export_kinds[i])) kinds[count++] = &wr_export_kinds[i];
         }
     else
-        while (*at && count < KINDS_MOST) kinds[count++] = next_kind(&at, word);
+        while (*at && count < KINDS_MAX) kinds[count++] = next_kind(&at, word);
     return count;
 }
 
 bool wr_export_contact_write(WrExportJob *job, const char *path, WrError *err)
 {
-    const WrExportKind *kinds[KINDS_MOST];
+    const WrExportKind *kinds[KINDS_MAX];
     const int count = kinds_of(&job->options, kinds);
     WrContact *contact = wr_contact_new(path, count, job->options.contact_tile, err);
     bool good = contact != NULL;

@@ -367,7 +367,7 @@ static bool compare_frame(WrFilm *film, int64_t part, int64_t of, int frame, WrF
     WrFilmSums sums, want = film->sums.data[frame];
     snprintf(number, sizeof number, "%lld", (long long)part);
     const WrImageRequest wish = { .part = of > 1 ? number : NULL };
-    WrImage *image = wr_image_read_wish(film->target.temporary, &wish, err);
+    WrImage *image = wr_image_read_request(film->target.temporary, &wish, err);
     if (!image) return false;
     bool good = (image->width == film->width && image->height == film->height) ||
                 wr_fail(err, "frames of %dx%d were handed to ffmpeg, of %dx%d stand in the file",
@@ -416,7 +416,7 @@ static bool film_check(WrFilm *film, WrFilmReport *report, WrError *err)
 
 #define PATIENCE 300.0 /* seconds: one frame of the largest size needs that order of time */
 #define LEAST_FPS 0.1
-#define MOST_FPS 240.0
+#define MAX_FPS 240.0
 #define TAGS "-color_primaries", "bt709", "-color_trc", "iec61966-2-1"
 
 /* One palette per frame, so that only one is in memory; its ordered dither is constant where the picture is. */
@@ -445,7 +445,7 @@ const WrFilmKind wr_film_kinds[] = {
       .name = "APNG",
       .alpha = true,
       .loops = true,
-      .most_fps = MOST_FPS,
+      .most_fps = MAX_FPS,
       .most_side = 16384,
       .wrong = 0.0,
       .coding = { "-vf", SRGB, "-c:v", "apng", "-pred", "mixed", TAGS, "-f", "apng", "-plays",
@@ -455,7 +455,7 @@ const WrFilmKind wr_film_kinds[] = {
       .name = "WebP",
       .alpha = true,
       .loops = true,
-      .most_fps = MOST_FPS,
+      .most_fps = MAX_FPS,
       .most_side = 16383,
       .wrong = 8.0,
       .by_reader = true,
@@ -465,7 +465,7 @@ const WrFilmKind wr_film_kinds[] = {
     { .ending = "mp4",
       .name = "MP4",
       .even = true,
-      .most_fps = MOST_FPS,
+      .most_fps = MAX_FPS,
       .most_side = 8192,
       .wrong = 8.0,
       .rereads = true, /* +faststart */

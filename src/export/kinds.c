@@ -87,9 +87,9 @@ static bool set_object(WrExportOptions *options, const char *value, WrError *err
 static bool set_lines(WrExportOptions *options, const char *value, WrError *err)
 {
     int u, v;
-    if (!wr_export_parse_size(value, 0, WR_LINES_MOST, &u, &v) || u + v == 0)
+    if (!wr_export_parse_size(value, 0, WR_LINES_MAX, &u, &v) || u + v == 0)
         return wr_fail(err, "lines '%.40s': must be MxN, lines along u and along v, 0..%d each",
-                       value, WR_LINES_MOST);
+                       value, WR_LINES_MAX);
     options->lines_u = u;
     options->lines_v = v;
     return true;
@@ -97,9 +97,9 @@ static bool set_lines(WrExportOptions *options, const char *value, WrError *err)
 
 static bool set_size(WrExportOptions *options, const char *value, WrError *err)
 {
-    if (!wr_export_parse_size(value, 16, WR_DRAWING_MOST, &options->drawing_w, &options->drawing_h))
+    if (!wr_export_parse_size(value, 16, WR_DRAWING_MAX, &options->drawing_w, &options->drawing_h))
         return wr_fail(err, "size '%.40s': must be WIDTHxHEIGHT in pixels, 16..%d each", value,
-                       WR_DRAWING_MOST);
+                       WR_DRAWING_MAX);
     return true;
 }
 

@@ -9,16 +9,16 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define WR_LINES_MOST 1024   /* maximum lines along either axis */
-#define WR_DRAWING_MOST 4096 /* maximum pixels along a side of the drawing */
+#define WR_LINES_MAX 1024   /* maximum lines along either axis */
+#define WR_DRAWING_MAX 4096 /* maximum pixels along a side of the drawing */
 
 typedef struct WrLinesView {
-    /* number of lines along u and along v: 0..WR_LINES_MOST; 0: none; limited to the texels */
+    /* number of lines along u and along v: 0..WR_LINES_MAX; 0: none; limited to the texels */
     int lines_u, lines_v;
     double turn_deg, tilt_deg; /* any; 0..90 */
     double relief;             /* height of F = 1, cells */
     bool hidden;               /* hidden lines are drawn as well */
-    int width, height;         /* of the drawing, pixels, 16..WR_DRAWING_MOST */
+    int width, height;         /* of the drawing, pixels, 16..WR_DRAWING_MAX */
 } WrLinesView;
 
 /* One visible stretch of a line. */

@@ -275,12 +275,12 @@ static WrSet *read_own(const char *name, const char *path, WrError *err)
     int fd = wr_file_open(path, UINT64_MAX, &size, err);
     if (fd < 0) return NULL;
     wr_fd_close(fd);
-    if (size > WR_SET_FILE_MOST) {
+    if (size > WR_SET_FILE_MAX) {
         wr_fail(err, "%s: %llu bytes: a set has at most %d", path, (unsigned long long)size,
-                WR_SET_FILE_MOST);
+                WR_SET_FILE_MAX);
         return NULL;
     }
-    if (!wr_file_read(path, WR_SET_FILE_MOST, &text, &length, err)) return NULL;
+    if (!wr_file_read(path, WR_SET_FILE_MAX, &text, &length, err)) return NULL;
     WrSet *set = NULL;
     if (strlen(text) == length) set = wr_set_parse(name, text, path, err);
     else wr_fail(err, "%s: a NUL byte: a set is plain text", path);
@@ -351,7 +351,7 @@ WrSetNames wr_set_names(void)
     char *path = wr_config_path("sets");
     WrFolder *folder = path ? wr_folder_open(path) : NULL;
     const char *file;
-    while (folder && list.names.count < WR_SET_ROWS + WR_SETS_MOST &&
+    while (folder && list.names.count < WR_SET_ROWS + WR_SETS_MAX &&
            (file = wr_folder_next(folder))) {
         const size_t length = strlen(file), ending = sizeof SET_ENDING - 1;
         if (length <= ending || strcmp(file + length - ending, SET_ENDING) != 0) continue;

@@ -22,12 +22,12 @@ typedef struct WrExportOptions WrExportOptions;
 typedef struct WrPool WrPool;
 typedef struct WrText WrText;
 
-#define WR_SET_MAPS 32         /* maximum maps of a set */
-#define WR_SET_SETTINGS 8      /* maximum settings of a map */
-#define WR_SET_WORDS 16        /* maximum words of the user */
-#define WR_SET_FILE_MOST 65536 /* maximum bytes of a set's file */
-#define WR_SET_NAME 40         /* maximum letters of a set's name */
-#define WR_SETS_MOST 256       /* maximum files of the folder that are read */
+#define WR_SET_MAPS 32        /* maximum maps of a set */
+#define WR_SET_SETTINGS 8     /* maximum settings of a map */
+#define WR_SET_WORDS 16       /* maximum words of the user */
+#define WR_SET_FILE_MAX 65536 /* maximum bytes of a set's file */
+#define WR_SET_NAME 40        /* maximum letters of a set's name */
+#define WR_SETS_MAX 256       /* maximum files of the folder that are read */
 
 typedef struct WrSetMap {
     const WrExportKind *kind;
@@ -86,7 +86,7 @@ void wr_set_file(const WrSetOrder *order, int map, WrText *path);
    told    list of the written files, one per line
    Errors  those of wr_export; a word that no map of the set accepts; a read-only folder; a cell's name with
            a slash or a control character */
-bool wr_export_set(const WrSetOrder *order, const WrDocument *document, WrPool *pool, WrText *told,
-                   WrError *err);
+bool wr_export_set(const WrSetOrder *order, const WrDocument *document, WrPool *pool,
+                   WrText *report, WrError *err);
 /* The cell's name from a file's name, without folder and extension; NULL or "": "wrinkle". */
 void wr_set_cell_name(const char *path, WrText *name);

@@ -215,7 +215,7 @@ static WrVec3 moved(WrVec3 normals, double f, int count)
     return v3_scale(m, f / count / fmax(v3_dot(m, m), SHARP));
 }
 
-static double height_at(WrSolid *s, const WrSolidSight *at)
+static double height_at(WrSolid *s, const WrSolidLocation *at)
 {
     double f;
     wr_scene_height(s->scene, s->field, at->u, at->v, &f, NULL, NULL);
@@ -224,20 +224,20 @@ static double height_at(WrSolid *s, const WrSolidSight *at)
     return f;
 }
 
-void wr_solid_point_position(WrSolid *solid, const WrSolidSight *sights, int count, bool back,
+void wr_solid_point_position(WrSolid *solid, const WrSolidLocation *locations, int count, bool back,
                              float out[3])
 {
     WrVec3 p = { 0, 0, 0 }, n = p, across = p;
     double f = 0.0;
     for (int i = 0; i < count; i++) {
         WrSurfacePoint o;
-        wr_surface_at(&solid->scene->shape, sights[i].face, sights[i].u, sights[i].v, &o);
+        wr_surface_at(&solid->scene->shape, locations[i].face, locations[i].u, locations[i].v, &o);
         p = v3_add(p, o.p);
         n = v3_add(n, o.n_unit);
         const WrVec3 c = { solid->cofactor.x * o.n_unit.x, solid->cofactor.y * o.n_unit.y,
                            solid->cofactor.z * o.n_unit.z };
         across = v3_add(across, v3_unit(c, o.n_unit));
-        f += back ? solid->low : height_at(solid, &sights[i]);
+        f += back ? solid->low : height_at(solid, &locations[i]);
     }
     p = v3_add(v3_scale(p, 1.0 / count), moved(n, f, count));
     const WrVec3 at = { (solid->stretch.x * p.x - solid->middle.x) * solid->scale,
@@ -261,16 +261,16 @@ int32_t wr_solid_add_bare(WrSolid *solid, const float at[3])
     return solid->point_count++;
 }
 
-int32_t wr_solid_add_point(WrSolid *solid, const WrSolidSight *sights, int count)
+int32_t wr_solid_add_point(WrSolid *solid, const WrSolidLocation *locations, int count)
 {
     float at[3];
-    wr_array_push(&solid->first, solid->sights.count);
-    for (int i = 0; i < count; i++) wr_array_push(&solid->sights, sights[i]);
-    wr_solid_point_position(solid, sights, count, false, at);
+    wr_array_push(&solid->first, solid->locations.count);
+    for (int i = 0; i < count; i++) wr_array_push(&solid->locations, locations[i]);
+    wr_solid_point_position(solid, locations, count, false, at);
     return wr_solid_add_bare(solid, at);
 }
 
-void wr_solid_add_triangle(WrSolid *solid, const int32_t corners[3], const WrSolidSight at[3])
+void wr_solid_add_triangle(WrSolid *solid, const int32_t corners[3], const WrSolidLocation at[3])
 {
     if (solid->triangle_count == solid->triangle_room) {
         const int32_t room = solid->triangle_room ? 2 * solid->triangle_room : 1024;
@@ -373,7 +373,7 @@ static void free_solid(WrSolid *s)
 {
     for (int face = 0; face < WR_SOLID_FACES; face++) wr_free(s->lattice[face].at);
     wr_array_free(&s->relief);
-    wr_array_free(&s->sights);
+    wr_array_free(&s->locations);
     wr_array_free(&s->first);
     wr_free(s->points);
     wr_free(s->triangles);

@@ -25,15 +25,15 @@ typedef struct WrPool WrPool;
 typedef struct WrScene WrScene;
 
 #define WR_SOLID_FACES 6
-#define WR_SOLID_MOST                                                                              \
+#define WR_SOLID_MAX                                                                               \
     4000000 /* maximum triangles of the relief; with its back no more than readers accept */
 #define WR_SOLID_SAMPLES ((int64_t)1 << 28) /* maximum */
 
 /* A position in the domain that maps to a point: a seam has two, a pole many. */
-typedef struct WrSolidSight {
+typedef struct WrSolidLocation {
     double u, v;
     int32_t face;
-} WrSolidSight;
+} WrSolidLocation;
 
 typedef struct WrSolidTriangle {
     int32_t point
@@ -65,9 +65,9 @@ typedef struct WrSolid {
     WrSolidLattice lattice[WR_SOLID_FACES];
     double low, high; /* of F over the samples and points, object units */
     WR_ARRAY(WrSolidTriangle) relief;
-    WR_ARRAY(WrSolidSight) sights; /* of all points, in their order */
-    WR_ARRAY(int32_t) first;       /* index of each point's first sight */
-    float (*points)[3];            /* mm; owned */
+    WR_ARRAY(WrSolidLocation) locations; /* of all points, in their order */
+    WR_ARRAY(int32_t) first;             /* index of each point's first sight */
+    float (*points)[3];                  /* mm; owned */
     int32_t point_count, point_room;
     int32_t (*triangles)[3]; /* of the closed mesh; owned */
     /* (u,v) of their corners in cells: u and v times the number of repeats of the table; owned */
@@ -79,13 +79,13 @@ typedef struct WrSolid {
 /* solid.c */
 /* Position of a point in the file, from its sights. With `back` at the lowest height, and `thickness` below
    that. */
-void wr_solid_point_position(WrSolid *solid, const WrSolidSight *sights, int count, bool back,
+void wr_solid_point_position(WrSolid *solid, const WrSolidLocation *locations, int count, bool back,
                              float out[3]);
 /* Adds a point with these sights; returns its number. */
-int32_t wr_solid_add_point(WrSolid *solid, const WrSolidSight *sights, int count);
+int32_t wr_solid_add_point(WrSolid *solid, const WrSolidLocation *locations, int count);
 int32_t wr_solid_add_bare(WrSolid *solid, const float at[3]); /* a point without sights */
 /* at: (u,v) of the corners. */
-void wr_solid_add_triangle(WrSolid *solid, const int32_t corners[3], const WrSolidSight at[3]);
+void wr_solid_add_triangle(WrSolid *solid, const int32_t corners[3], const WrSolidLocation at[3]);
 
 /* solid_body.c: builds the squares and joins shared sides. */
 void wr_solid_lay(WrSolid *solid);

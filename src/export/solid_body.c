@@ -22,7 +22,7 @@
 #define SEEN 8     /* samples along a side that is a single point, for its height */
 
 typedef struct Node {
-    WrSolidSight sight;
+    WrSolidLocation location;
     /* union-find of nodes at one position: the smallest number, or one on the way to it */
     int32_t root;
 } Node;
@@ -30,7 +30,7 @@ typedef struct Node {
 /* A triangle's side on the border of the domain. */
 typedef struct Side {
     int32_t triangle, slot, from, to; /* from, to: nodes */
-    WrSolidSight ends[2];
+    WrSolidLocation ends[2];
     WrVec3 at[TRIED];
     bool point; /* the side is a single point */
 } Side;
@@ -93,8 +93,8 @@ static WrSolidTriangle triangle_of(const Base *base, int face, int a, int b, int
     WrSolidTriangle t = { .face = face, .error = -1.0f, .across = { -1, -1, -1 } };
     for (int k = 0; k < 3; k++) {
         t.point[k] = node[k];
-        t.u[k] = base->nodes.data[node[k]].sight.u;
-        t.v[k] = base->nodes.data[node[k]].sight.v;
+        t.u[k] = base->nodes.data[node[k]].location.u;
+        t.v[k] = base->nodes.data[node[k]].location.v;
     }
     return t;
 }
@@ -142,10 +142,10 @@ static void join_nodes(Base *base, int32_t a, int32_t b)
     else base->nodes.data[a].root = b;
 }
 
-static WrSolidSight between(const WrSolidSight ends[2], double t)
+static WrSolidLocation between(const WrSolidLocation ends[2], double t)
 {
-    return (WrSolidSight){ ends[0].u + (ends[1].u - ends[0].u) * t,
-                           ends[0].v + (ends[1].v - ends[0].v) * t, ends[0].face };
+    return (WrSolidLocation){ ends[0].u + (ends[1].u - ends[0].u) * t,
+                              ends[0].v + (ends[1].v - ends[0].v) * t, ends[0].face };
 }
 
 static void find_sides(Base *base)
@@ -158,10 +158,10 @@ static void find_sides(Base *base)
             Side side = {
                 .triangle = i, .slot = k, .from = t->point[(k + 1) % 3], .to = t->point[(k + 2) % 3]
             };
-            side.ends[0] = base->nodes.data[side.from].sight;
-            side.ends[1] = base->nodes.data[side.to].sight;
+            side.ends[0] = base->nodes.data[side.from].location;
+            side.ends[1] = base->nodes.data[side.to].location;
             for (int p = 0; p < TRIED; p++) {
-                const WrSolidSight at = between(side.ends, p / (TRIED - 1.0));
+                const WrSolidLocation at = between(side.ends, p / (TRIED - 1.0));
                 WrSurfacePoint o;
                 wr_surface_at(&s->scene->shape, at.face, at.u, at.v, &o);
                 side.at[p] = o.p;
@@ -211,14 +211,14 @@ static void join_sides(Base *base)
 /* A point with all sights of a node: those joined with it, and those along sides that are a single point. */
 static int32_t point_of(Base *base, int32_t root)
 {
-    WR_ARRAY(WrSolidSight) seen = { 0 };
+    WR_ARRAY(WrSolidLocation) seen = { 0 };
     for (int32_t i = root; i < base->nodes.count; i++)
-        if (root_of(base, i) == root) wr_array_push(&seen, base->nodes.data[i].sight);
+        if (root_of(base, i) == root) wr_array_push(&seen, base->nodes.data[i].location);
     for (int i = 0; i < base->sides.count; i++) {
         const Side *side = &base->sides.data[i];
         if (!side->point || root_of(base, side->from) != root) continue;
         for (int k = 1; k < SEEN; k++) {
-            WrSolidSight at = between(side->ends, (double)k / SEEN);
+            WrSolidLocation at = between(side->ends, (double)k / SEEN);
             wr_array_push(&seen, at);
         }
     }
@@ -523,22 +523,22 @@ static bool can_halve(const WrSolid *s, const WrSolidTriangle *t)
     return du > LEAST * l->step_u || dv > LEAST * l->step_v;
 }
 
-static WrSolidSight middle_of_triangle(const WrSolidTriangle *t)
+static WrSolidLocation middle_of_triangle(const WrSolidTriangle *t)
 {
-    return (WrSolidSight){ (t->u[0] + t->u[1]) / 2, (t->v[0] + t->v[1]) / 2, t->face };
+    return (WrSolidLocation){ (t->u[0] + t->u[1]) / 2, (t->v[0] + t->v[1]) / 2, t->face };
 }
 
 static int32_t middle_point(WrSolid *s, const WrSolidTriangle *t, const WrSolidTriangle *beyond)
 {
     if (t->point[0] == t->point[1]) return t->point[0]; /* a pole */
-    WrSolidSight sights[2] = { middle_of_triangle(t) };
+    WrSolidLocation locations[2] = { middle_of_triangle(t) };
     int count = 1;
     if (beyond) {
-        sights[1] = middle_of_triangle(beyond);
-        count += sights[1].face != sights[0].face || sights[1].u != sights[0].u ||
-                 sights[1].v != sights[0].v;
+        locations[1] = middle_of_triangle(beyond);
+        count += locations[1].face != locations[0].face || locations[1].u != locations[0].u ||
+                 locations[1].v != locations[0].v;
     }
-    return wr_solid_add_point(s, sights, count);
+    return wr_solid_add_point(s, locations, count);
 }
 
 /* Replaces a neighbour's number in a triangle. */
@@ -557,7 +557,7 @@ static void tell(WrSolid *s, int32_t triangle, int32_t was, int32_t now)
 static int32_t halve(WrSolid *s, int32_t index, int32_t point)
 {
     const WrSolidTriangle t = s->relief.data[index];
-    const WrSolidSight m = middle_of_triangle(&t);
+    const WrSolidLocation m = middle_of_triangle(&t);
     const int32_t other = s->relief.count;
     const WrSolidTriangle a = {
         { t.point[2], t.point[0], point }, { -1, other, t.across[1] }, t.face, -1.0f,
@@ -601,7 +601,7 @@ static int32_t halve_bad(WrSolid *s, const int32_t *fresh, int32_t count)
         if (!(t->error > s->error) || !can_halve(s, t)) continue;
         refine(s, fresh[i]);
         halved++;
-        if (s->relief.count > WR_SOLID_MOST) return -1;
+        if (s->relief.count > WR_SOLID_MAX) return -1;
         if (halved % 4096 == 0 && wr_progress_stopped()) return 0;
     }
     return halved;
@@ -643,7 +643,7 @@ bool wr_solid_refine(WrSolid *solid, WrError *err)
     if (halved == 0) return settle(solid, err);
     return wr_fail(err,
                    "error=%.6g mm needs more than %d triangles: a larger error, or a smaller size",
-                   solid->error, WR_SOLID_MOST);
+                   solid->error, WR_SOLID_MAX);
 }
 
 /* ---- Back of a relief, walls around it, and caps over open ends: they close the mesh ---- */
@@ -714,17 +714,17 @@ static bool find_border(const WrSolid *s, Border *border, WrError *err)
 
 static int32_t sights_end(const WrSolid *s, int32_t point)
 {
-    return point + 1 < s->first.count ? s->first.data[point + 1] : s->sights.count;
+    return point + 1 < s->first.count ? s->first.data[point + 1] : s->locations.count;
 }
 
 /* (u,v) of points a and b, neighbours on a border. A point on a seam has a sight at each end of u: the nearest pair is taken,
    so that u does not jump between a and b. */
-static void side_sights(const WrSolid *s, int32_t a, int32_t b, WrSolidSight out[2])
+static void side_locations(const WrSolid *s, int32_t a, int32_t b, WrSolidLocation out[2])
 {
     double least = INFINITY;
     for (int32_t i = s->first.data[a]; i < sights_end(s, a); i++)
         for (int32_t j = s->first.data[b]; j < sights_end(s, b); j++) {
-            const WrSolidSight *p = &s->sights.data[i], *q = &s->sights.data[j];
+            const WrSolidLocation *p = &s->locations.data[i], *q = &s->locations.data[j];
             const double far = fabs(p->u - q->u) + fabs(p->v - q->v);
             if (least < INFINITY && !(far < least)) continue;
             least = far;
@@ -732,9 +732,9 @@ static void side_sights(const WrSolid *s, int32_t a, int32_t b, WrSolidSight out
         }
 }
 
-static void triangle_sights(const WrSolidTriangle *t, WrSolidSight out[3])
+static void triangle_locations(const WrSolidTriangle *t, WrSolidLocation out[3])
 {
-    for (int k = 0; k < 3; k++) out[k] = (WrSolidSight){ t->u[k], t->v[k], t->face };
+    for (int k = 0; k < 3; k++) out[k] = (WrSolidLocation){ t->u[k], t->v[k], t->face };
 }
 
 /* ---- a fan over a loop ---- */
@@ -782,9 +782,9 @@ static bool fan(WrSolid *s, const Border *b, const int32_t *map, int32_t start)
         return false;
     }
     do {
-        WrSolidSight uv[3];
-        side_sights(s, b->next[i], i, uv);
-        uv[2] = (WrSolidSight){ (uv[0].u + uv[1].u) / 2, (uv[0].v + uv[1].v) / 2, uv[0].face };
+        WrSolidLocation uv[3];
+        side_locations(s, b->next[i], i, uv);
+        uv[2] = (WrSolidLocation){ (uv[0].u + uv[1].u) / 2, (uv[0].v + uv[1].v) / 2, uv[0].face };
         wr_solid_add_triangle(s, (const int32_t[3]){ map[b->next[i]], map[i], centre }, uv);
         i = b->next[i];
     } while (i != start);
@@ -797,7 +797,7 @@ static int32_t add_back_point(WrSolid *s, int32_t of)
 {
     const int32_t first = s->first.data[of];
     float at[3];
-    wr_solid_point_position(s, s->sights.data + first, sights_end(s, of) - first, true, at);
+    wr_solid_point_position(s, s->locations.data + first, sights_end(s, of) - first, true, at);
     return wr_solid_add_bare(s, at);
 }
 
@@ -831,11 +831,11 @@ static bool add_shell(WrSolid *s, int32_t *back, int32_t points, WrError *err)
                 err,
                 "thickness=%.6g: more than the surface's curves leave room for: thinner, or filled",
                 s->thickness);
-        WrSolidSight at[3];
-        triangle_sights(t, at);
+        WrSolidLocation at[3];
+        triangle_locations(t, at);
         wr_solid_add_triangle(
             s, (const int32_t[3]){ back[t->point[1]], back[t->point[0]], back[t->point[2]] },
-            (const WrSolidSight[3]){ at[1], at[0], at[2] });
+            (const WrSolidLocation[3]){ at[1], at[0], at[2] });
     }
     return true;
 }
@@ -845,12 +845,12 @@ static void add_walls(WrSolid *s, const Border *border, const int32_t *back, int
     for (int32_t a = 0; a < points; a++) {
         const int32_t b = border->next[a];
         if (b < 0) continue;
-        WrSolidSight at[2];
-        side_sights(s, a, b, at);
+        WrSolidLocation at[2];
+        side_locations(s, a, b, at);
         wr_solid_add_triangle(s, (const int32_t[3]){ b, a, back[a] },
-                              (const WrSolidSight[3]){ at[1], at[0], at[0] });
+                              (const WrSolidLocation[3]){ at[1], at[0], at[0] });
         wr_solid_add_triangle(s, (const int32_t[3]){ b, back[a], back[b] },
-                              (const WrSolidSight[3]){ at[1], at[0], at[1] });
+                              (const WrSolidLocation[3]){ at[1], at[0], at[1] });
     }
 }
 
@@ -929,8 +929,8 @@ bool wr_solid_close(WrSolid *solid, WrError *err)
     Border border = { 0 };
     for (int32_t i = 0; i < solid->relief.count; i++) {
         const WrSolidTriangle *t = &solid->relief.data[i];
-        WrSolidSight at[3];
-        triangle_sights(t, at);
+        WrSolidLocation at[3];
+        triangle_locations(t, at);
         if (!is_pole(t)) wr_solid_add_triangle(solid, t->point, at);
     }
     bool good = find_border(solid, &border, err);

@@ -384,7 +384,7 @@ static bool export_receipt(void *ctx, int y, int rows, const float *values, bool
                                               : "half a code");
 }
 
-#define HALF_MOST 65520.0f /* smaller values become at most 65504 */
+#define HALF_MAX 65520.0f /* smaller values become at most 65504 */
 
 WrPixelType wr_export_pixels(int depth)
 {
@@ -398,7 +398,7 @@ static bool round_rows(const WrExportJob *job, int y, int rows, size_t row, floa
                        WrError *err)
 {
     for (size_t k = 0; job->options.half && k < (size_t)rows * row; k++) {
-        if (!(fabsf(values[k]) < HALF_MOST))
+        if (!(fabsf(values[k]) < HALF_MAX))
             return wr_fail(err, "row %d holds %g: 16-bit floats reach to 65504; depth=32 holds it",
                            y + (int)(k / row), (double)values[k]);
         values[k] = wr_round_half(values[k]);

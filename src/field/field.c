@@ -74,7 +74,7 @@ static void release(Counted *thing, int depth)
 {
     if (!thing || atomic_fetch_sub_explicit(&thing->refs, 1, memory_order_acq_rel) != 1) return;
     if (depth == 0) {
-        wr_slab_give(&tile_slabs, thing);
+        wr_slab_free(&tile_slabs, thing);
         return;
     }
     Node *node = (Node *)thing;

@@ -65,8 +65,8 @@ typedef struct Making {
     double sign;
     const Rects *edits;     /* NULL: compute all horizons */
     unsigned char *changed; /* for an update: [height][width] */
-    float steepest[WR_HORIZON_MOST];
-    bool failed[WR_HORIZON_MOST];
+    float steepest[WR_HORIZON_MAX];
+    bool failed[WR_HORIZON_MAX];
 } Making;
 
 static Course course_of(const WrHorizon *h, int direction)
@@ -367,7 +367,7 @@ double wr_horizon_sky(const double *slope, int directions, const double n[3])
 
 void wr_occlusion_map_make(WrOcclusionMap *opening, int directions, double across, double down)
 {
-    double angle[WR_HORIZON_MOST];
+    double angle[WR_HORIZON_MAX];
     opening->directions = directions;
     for (int k = 0; k < directions; k++) {
         double x, y;
@@ -419,7 +419,7 @@ static void open_row(int j, int worker, void *ctx)
     const float *row = job->heights + (size_t)j * (size_t)w;
     const float *above = job->heights + (size_t)((j + h - 1) % h) * (size_t)w;
     const float *below = job->heights + (size_t)((j + 1) % h) * (size_t)w;
-    float *out = job->out + (size_t)j * ((size_t)w + 1), slope[WR_HORIZON_MOST];
+    float *out = job->out + (size_t)j * ((size_t)w + 1), slope[WR_HORIZON_MAX];
     for (int i = 0; i < w; i++) {
         if (job->changed && !job->changed[(size_t)j * (size_t)w + (size_t)i]) continue;
         for (int k = 0; k < job->horizon->directions; k++)

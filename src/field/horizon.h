@@ -22,8 +22,8 @@ typedef struct WrPool WrPool;
 void wr_horizon_line(const double *heights, int n, double *slope, int *hull);
 
 /* Number of directions of a table, a multiple of 4. */
-#define WR_HORIZON_LEAST 4
-#define WR_HORIZON_MOST 64
+#define WR_HORIZON_MIN 4
+#define WR_HORIZON_MAX 64
 
 /* Direction k of a table: x along rising i, y along rising j, the larger of them 1. The directions
  * divide the perimeter of a square into equal steps, from x to y, so that lines meet texels evenly and
@@ -96,9 +96,9 @@ double wr_horizon_sky(const double *slope, int directions, const double n[3]);
    `across` x `down` in units of height. */
 typedef struct WrOcclusionMap {
     int directions;
-    double cosine[WR_HORIZON_MOST], sine[WR_HORIZON_MOST]; /* of the direction on the surface */
-    double share[WR_HORIZON_MOST]; /* fraction of the full circle covered by the direction */
-    double steep[WR_HORIZON_MOST]; /* tangent of the horizon = this times the table's slope */
+    double cosine[WR_HORIZON_MAX], sine[WR_HORIZON_MAX]; /* of the direction on the surface */
+    double share[WR_HORIZON_MAX]; /* fraction of the full circle covered by the direction */
+    double steep[WR_HORIZON_MAX]; /* tangent of the horizon = this times the table's slope */
 } WrOcclusionMap;
 
 void wr_occlusion_map_make(WrOcclusionMap *opening, int directions, double across, double down);

@@ -412,8 +412,8 @@ static void open_lines(Lines *l)
     const bool turns_u = wr_field_wrap_u(field) == WR_WRAP_PERIODIC;
     const bool turns_v = wr_field_wrap_v(field) == WR_WRAP_PERIODIC;
     const int w = wr_field_width(field), h = wr_field_height(field), longer = w > h ? w : h;
-    const int most = longer * WR_OCCLUSION_ROUND > WR_OCCLUSION_LEAST ? longer * WR_OCCLUSION_ROUND
-                                                                      : WR_OCCLUSION_LEAST;
+    const int most = longer * WR_OCCLUSION_ROUND > WR_OCCLUSION_MIN ? longer * WR_OCCLUSION_ROUND
+                                                                    : WR_OCCLUSION_MIN;
     l->along = l->course.upright ? h : w;
     l->across = l->course.upright ? w : h;
     l->turns_along = l->course.upright ? turns_v : turns_u;

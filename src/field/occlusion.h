@@ -36,7 +36,7 @@ typedef struct WrOcclusion {
 
 /* The search stops on a line that does not close within 2 of the table's longer sides, or 1024 texels. */
 #define WR_OCCLUSION_ROUND 2
-#define WR_OCCLUSION_LEAST 1024
+#define WR_OCCLUSION_MIN 1024
 
 /* out: 0..1. p, q: slopes of the texels' planes in scene units, y up. A part of the table needs a
  * reach; then pool must be NULL. Errors: out of memory; cancelled. */

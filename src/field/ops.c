@@ -419,7 +419,7 @@ const WrOpInfo wr_ops[] = {
                   WHOLE("octaves", "Octaves",
                         "noises, each twice as fine and half as high; those too fine for the "
                         "table are left out",
-                        4, 1, WR_OCTAVES_MOST, 8),
+                        4, 1, WR_OCTAVES_MAX, 8),
                   { .name = "kind",
                     .label = "Kind",
                     .help = "of the noise",
@@ -454,7 +454,7 @@ const WrOpInfo wr_ops[] = {
                     .soft_high = 64 },
                   CELLS(4),
                   WHOLE("octaves", "Octaves", "noises, each twice as fine and half as far", 2, 1,
-                        WR_OCTAVES_MOST, 8),
+                        WR_OCTAVES_MAX, 8),
                   WORDS("between", "Between texels", "what heights between texels are taken to be",
                         WR_WARP_CUBIC, between_words),
                   SEED } },

@@ -14,7 +14,7 @@
 
 /* ---- the seam test ---- */
 
-enum { ROOTS, SQUARES, MOST, MEANS };
+enum { ROOTS, SQUARES, MAX_MOST, MEANS };
 
 /* The means of each difference along one line. */
 typedef struct Line {
@@ -62,7 +62,7 @@ static void add_place(float t0, float t1, float t2, float t3, Line *line)
     for (int k = 0; k < WR_SEAM_DIFFERENCES; k++) {
         line->of[k][ROOTS] += sqrt(d[k]);
         line->of[k][SQUARES] += d[k] * d[k];
-        line->of[k][MOST] = fmax(line->of[k][MOST], d[k]);
+        line->of[k][MAX_MOST] = fmax(line->of[k][MAX_MOST], d[k]);
     }
 }
 
@@ -233,7 +233,7 @@ static WrSeamEdge measure(const WrField *field, bool along_v, const WrSeamOption
                      .length = along_v ? cell_h : cell_w,
                      .shift = o->shift[along_v ? 0 : 1] };
     WrSeamEdge edge = { .ends = wrap != WR_WRAP_PERIODIC, .order = 2 };
-    edge.measured = a.size >= WR_SEAM_LEAST && a.length > 0;
+    edge.measured = a.size >= WR_SEAM_MIN && a.length > 0;
     if (!edge.measured) return edge;
     const double noise = o->noise + float_noise(&a);
     const Line seam = measure_edge(&a), inside = measure_inside(&a, &seam, &edge.rank);

@@ -32,7 +32,7 @@ enum { WR_SEAM_STEP, WR_SEAM_SLOPE, WR_SEAM_BEND, WR_SEAM_DIFFERENCES };
 /* Divided by the number of lines inside and added to the limit. Without it 15 of 320 seamless noise
  * tables, 8 to 16 texels wide, showed a seam, of wider ones none; with it none. */
 #define WR_SEAM_FEW 5.0
-#define WR_SEAM_LEAST 8 /* minimum texels of an axis: shorter ones are not measured */
+#define WR_SEAM_MIN 8 /* minimum texels of an axis: shorter ones are not measured */
 
 /* One pair of edges. In table units; slopes and bends per texel and per its square. */
 typedef struct WrSeamEdge {

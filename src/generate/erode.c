@@ -19,7 +19,7 @@ static bool erode_begin(WrSheet *sheet, const WrGenerateJob *job, WrError *err);
 
 /* ---- water ---- */
 
-#define RADIUS_MOST 16
+#define RADIUS_MAX 16
 #define GRAVITY 4.0
 #define LEAST_SLOPE 0.01 /* slope used for the capacity on flat ground */
 #define RUN 64           /* maximum run of a drop, in texels of a grid */
@@ -36,7 +36,7 @@ const WrParam wr_params_hydraulic[] = {
     WR_P_PART("deposition", "Deposition", 0.3, "how fast it lays it down where it slows"),
     WR_P_PART("inertia", "Inertia", 0.02, "how hard it is to turn it"),
     WR_P_PART("evaporation", "Evaporation", 0.01, "of a drop, each texel"),
-    WR_P_WHOLE("radius", "Radius", 2, 1, RADIUS_MOST, 8,
+    WR_P_WHOLE("radius", "Radius", 2, 1, RADIUS_MAX, 8,
                "radius of the ground that a drop erodes, texels"),
     WR_P_WHOLE("life", "Life", 128, 1, 4096, 512, "how far water runs, texels"),
     WR_P_SEED,
@@ -45,7 +45,7 @@ const WrParam wr_params_hydraulic[] = {
 
 typedef struct Brush {
     int radius, side;
-    double weight[(2 * RADIUS_MOST + 1) * (2 * RADIUS_MOST + 1)]; /* [side][side], sum 1 */
+    double weight[(2 * RADIUS_MAX + 1) * (2 * RADIUS_MAX + 1)]; /* [side][side], sum 1 */
 } Brush;
 
 typedef struct Weather {

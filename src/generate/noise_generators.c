@@ -35,7 +35,7 @@ static const char *const sources[] = { SOURCES(WR_WORD) NULL };
     WR_P_WHOLE("cells", "Cells", count, 1, 8192, 32, "of the first octave, across the table"),     \
         WR_P_WHOLE("rows", "Rows of cells", 0, 0, 8192, 32,                                        \
                    "and up; 0: cells as square as can be"),                                        \
-        WR_P_WHOLE("octaves", "Octaves", 5, 1, WR_OCTAVES_MOST, 12,                                \
+        WR_P_WHOLE("octaves", "Octaves", 5, 1, WR_OCTAVES_MAX, 12,                                 \
                    "at most; those finer than two texels a cell are left out"),                    \
         WR_P_ABOVE("ratio", "Fall", 2, 1, 64, 4, "",                                               \
                    "each octave is so many times lower than the one before"),                      \

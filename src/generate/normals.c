@@ -185,7 +185,7 @@ static bool decode_bump_slopes(const WrParams *p, const WrImage *first, WrNormal
     const WrImageLabel *label = &first->label;
     const double k = label->uvslopes, height = wr_param_number(p, "height"),
                  sign = label->turned ? -1 : 1;
-    WrImage *image = wr_image_read_wish(wr_param_value(p, "file")->text, &wish, err);
+    WrImage *image = wr_image_read_request(wr_param_value(p, "file")->text, &wish, err);
     const bool good =
         image && normals_from_slopes(
                      image, sign * height / cell->number[0] * (k > 0 ? k : image->width),

@@ -47,9 +47,9 @@ static inline void wr_cells_turn(const WrCells *cells, double *x, double *y)
     *y = keep;
 }
 
-#define WR_CELLS_MOST 1024 /* maximum along an axis */
-#define WR_P_ACROSS(value) WR_P_WHOLE("across", "Across", value, 1, WR_CELLS_MOST, 32, "how many")
-#define WR_P_ROWS(value) WR_P_WHOLE("rows", "Rows", value, 1, WR_CELLS_MOST, 32, "how many")
+#define WR_CELLS_MAX 1024 /* maximum along an axis */
+#define WR_P_ACROSS(value) WR_P_WHOLE("across", "Across", value, 1, WR_CELLS_MAX, 32, "how many")
+#define WR_P_ROWS(value) WR_P_WHOLE("rows", "Rows", value, 1, WR_CELLS_MAX, 32, "how many")
 
 static inline int wr_modulo(int i, int n)
 {

@@ -19,8 +19,8 @@ static const int repeats[] = {
 WR_ROWS_END(repeats, WR_LENGTH(drafts) - 1);
 
 const WrParam wr_params_weave[] = {
-    WR_P_WHOLE("across", "Across", 20, 1, WR_CELLS_MOST, 64, "upright threads (the warp)"),
-    WR_P_WHOLE("rows", "Rows", 20, 1, WR_CELLS_MOST, 64, "level threads (the weft)"),
+    WR_P_WHOLE("across", "Across", 20, 1, WR_CELLS_MAX, 64, "upright threads (the warp)"),
+    WR_P_WHOLE("rows", "Rows", 20, 1, WR_CELLS_MAX, 64, "level threads (the weft)"),
     WR_P_CHOICE("draft", "Draft", PLAIN, drafts, "which thread lies on top where"),
     WR_P_PART("width", "Width", 0.88, "of the threads, of their distance"),
     WR_P_PART("round", "Roundness", 0.45, "how much of the height is the threads' own roundness"),
@@ -104,8 +104,8 @@ bool wr_pattern_weave(const WrParamValue *values, const WrGenerateJob *job, WrRe
 /* ---- rope ---- */
 
 const WrParam wr_params_rope[] = {
-    WR_P_WHOLE("across", "Across", 14, 1, WR_CELLS_MOST, 32, "strands along each rope"),
-    WR_P_WHOLE("rows", "Rows", 6, 1, WR_CELLS_MOST, 32, "ropes side by side"),
+    WR_P_WHOLE("across", "Across", 14, 1, WR_CELLS_MAX, 32, "strands along each rope"),
+    WR_P_WHOLE("rows", "Rows", 6, 1, WR_CELLS_MAX, 32, "ropes side by side"),
     WR_P_ALONG,
     WR_P_PART("width", "Width", 0.94, "of a rope, of their distance"),
     WR_P_NUMBER("lay", "Lay", 1.8, -8, 8, 4, "", "how many strands one crosses the rope over"),

@@ -52,8 +52,8 @@ bool wr_pattern_grid(const WrParamValue *values, const WrGenerateJob *job, WrRel
 /* ---- checks ---- */
 
 const WrParam wr_params_checks[] = {
-    WR_P_WHOLE("across", "Across", 8, 2, WR_CELLS_MOST, 32, "fields in a row; even"),
-    WR_P_WHOLE("rows", "Rows", 8, 2, WR_CELLS_MOST, 32, "fields in a column; even"),
+    WR_P_WHOLE("across", "Across", 8, 2, WR_CELLS_MAX, 32, "fields in a row; even"),
+    WR_P_WHOLE("rows", "Rows", 8, 2, WR_CELLS_MAX, 32, "fields in a column; even"),
     WR_P_BEVEL(3),
     WR_P_PROFILE,
     WR_P_HEIGHT,
@@ -93,9 +93,9 @@ bool wr_pattern_checks(const WrParamValue *values, const WrGenerateJob *job, WrR
 /* ---- periodic directions ---- */
 
 #define DIRECTION(a, b, what)                                                                      \
-    WR_P_WHOLE("across", "Across", a, -WR_CELLS_MOST, WR_CELLS_MOST, 32,                           \
+    WR_P_WHOLE("across", "Across", a, -WR_CELLS_MAX, WR_CELLS_MAX, 32,                             \
                what " from left to right"),                                                        \
-        WR_P_WHOLE("rows", "Rows", b, -WR_CELLS_MOST, WR_CELLS_MOST, 32, "and from bottom to top")
+        WR_P_WHOLE("rows", "Rows", b, -WR_CELLS_MAX, WR_CELLS_MAX, 32, "and from bottom to top")
 
 static bool read_direction(const WrParams *params, const char *name, Lines *l,
                            const WrGenerateJob *job, WrError *err)

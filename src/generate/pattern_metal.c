@@ -6,8 +6,8 @@
 #include <math.h>
 
 const WrParam wr_params_chain[] = {
-    WR_P_WHOLE("across", "Across", 4, 1, WR_CELLS_MOST, 32, "pairs of links along each chain"),
-    WR_P_WHOLE("rows", "Rows", 4, 1, WR_CELLS_MOST, 32, "chains side by side"),
+    WR_P_WHOLE("across", "Across", 4, 1, WR_CELLS_MAX, 32, "pairs of links along each chain"),
+    WR_P_WHOLE("rows", "Rows", 4, 1, WR_CELLS_MAX, 32, "chains side by side"),
     WR_P_ALONG,
     WR_P_PART("width", "Width", 0.8, "of the flat links, of the distance of chains"),
     WR_P_NUMBER("wire", "Wire", 0.26, 0.02, 0.3, 0.3, "",

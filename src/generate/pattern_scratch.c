@@ -9,13 +9,13 @@
 
 #include <math.h>
 
-#define MOST 2000   /* scratches */
-#define PIECES 16   /* of a bent scratch */
-#define BLUR 0.5    /* half a texel */
-#define BUCKETS 128 /* along an axis, at most */
+#define MAX_MOST 2000 /* scratches */
+#define PIECES 16     /* of a bent scratch */
+#define BLUR 0.5      /* half a texel */
+#define BUCKETS 128   /* along an axis, at most */
 
 const WrParam wr_params_scratches[] = {
-    WR_P_WHOLE("count", "Count", 60, 1, MOST, 500, "how many"),
+    WR_P_WHOLE("count", "Count", 60, 1, MAX_MOST, 500, "how many"),
     WR_P_TEXELS("length", "Length", 160, 512,
                 "of the longest; at most four times the table's shorter side"),
     WR_P_TEXELS("width", "Width", 3, 16, "of the widest; at most an eighth of that side"),

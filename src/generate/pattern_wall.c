@@ -25,7 +25,7 @@ static const int closes[] = { [WR_ROW(RUNNING)] = 2, [WR_ROW(THIRD)] = 3,   [WR_
 WR_ROWS_END(closes, WR_LENGTH(bonds) - 1);
 
 const WrParam wr_params_bricks[] = {
-    WR_P_WHOLE("across", "Across", 4, 1, WR_CELLS_MOST, 32, "bricks in a row"),
+    WR_P_WHOLE("across", "Across", 4, 1, WR_CELLS_MAX, 32, "bricks in a row"),
     WR_P_ROWS(10),
     WR_P_CHOICE("bond", "Bond", RUNNING, bonds, "how rows are set against each other"),
     WR_P_TEXELS("joint", "Joint", 7, 64, "width of the mortar"),
@@ -198,7 +198,7 @@ bool wr_pattern_tiles(const WrParamValue *values, const WrGenerateJob *job, WrRe
 
 const WrParam wr_params_hexagons[] = { WR_P_ACROSS(7),
                                        WR_P_WHOLE(
-                                           "rows", "Rows", 0, 0, WR_CELLS_MOST, 32,
+                                           "rows", "Rows", 0, 0, WR_CELLS_MAX, 32,
                                            "an even number; 0: as many as make them most regular"),
                                        WR_P_TEXELS("joint", "Joint", 5, 64, "width of the gap"),
                                        WR_P_BEVEL(8),
@@ -253,7 +253,7 @@ static int regular_rows(const WrField *like, int across)
 {
     double rows = across * 2.0 / sqrt(3.0) * wr_field_height(like) / wr_field_width(like);
     int pairs = (int)floor(0.5 * rows + 0.5);
-    return pairs < 1 ? 2 : pairs > WR_CELLS_MOST / 2 ? WR_CELLS_MOST : 2 * pairs;
+    return pairs < 1 ? 2 : pairs > WR_CELLS_MAX / 2 ? WR_CELLS_MAX : 2 * pairs;
 }
 
 bool wr_pattern_hexagons(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
@@ -286,8 +286,8 @@ bool wr_pattern_hexagons(const WrParamValue *values, const WrGenerateJob *job, W
 /* ---- planks ---- */
 
 const WrParam wr_params_planks[] = {
-    WR_P_WHOLE("across", "Across", 2, 1, WR_CELLS_MOST, 32, "planks end to end"),
-    WR_P_WHOLE("rows", "Rows", 6, 1, WR_CELLS_MOST, 32, "planks side by side"),
+    WR_P_WHOLE("across", "Across", 2, 1, WR_CELLS_MAX, 32, "planks end to end"),
+    WR_P_WHOLE("rows", "Rows", 6, 1, WR_CELLS_MAX, 32, "planks side by side"),
     WR_P_ALONG,
     WR_P_TEXELS("joint", "Joint", 3, 64, "width of the gap"),
     WR_P_BEVEL(5),

@@ -369,7 +369,7 @@ bool wr_picture_cut(WrSheet *sheet, int width, int height, const WrGenerateJob *
 /* ---- */
 
 /* Adds a remark if the table's aspect ratio distorts the picture. */
-static void tell_shape(const WrSheet *sheet, const int size[2], const WrGenerateJob *job)
+static void report_shape(const WrSheet *sheet, const int size[2], const WrGenerateJob *job)
 {
     double shape = (double)sheet->width * size[1] / ((double)sheet->height * size[0]);
     if (shape > 0.99 && shape < 1.01) return;
@@ -386,7 +386,7 @@ bool wr_picture_fit(WrSheet *sheet, WrSeamless seamless, const WrGenerateJob *jo
         larger[a] = size[a] + (overlaps ? seamless_overlap(size[a]) : 0);
         sheet->wrap[a] = WR_WRAP_CLAMP; /* its ends do not match yet */
     }
-    tell_shape(sheet, size, job);
+    report_shape(sheet, size, job);
     if (!wr_sheet_resize(sheet, larger[0], larger[1], job, err)) return false;
     sheet->wrap[0] = wrap[0];
     sheet->wrap[1] = wrap[1];
@@ -452,7 +452,7 @@ WrImage *wr_picture_read(const WrParams *params, const char *channels_, WrImageR
     const char *path = wr_param_value(params, "file")->text;
     wish.channel = wr_param_value(params, channels_)->text;
     wish.part = wr_param_value(params, "part")->text;
-    WrImage *image = wr_image_read_wish(path, &wish, err);
+    WrImage *image = wr_image_read_request(path, &wish, err);
     if (image && image->taken[0])
         wr_generate_note(job, "%s: took %s (%s= and part= take others)", path, image->taken,
                          channels_);

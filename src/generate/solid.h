@@ -33,8 +33,8 @@
     WR_P_NUMBER("sink", "Sink", 0, -16384, 16384, 64, "texels",                                    \
                 "depth of its part below the ground, which is hidden"),                            \
         WR_P_TEXELS("soft", "Soft", 0, 16, "height over the ground up to which its edge fades"),   \
-        WR_P_WHOLE("across", "Across", 1, 1, WR_SOLID_MOST, 32, "how many side by side"),          \
-        WR_P_WHOLE("rows", "Rows", 1, 1, WR_SOLID_MOST, 32, "how many above one another"),         \
+        WR_P_WHOLE("across", "Across", 1, 1, WR_SOLID_MAX, 32, "how many side by side"),           \
+        WR_P_WHOLE("rows", "Rows", 1, 1, WR_SOLID_MAX, 32, "how many above one another"),          \
         WR_S_TUPLE("spacing", "Spacing", 0, 0, 16384, 0, 256, "texels", "x,y",                     \
                    "from one to the next; 0: spread over the table"),                              \
         WR_P_PART("stagger", "Stagger", 0, "every other row moved by so much of the spacing"),     \
@@ -46,7 +46,7 @@
         WR_P_NUMBER("tilt", "Tilt", 0, 0, 180, 45, "degrees", "random tilt, up to that"),          \
         WR_P_NUMBER("vary", "Vary", 0, 0, 0.9, 0.9, "", "random change of size, as a part of it"), \
         WR_P_SEED
-#define WR_SOLID_MOST 1024
+#define WR_SOLID_MAX 1024
 
 /* One copy: at x, y (wr_z_place) and z; rotated and scaled about its origin. */
 typedef struct WrSolidPlace {

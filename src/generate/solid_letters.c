@@ -56,7 +56,7 @@ static WrZLetters *cut(const WrParams *params, WrFontOutline *outline, WrError *
     return letters;
 }
 
-static void tell_missing(const WrGenerateJob *job, const WrFontText *text)
+static void report_missing(const WrGenerateJob *job, const WrFontText *text)
 {
     if (text->missing_count > 0)
         wr_generate_note(job, "the font has no glyph for %d of the characters, U+%04X first",
@@ -82,7 +82,7 @@ static bool outline_of(const WrParams *params, const WrGenerateJob *job, WrFontO
     }
     bool good = wr_font_shape(file, &ask, &text, err) &&
                 wr_font_outline(&text, &setting, CHORD, outline, err);
-    if (good) tell_missing(job, &text);
+    if (good) report_missing(job, &text);
     if (good && outline->first.count == 0)
         good = wr_fail(err, "solid letters: the text has nothing to be cut out");
     wr_font_text_fini(&text);

@@ -147,7 +147,7 @@ static const char *const types[] = { TYPES(WR_WORD) NULL };
 const WrParam wr_params_fractal[] = {
     WR_P_CHOICE("type", "Type", RIDGED, types, "round hills, lumps, ridges, plains with mountains"),
     WR_P_WHOLE("cells", "Cells", 3, 1, 4096, 16, "of the first octave, across the table"),
-    WR_P_WHOLE("octaves", "Octaves", 9, 1, WR_OCTAVES_MOST, 12,
+    WR_P_WHOLE("octaves", "Octaves", 9, 1, WR_OCTAVES_MAX, 12,
                "at most; those finer than two texels a cell are left out"),
     WR_P_ABOVE("ratio", "Fall", 2.1, 1, 64, 4, "",
                "each octave is so many times lower than the one before"),
@@ -175,9 +175,9 @@ typedef struct Fractal {
     int type, octaves;
     double ratio, offset, gain, altitude, erosion, warp;
     bool slopes;
-    WrOctavesPlan octave[WR_OCTAVES_MOST]; /* one each, amplitude 1 */
+    WrOctavesPlan octave[WR_OCTAVES_MAX]; /* one each, amplitude 1 */
     WrOctavesPlan bend[2];
-    double low[WR_OCTAVES_MOST], high[WR_OCTAVES_MOST]; /* of the sum before octave k */
+    double low[WR_OCTAVES_MAX], high[WR_OCTAVES_MAX]; /* of the sum before octave k */
     WrOrigin across, up;
     WrSheet *sheet;
 } Fractal;

@@ -263,7 +263,7 @@ static const WrParam params[] = {
     WR_P_END
 };
 
-static WrTextRequest wish_of(const WrParams *p)
+static WrTextRequest request_of(const WrParams *p)
 {
     const WrParamValue *at = wr_param_value(p, "at"), *lattice = wr_param_value(p, "lattice");
     const WrParamValue *path = wr_param_value(p, "points");
@@ -311,7 +311,7 @@ static bool make_text(const WrParamValue *values, const WrGenerateJob *job, WrRe
                       WrError *err)
 {
     WrParams p = { params, values };
-    WrTextRequest wish = wish_of(&p);
+    WrTextRequest wish = request_of(&p);
     WrTextFinish finish = { (WrTextProfile)wr_param_whole(&p, "profile"),
                             wr_param_number(&p, "bevel"), wr_param_number(&p, "height") };
     WrFontText text = { 0 };

@@ -28,30 +28,30 @@
 
 /* ---- comparisons ---- */
 
-static void note(WrHardGauge *gauge, WrHardPrecision precision, double deviation)
+static void note(WrHardMeasurement *gauge, WrHardPrecision precision, double deviation)
 {
     gauge->checks[precision]++;
     if (isnan(deviation)) deviation = INFINITY;
     if (deviation > gauge->worst[precision]) gauge->worst[precision] = deviation;
 }
 
-void wr_hard_off(WrHardGauge *gauge, WrHardPrecision precision, double deviation)
+void wr_hard_off(WrHardMeasurement *gauge, WrHardPrecision precision, double deviation)
 {
     note(gauge, precision, fabs(deviation + gauge->nudge[precision]));
 }
 
-void wr_hard_near(WrHardGauge *gauge, WrHardPrecision precision, double got, double want)
+void wr_hard_near(WrHardMeasurement *gauge, WrHardPrecision precision, double got, double want)
 {
     wr_hard_off(gauge, precision, got == want ? 0.0 : fabs(got - want));
 }
 
-void wr_hard_holds(WrHardGauge *gauge, WrHardPrecision precision, bool ok)
+void wr_hard_holds(WrHardMeasurement *gauge, WrHardPrecision precision, bool ok)
 {
     gauge->checks[precision]++;
     if (ok != (gauge->nudge[precision] == 0.0)) gauge->worst[precision] += 1.0;
 }
 
-double wr_hard_random(WrHardGauge *gauge)
+double wr_hard_random(WrHardMeasurement *gauge)
 {
     uint64_t z = (gauge->random += 0x9e3779b97f4a7c15ULL);
     z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9ULL;
@@ -59,12 +59,12 @@ double wr_hard_random(WrHardGauge *gauge)
     return (double)((z ^ z >> 31) >> 11) * 0x1p-53;
 }
 
-double wr_hard_between(WrHardGauge *gauge, double low, double high)
+double wr_hard_between(WrHardMeasurement *gauge, double low, double high)
 {
     return low + (high - low) * wr_hard_random(gauge);
 }
 
-float wr_hard_float(WrHardGauge *gauge)
+float wr_hard_float(WrHardMeasurement *gauge)
 {
     return (float)(floor(wr_hard_random(gauge) * 0x1p24) * 0x1p-24);
 }
@@ -93,7 +93,7 @@ WrShape wr_hard_patch(WrVec3 (*point)(int i, int j))
 #define SET3(strip, name, a)                                                                       \
     ((strip)->name##x[0] = (a).x, (strip)->name##y[0] = (a).y, (strip)->name##z[0] = (a).z)
 
-WrSurfacePointf wr_hard_point(WrHardGauge *gauge, int set, const WrShape *shape, double scale,
+WrSurfacePointf wr_hard_point(WrHardMeasurement *gauge, int set, const WrShape *shape, double scale,
                               int face, float u, float v)
 {
     WrShapef single;
@@ -121,8 +121,8 @@ WrVec3 wr_hard_perturbed(WrBumpMode mode, const WrSurfacePoint *at, WrHardSlope 
                                slope.fu, slope.fv);
 }
 
-WrVec3 wr_hard_perturbed_f(WrHardGauge *gauge, int set, WrBumpMode mode, const WrSurfacePointf *at,
-                           WrHardSlope slope, bool behind)
+WrVec3 wr_hard_perturbed_f(WrHardMeasurement *gauge, int set, WrBumpMode mode,
+                           const WrSurfacePointf *at, WrHardSlope slope, bool behind)
 {
     WrStrip *strip = gauge->strip;
     const float side = behind ? -1.0f : 1.0f;
@@ -143,7 +143,7 @@ WrVec3 wr_hard_perturbed_f(WrHardGauge *gauge, int set, WrBumpMode mode, const W
     return wr_hard_vec(GET3(strip, b));
 }
 
-WrVec3 wr_hard_perturbed_wide(WrHardGauge *gauge, int set, WrBumpMode mode,
+WrVec3 wr_hard_perturbed_wide(WrHardMeasurement *gauge, int set, WrBumpMode mode,
                               const WrSurfacePoint *at, WrHardSlope slope)
 {
     WrStripd *strip = gauge->wide_strip;
@@ -187,7 +187,7 @@ WrSurfacePointf wr_hard_narrow(const WrSurfacePoint *at)
 
 /* ---- tables ---- */
 
-WrField *wr_hard_rough(WrHardGauge *gauge, int width, int height, WrWrap wrap)
+WrField *wr_hard_rough(WrHardMeasurement *gauge, int width, int height, WrWrap wrap)
 {
     WrField *field = wr_field_new(width, height, wrap, wrap, 0.0f, NULL);
     for (int j = 0; j < height; j++)
@@ -238,7 +238,7 @@ bool wr_hard_same_slope(WrHardSlope a, WrHardSlope b)
 
 /* ---- pictures ---- */
 
-bool wr_hard_shoot(WrHardGauge *gauge, const WrFrameRequest *request, WrHardShot *shot,
+bool wr_hard_shoot(WrHardMeasurement *gauge, const WrFrameRequest *request, WrHardShot *shot,
                    WrError *err)
 {
     WrHardShot made = { .renderer = wr_renderer_new(gauge->pool, gauge->isa, err) };
@@ -251,7 +251,7 @@ bool wr_hard_shoot(WrHardGauge *gauge, const WrFrameRequest *request, WrHardShot
     return true;
 }
 
-bool wr_hard_shoot_by(WrHardGauge *gauge, const WrFrameRequest *request, WrHardWay way,
+bool wr_hard_shoot_by(WrHardMeasurement *gauge, const WrFrameRequest *request, WrHardWay way,
                       WrHardShot *shot, WrError *err)
 {
     WrScene *scene = wr_scene_clone(request->scene);
@@ -290,8 +290,8 @@ int64_t wr_hard_wild(const WrHardShot *shot)
 
 /* ---- Fetches of heights and slopes by the renderer ---- */
 
-bool wr_hard_look_init(WrHardGauge *gauge, WrHardLook *look, const WrField *field, WrScheme scheme,
-                       double ru, double rv, WrError *err)
+bool wr_hard_look_init(WrHardMeasurement *gauge, WrHardLook *look, const WrField *field,
+                       WrScheme scheme, double ru, double rv, WrError *err)
 {
     const WrCopyKind kind =
         wr_schemes[scheme].taps == WR_TAPS_FITTED ? WR_COPY_FITTED : WR_COPY_HEIGHTS;
@@ -324,7 +324,8 @@ void wr_hard_look_fini(WrHardLook *look)
     wr_table_fini(&look->table);
 }
 
-WrHardSlope wr_hard_look_at(WrHardGauge *gauge, int set, const WrHardLook *look, float u, float v)
+WrHardSlope wr_hard_look_at(WrHardMeasurement *gauge, int set, const WrHardLook *look, float u,
+                            float v)
 {
     WrStrip *strip = gauge->strip;
     strip->count = 1;
@@ -484,8 +485,8 @@ bool wr_hard_shine(const WrHardLit *lit, double part[2], WrError *err)
     return good;
 }
 
-bool wr_hard_refer(WrHardGauge *gauge, const WrFrameRequest *request, int samples, WrReference *out,
-                   WrError *err)
+bool wr_hard_refer(WrHardMeasurement *gauge, const WrFrameRequest *request, int samples,
+                   WrReference *out, WrError *err)
 {
     const WrReferenceRequest wanted = { .field = request->field,
                                         .scene = request->scene,
@@ -651,7 +652,7 @@ const WrHardCase *wr_hardcase_find(const char *id)
 
 /* ---- running ---- */
 
-static WrHardVerdict judge(const WrHardCase *row, const WrHardGauge *gauge)
+static WrHardVerdict judge(const WrHardCase *row, const WrHardMeasurement *gauge)
 {
     for (int p = 0; p < WR_HARD_PRECISIONS; p++) {
         if (isnan(row->bound[p])) continue;
@@ -660,9 +661,9 @@ static WrHardVerdict judge(const WrHardCase *row, const WrHardGauge *gauge)
     return row->waits ? WR_HARD_WAITS : WR_HARD_PASS;
 }
 
-static bool set_up(WrHardGauge *gauge, const WrHardRequest *request, WrError *err)
+static bool set_up(WrHardMeasurement *gauge, const WrHardRequest *request, WrError *err)
 {
-    *gauge = (WrHardGauge){ .isa = request->isa, .pool = request->pool, .random = 1978 };
+    *gauge = (WrHardMeasurement){ .isa = request->isa, .pool = request->pool, .random = 1978 };
     memcpy(gauge->nudge, request->nudge, sizeof gauge->nudge);
     gauge->kernels[0] = wr_kernels_get("ref", false, err);
     gauge->kernels[1] = wr_kernels_get(request->isa, false, err);
@@ -681,7 +682,7 @@ bool wr_hardcase_run(const WrHardCase *row, const WrHardRequest *request, WrHard
                      WrError *err)
 {
     const double start = wr_clock_seconds();
-    WrHardGauge gauge;
+    WrHardMeasurement gauge;
     WrHardResult result = { .row = row, .verdict = WR_HARD_WAITS, .worst = { NAN, NAN } };
     if (!set_up(&gauge, request, err)) return false;
     if (row->measure) {

@@ -33,7 +33,8 @@ typedef enum WrHardSubject {
 } WrHardSubject;
 extern const char *const wr_hard_subjects[WR_HARD_SUBJECTS]; /* names for display */
 
-typedef struct WrHardGauge WrHardGauge; /* private to the module: output of measurements */
+typedef struct WrHardMeasurement
+    WrHardMeasurement; /* private to the module: output of measurements */
 
 typedef struct WrHardCase {
     /* "HC01" .. "HC96", then those of later parts; gaps are reserved for light and scenes */
@@ -45,7 +46,7 @@ typedef struct WrHardCase {
     double bound[WR_HARD_PRECISIONS]; /* NAN: this precision does not apply */
     /* Measurement; NULL: not possible yet. False and an error if something outside the program is missing (an
        installed font, a folder for files). */
-    bool (*measure)(WrHardGauge *gauge, WrError *err);
+    bool (*measure)(WrHardMeasurement *gauge, WrError *err);
     /* Missing feature of the program; NULL: none. With a measurement: that part of the case is not covered, and
        the case never passes. */
     const char *waits;

@@ -19,7 +19,7 @@
 
 /* Hard cases of perturbed normals that turn away from the eye or the light, or are seen edge on. */
 
-static WrVec3 direction(WrHardGauge *g)
+static WrVec3 direction(WrHardMeasurement *g)
 {
     for (;;) {
         const WrVec3 a = { wr_hard_between(g, -1, 1), wr_hard_between(g, -1, 1),
@@ -29,7 +29,7 @@ static WrVec3 direction(WrHardGauge *g)
 }
 
 /* Diffuse and specular parts by the kernels; ambient 0. */
-static void shine(WrHardGauge *g, int set, const WrHardLit *lit, double out[2])
+static void shine(WrHardMeasurement *g, int set, const WrHardLit *lit, double out[2])
 {
     const WrKernels *k = g->kernels[set];
     WrStrip *s = g->strip;
@@ -55,7 +55,7 @@ static bool forwards(const WrHardLit *lit)
     return lit->perturbed.z > 0.05 && lit->view.z > 0.05;
 }
 
-static bool hc24(WrHardGauge *g, WrError *err)
+static bool hc24(WrHardMeasurement *g, WrError *err)
 {
     for (int i = 0; i < 2000; i++) {
         const WrHardLit lit = { .perturbed = direction(g),
@@ -81,7 +81,7 @@ static bool hc24(WrHardGauge *g, WrError *err)
 }
 
 /* As in the paper, the surface's own n has no influence: only n'.l counts. */
-static bool hc25(WrHardGauge *g, WrError *err)
+static bool hc25(WrHardMeasurement *g, WrError *err)
 {
     for (int i = 0; i < 2000; i++) {
         const WrHardLit lit = { .perturbed = direction(g),
@@ -108,7 +108,7 @@ static bool hc25(WrHardGauge *g, WrError *err)
 }
 
 /* Across n'.l = 0 the gated highlight may jump by at most ks (n'.h)^s; without the gate it is continuous. */
-static bool hc26(WrHardGauge *g, WrError *err)
+static bool hc26(WrHardMeasurement *g, WrError *err)
 {
     for (int i = 0; i < 400; i++) {
         const double s = i % 2 ? 5 : 200, angle = wr_hard_between(g, 0.2, 1.5);
@@ -143,7 +143,7 @@ static bool hc26(WrHardGauge *g, WrError *err)
 }
 
 /* The unit plane seen with n.v = c is c high: rows of samples that it covers in the middle column. */
-static bool hc27(WrHardGauge *g, WrError *err)
+static bool hc27(WrHardMeasurement *g, WrError *err)
 {
     enum { SIZE = 64, K = 4 };
     static const double cosines[] = { 0.3, 0.1, 0.03, 1e-2, 1e-3, 1e-6 };
@@ -239,7 +239,7 @@ static double wave_mean(double from, double to)
 /* Every level's mean compared with the table's, to 1e-6; and its texels compared with the means of one wave
    along u over their own shares. The sampling error of the wave, with partial texels, is at most a third of the
    steepest texel's rise, 2 pi / w; a shift of half a texel along a level would exceed that. */
-static void check_levels(WrHardGauge *g, const WrPyramid *pyramid, const WrField *field)
+static void check_levels(WrHardMeasurement *g, const WrPyramid *pyramid, const WrField *field)
 {
     const int w = wr_field_width(field), h = wr_field_height(field);
     double mean = 0.0;
@@ -261,7 +261,7 @@ static void check_levels(WrHardGauge *g, const WrPyramid *pyramid, const WrField
     wr_hard_off(g, WR_HARD_FLOAT, last->width == 1 && last->height == 1 ? 0.0 : 2.0);
 }
 
-static bool hc55(WrHardGauge *g, WrError *err)
+static bool hc55(WrHardMeasurement *g, WrError *err)
 {
     static const int sizes[][2] = { { 64, 16 }, { 5, 3 },   { 1, 37 },   { 37, 1 },
                                     { 3, 2 },   { 100, 7 }, { 129, 65 }, { 2, 1 } };
@@ -287,7 +287,7 @@ static bool hc55(WrHardGauge *g, WrError *err)
 
 /* Footprints of rays: along the surface, from beside it, with equal or zero tangents; all must be finite, and at
    most as long as allowed. */
-static void check_footprints(WrHardGauge *g, const WrLook *look)
+static void check_footprints(WrHardMeasurement *g, const WrLook *look)
 {
     static const float lengths[] = { 0, 1e-30f, 1e-3f, 1, 1e18f, INFINITY };
     enum { LENGTHS = sizeof lengths / sizeof *lengths };
@@ -317,7 +317,7 @@ static void check_footprints(WrHardGauge *g, const WrLook *look)
 }
 
 /* Footprints passed directly to the kernels: level, number of fetches and the fetched values must be in range. */
-static bool hc56(WrHardGauge *g, WrError *err)
+static bool hc56(WrHardMeasurement *g, WrError *err)
 {
     static const float sides[] = { 0, 1e-30f, 0.5f, 1, 1e3f, 1e6f, 1e9f, INFINITY, NAN };
     enum { SIDES = sizeof sides / sizeof *sides };
@@ -338,7 +338,7 @@ static bool hc56(WrHardGauge *g, WrError *err)
             g->kernels[set]->spread(&look.look, k >= SIDES * SIDES, s);
             const float level = s->level[0];
             wr_hard_holds(g, WR_HARD_FLOAT, level >= 0.0f && level <= (float)(pyramid.levels - 1));
-            wr_hard_holds(g, WR_HARD_FLOAT, s->taps[0] >= 1 && s->taps[0] <= WR_TAPS_MOST);
+            wr_hard_holds(g, WR_HARD_FLOAT, s->taps[0] >= 1 && s->taps[0] <= WR_TAPS_MAX);
             g->kernels[set]->look_pyramid(&look.look, true, s);
             wr_hard_holds(g, WR_HARD_FLOAT, isfinite(s->fu[0]) && isfinite(s->fv[0]));
             wr_hard_holds(g, WR_HARD_FLOAT, s->suu[0] >= 0.0f && s->svv[0] >= 0.0f);
@@ -351,7 +351,7 @@ static bool hc56(WrHardGauge *g, WrError *err)
 
 /* One ulp before the seam F and its slopes are nearly those on it, by every scheme that is continuous there: a
    table that repeats its own last column instead of the first would show a crease. */
-static void check_seam(WrHardGauge *g, const WrHardLook *look, const WrField *field)
+static void check_seam(WrHardMeasurement *g, const WrHardLook *look, const WrField *field)
 {
     if (look->scheme == WR_SCHEME_NEAREST) return;
     const double single = 1.0 - 0x1p-24, wide = 1.0 - 0x1p-53;
@@ -372,7 +372,7 @@ static void check_seam(WrHardGauge *g, const WrHardLook *look, const WrField *fi
 }
 
 /* The seam at u = 0 and 1 (v as well on the torus): the same frame and the same n', to the bit. */
-static bool hc57(WrHardGauge *g, WrError *err)
+static bool hc57(WrHardMeasurement *g, WrError *err)
 {
     static const WrSurfaceKind kinds[] = { WR_SURFACE_cylinder, WR_SURFACE_sphere,
                                            WR_SURFACE_torus };
@@ -410,7 +410,7 @@ static bool hc57(WrHardGauge *g, WrError *err)
     return good;
 }
 
-static bool hc58(WrHardGauge *g, WrError *err)
+static bool hc58(WrHardMeasurement *g, WrError *err)
 {
     static const int sizes[][2] = { { 1, 1 }, { 2, 2 }, { 3, 3 }, { 1, 5 }, { 3, 2 }, { 29, 64 } };
     bool good = true;
@@ -501,8 +501,8 @@ static bool tame(const float n[3])
 
 /* Pictures of the map on a plane or a sphere, in each arithmetic, without the table's bump; takes ownership of
    the map. */
-static bool shoot_map(WrHardGauge *g, WrImage *map, double strength, double repeat, WrAntialias aa,
-                      bool wanted_flat, WrError *err)
+static bool shoot_map(WrHardMeasurement *g, WrImage *map, double strength, double repeat,
+                      WrAntialias aa, bool wanted_flat, WrError *err)
 {
     WrField *field = wr_field_new(8, 8, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
     WrScene *scene = wr_scene_new();
@@ -538,18 +538,18 @@ static bool shoot_map(WrHardGauge *g, WrImage *map, double strength, double repe
 
 /* All 128: it stands for 0, and pictures are those without a map. Half of them 127: neither stands for 0, and
    both lean equally. Floats: 0. */
-static bool hc137(WrHardGauge *g, WrError *err)
+static bool hc137(WrHardMeasurement *g, WrError *err)
 {
-    WrNormalTold told;
+    WrNormalMapReport report;
     WrImage *file = blank(WR_PIXEL_U8, 3);
     for (int i = 0; i < 3 * TEXELS; i++) file->data[i] = (float)((i % 3 < 2 ? 128 : 255) / 255.0);
-    WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, err);
-    wr_hard_holds(g, WR_HARD_DOUBLE, told.centred && map->data[0] == 0 && map->data[1] == 0);
+    WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &report, err);
+    wr_hard_holds(g, WR_HARD_DOUBLE, report.centred && map->data[0] == 0 && map->data[1] == 0);
     bool good = shoot_map(g, map, 1, 1, WR_AA_POINT, true, err);
     for (int i = 0; i < 3 * TEXELS; i += 6)
         file->data[i] = file->data[i + 1] = (float)(127 / 255.0);
-    map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, err);
-    wr_hard_holds(g, WR_HARD_DOUBLE, !told.centred);
+    map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &report, err);
+    wr_hard_holds(g, WR_HARD_DOUBLE, !report.centred);
     for (int i = 0; i < 3 * TEXELS; i += 3) {
         const double lean = hypot((double)map->data[i], (double)map->data[i + 1]);
         wr_hard_holds(g, WR_HARD_DOUBLE, fabs(lean - sqrt(2.0) / 255) < 1e-6);
@@ -560,43 +560,43 @@ static bool hc137(WrHardGauge *g, WrError *err)
 }
 
 /* Two channels, random: also outside the unit circle. */
-static bool hc138(WrHardGauge *g, WrError *err)
+static bool hc138(WrHardMeasurement *g, WrError *err)
 {
-    WrNormalTold told;
+    WrNormalMapReport report;
     WrImage *file = blank(WR_PIXEL_U16, 3);
     int64_t beyond = 0;
     for (int i = 0; i < 3 * TEXELS; i++)
         file->data[i] = (float)(floor(65535 * wr_hard_random(g)) / 65535);
     for (int i = 0; i < 3 * TEXELS; i += 3) {
         const double x = 2 * (double)file->data[i] - 1, y = 2 * (double)file->data[i + 1] - 1;
-        beyond += x * x + y * y >= 1 - WR_NORMAL_LEAST * WR_NORMAL_LEAST;
+        beyond += x * x + y * y >= 1 - WR_NORMAL_MIN * WR_NORMAL_MIN;
     }
-    WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 2, WR_CODING_AUTO, &told, err);
+    WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 2, WR_CODING_AUTO, &report, err);
     for (int i = 0; i < 3 * TEXELS; i += 3) wr_hard_holds(g, WR_HARD_DOUBLE, tame(map->data + i));
-    wr_hard_holds(g, WR_HARD_DOUBLE, told.away == beyond && beyond > 0);
+    wr_hard_holds(g, WR_HARD_DOUBLE, report.away == beyond && beyond > 0);
     wr_image_free(file);
     return shoot_map(g, map, 1, 3, WR_AA_POINT, false, err);
 }
 
 /* Three channels, every direction; some texels (0,0,0), which is (-1,-1,-1). */
-static bool hc139(WrHardGauge *g, WrError *err)
+static bool hc139(WrHardMeasurement *g, WrError *err)
 {
-    WrNormalTold told;
+    WrNormalMapReport report;
     WrImage *file = blank(WR_PIXEL_U8, 3);
     int64_t away = 0;
     for (int i = 0; i < TEXELS; i++) {
         float *t = file->data + 3 * i;
         for (int c = 0; c < 3 && i % 5; c++) t[c] = (float)(floor(256 * wr_hard_random(g)) / 255);
         const double x = 2 * (double)t[0] - 1, y = 2 * (double)t[1] - 1, z = 2 * (double)t[2] - 1;
-        away += z / sqrt(x * x + y * y + z * z) < WR_NORMAL_LEAST;
+        away += z / sqrt(x * x + y * y + z * z) < WR_NORMAL_MIN;
     }
-    WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, err);
+    WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &report, err);
     for (int i = 0; i < TEXELS; i++) {
         const float *t = file->data + 3 * i, *n = map->data + 3 * i;
         const double x = 2 * (double)t[0] - 1, y = 2 * (double)t[1] - 1;
         wr_hard_holds(g, WR_HARD_DOUBLE, tame(n) && x * (double)n[0] >= 0 && y * (double)n[1] >= 0);
     }
-    wr_hard_holds(g, WR_HARD_DOUBLE, told.away == away && away >= TEXELS / 5);
+    wr_hard_holds(g, WR_HARD_DOUBLE, report.away == away && away >= TEXELS / 5);
     wr_image_free(file);
     return shoot_map(g, map, 1, 3, WR_AA_FILTER, false, err);
 }
@@ -619,29 +619,29 @@ static WrImage *waves(bool apart, double power)
     return file;
 }
 
-static bool hc140(WrHardGauge *g, WrError *err)
+static bool hc140(WrHardMeasurement *g, WrError *err)
 {
     for (int apart = 0; apart < 2; apart++) {
-        WrNormalTold told;
+        WrNormalMapReport report;
         WrImage *file = waves(apart, 1);
-        WrImage *map = wr_normal_map_read(file, WR_GREEN_AUTO, 0, WR_CODING_AUTO, &told, err);
+        WrImage *map = wr_normal_map_read(file, WR_GREEN_AUTO, 0, WR_CODING_AUTO, &report, err);
         wr_hard_holds(g, WR_HARD_DOUBLE,
-                      apart ? told.undecided && !told.green_down
-                            : !told.undecided && told.green_down);
+                      apart ? report.undecided && !report.green_down
+                            : !report.undecided && report.green_down);
         wr_image_free(map);
         wr_image_free(file);
     }
     return true;
 }
 
-static bool hc141(WrHardGauge *g, WrError *err)
+static bool hc141(WrHardMeasurement *g, WrError *err)
 {
     static const double powers[] = { 1, 2.2, 1 / 2.2 };
     for (int k = 0; k < 3; k++) {
-        WrNormalTold told;
+        WrNormalMapReport report;
         WrImage *file = waves(false, powers[k]);
-        WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, err);
-        wr_hard_holds(g, WR_HARD_DOUBLE, told.converted == (k > 0));
+        WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &report, err);
+        wr_hard_holds(g, WR_HARD_DOUBLE, report.converted == (k > 0));
         wr_image_free(map);
         wr_image_free(file);
     }
@@ -650,18 +650,18 @@ static bool hc141(WrHardGauge *g, WrError *err)
 
 /* The steepest slopes that a map can hold, of either sign side by side, with strength 100, repeated a billion
    times: their moments. */
-static bool hc142(WrHardGauge *g, WrError *err)
+static bool hc142(WrHardMeasurement *g, WrError *err)
 {
     bool good = true;
     for (int k = 0; k < 4 && good; k++) {
-        WrNormalTold told;
+        WrNormalMapReport report;
         WrImage *file = blank(WR_PIXEL_F32, 3);
         for (int i = 0; i < TEXELS; i++) {
             file->data[3 * i] = wr_hard_random(g) < 0.5 ? -1 : 1;
             file->data[3 * i + 1] = wr_hard_random(g) < 0.5 ? -1 : 1;
             file->data[3 * i + 2] = 0;
         }
-        WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, err);
+        WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &report, err);
         for (int i = 0; i < 3 * TEXELS; i += 3)
             wr_hard_holds(g, WR_HARD_DOUBLE, tame(map->data + i));
         good = shoot_map(g, map, 100, k % 2 ? 1e9 : 3, k / 2 ? WR_AA_MOMENTS : WR_AA_FILTER, false,
@@ -700,7 +700,7 @@ typedef struct Sample {
     WrSurfacePoint at; /* n in double from the same tangents */
 } Sample;
 
-static Sample sample_of(WrHardGauge *g, int i)
+static Sample sample_of(WrHardMeasurement *g, int i)
 {
     static const WrSurfaceKind kinds[] = { WR_SURFACE_bent,   WR_SURFACE_bezier,
                                            WR_SURFACE_sphere, WR_SURFACE_cylinder,
@@ -722,7 +722,8 @@ static Sample plane_point(void)
     return s;
 }
 
-static void angles(WrHardGauge *g, const Sample *s, WrBumpMode mode, WrHardSlope slope, WrVec3 want)
+static void angles(WrHardMeasurement *g, const Sample *s, WrBumpMode mode, WrHardSlope slope,
+                   WrVec3 want)
 {
     wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(wr_hard_perturbed(mode, &s->at, slope), want));
     for (int set = 0; set < g->sets; set++)
@@ -731,7 +732,7 @@ static void angles(WrHardGauge *g, const Sample *s, WrBumpMode mode, WrHardSlope
             v3_angle_rad(wr_hard_perturbed_f(g, set, mode, &s->single, slope, false), want));
 }
 
-static bool hc13(WrHardGauge *g, WrError *err)
+static bool hc13(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     for (int i = 0; i < 64; i++) {
@@ -747,7 +748,7 @@ static bool hc13(WrHardGauge *g, WrError *err)
     return true;
 }
 
-static bool hc14(WrHardGauge *g, WrError *err)
+static bool hc14(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     const Sample s = plane_point();
@@ -765,7 +766,7 @@ static bool hc14(WrHardGauge *g, WrError *err)
 
 /* On any surface, slopes of any direction up to the precision's largest number: N' consists of D only. The
    tangents are those of the float point; in double they are up to 1e30 long, so that D overflows for all slopes. */
-static void check_steep(WrHardGauge *g, int i)
+static void check_steep(WrHardMeasurement *g, int i)
 {
     static const double most[] = { 1e30, 1e38, (double)FLT_MAX };
     const WrBumpMode mode = (WrBumpMode)(WR_BUMP_BLINN + i % 3);
@@ -788,7 +789,7 @@ static void check_steep(WrHardGauge *g, int i)
 }
 
 /* On the unit plane the downhill direction is -(Fu, Fv). */
-static bool hc15(WrHardGauge *g, WrError *err)
+static bool hc15(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     static const double steep[] = { 1e30, 1e38, 3e38, 1e154, DBL_MAX };
@@ -815,7 +816,7 @@ static double places(WrVec3 a, WrVec3 b, double ulp)
     return fmax(fmax(fabs(d.x), fabs(d.y)), fabs(d.z)) / ulp;
 }
 
-static bool hc16(WrHardGauge *g, WrError *err)
+static bool hc16(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     for (int i = 0; i < 120; i++) {
@@ -834,7 +835,7 @@ static bool hc16(WrHardGauge *g, WrError *err)
     return true;
 }
 
-static bool hc17(WrHardGauge *g, WrError *err)
+static bool hc17(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     for (int i = 0; i < 120; i++) {
@@ -858,7 +859,7 @@ static bool hc17(WrHardGauge *g, WrError *err)
 }
 
 /* tan(theta') / a - 1, on the unit plane: n' = (-Fu, -Fv, 1) up to length. */
-static bool hc18(WrHardGauge *g, WrError *err)
+static bool hc18(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     static const double slopes[] = { 1e-25, 1e-12, 1e-170, 1e-300 };
@@ -884,7 +885,7 @@ static double tangent(WrVec3 a, WrVec3 b)
 }
 
 /* In float up to the last number before the pole. */
-static bool hc19(WrHardGauge *g, WrError *err)
+static bool hc19(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     static const double slopes[][2] = { { 0.5, 0 }, { 0, 0.5 }, { 0.3, -0.4 } };
@@ -910,7 +911,7 @@ static bool hc19(WrHardGauge *g, WrError *err)
 }
 
 /* Equal directions have the angle 0, in whatever precision they were computed; small angles are preserved. */
-static bool hc20(WrHardGauge *g, WrError *err)
+static bool hc20(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     for (int i = 0; i < 200; i++) {
@@ -927,7 +928,7 @@ static bool hc20(WrHardGauge *g, WrError *err)
 
 /* Kernels: without tangents, and with infinite ones, the result is n; tangents at right angles of length 1e-40
    to 1e37, slope 1: the formulas' result. */
-static void kernels_make_unit(WrHardGauge *g)
+static void kernels_make_unit(WrHardMeasurement *g)
 {
     static const double sizes[] = { 0, 1e-40, 1e-30, 1e-20, 1, 1e10, INFINITY };
     const WrVec3 z = { 0, 0, 1 }, halfway = { -1, 0, 1 }, across = { -1, 0, 0 };
@@ -956,7 +957,7 @@ static void kernels_make_unit(WrHardGauge *g)
 
 /* Normalisation by the formulas: tangents of any size and of different lengths, compared with the vector's
    direction. */
-static void formulas_make_unit(WrHardGauge *g, WrVec3 n)
+static void formulas_make_unit(WrHardMeasurement *g, WrVec3 n)
 {
     for (int i = 0; i < 600; i++) {
         const WrVec3 a = { wr_hard_between(g, -1, 1), wr_hard_between(g, -1, 1),
@@ -966,7 +967,7 @@ static void formulas_make_unit(WrHardGauge *g, WrVec3 n)
     }
 }
 
-static bool hc21(WrHardGauge *g, WrError *err)
+static bool hc21(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     static const WrVec3 useless[] = {
@@ -984,7 +985,7 @@ static bool hc21(WrHardGauge *g, WrError *err)
     return true;
 }
 
-static bool hc22(WrHardGauge *g, WrError *err)
+static bool hc22(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     for (int i = 0; i < 300; i++) {
@@ -1030,7 +1031,7 @@ static WrVec3 displaced(const WrShape *shape, double u, double v, double *f, dou
 
 /* The reference is the displaced surface's own cross product, by central differences of order four: steps of
    1e-3 have an error of (2 pi 3 1e-3)^4 / 30 = 4e-9 of a slope, and 1e-13 of rounding. */
-static bool hc23(WrHardGauge *g, WrError *err)
+static bool hc23(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     static const WrSurfaceKind kinds[] = { WR_SURFACE_sphere, WR_SURFACE_torus, WR_SURFACE_cylinder,

@@ -15,7 +15,7 @@
 /* ---- HC176: a cube's cells ---- */
 
 /* Random heights, five times as high in the texels outside the cell of face 0, the lower left one. */
-static WrField *with_cell(WrHardGauge *g, int w, int h, const WrField *cell)
+static WrField *with_cell(WrHardMeasurement *g, int w, int h, const WrField *cell)
 {
     WrField *field = wr_hard_rough(g, w, h, WR_WRAP_PERIODIC);
     for (int k = 0; k < w * h; k++) {
@@ -40,7 +40,7 @@ static void look_at_face(WrScene *scene, int k)
         (WrCamera){ .orthographic = true, .eye = { 0, 0, 5 }, .up = { 0, 1, 0 }, .size = 1.3 };
 }
 
-bool wr_hard_hc176(WrHardGauge *g, WrError *err)
+bool wr_hard_hc176(WrHardMeasurement *g, WrError *err)
 {
     static const int sizes[][2] = { { 211, 139 }, { 192, 128 }, { 301, 190 } };
     bool good = true;
@@ -98,7 +98,7 @@ static bool make_ground(const WrField *field, double height, int cells, Ground *
 /* For a flat layer every control point has its height; for an even slope along u, every one from the second cell
    to the last but one, if the table has whole texels per cell. The layer has any valid size, including one
    texel. */
-static bool plain_ground(WrHardGauge *g, int cells, bool rises, WrError *err)
+static bool plain_ground(WrHardMeasurement *g, int cells, bool rises, WrError *err)
 {
     const int w = rises ? 4 * cells : 1 + (int)(40 * wr_hard_random(g));
     const int h = 1 + (int)(30 * wr_hard_random(g));
@@ -120,7 +120,7 @@ static bool plain_ground(WrHardGauge *g, int cells, bool rises, WrError *err)
     return good;
 }
 
-bool wr_hard_hc177(WrHardGauge *g, WrError *err)
+bool wr_hard_hc177(WrHardMeasurement *g, WrError *err)
 {
     bool good = true;
     for (int k = 0; k < 40 && good; k++) {
@@ -149,7 +149,7 @@ static bool is_colour(const double rgb[3], const double of[3])
 }
 
 /* Four stops, the middle two at one height. */
-static void give_stops(WrHardGauge *g, WrHeightColormap *out)
+static void give_stops(WrHardMeasurement *g, WrHeightColormap *out)
 {
     const double low = wr_hard_between(g, -2, 0), high = low + pow(10, wr_hard_between(g, -12, 2));
     const double heights[] = { low, high, high, high + 0.3 };
@@ -160,7 +160,7 @@ static void give_stops(WrHardGauge *g, WrHeightColormap *out)
     }
 }
 
-static void check_stops(WrHardGauge *g, const WrHeightColormap *of)
+static void check_stops(WrHardMeasurement *g, const WrHeightColormap *of)
 {
     static const double beyond[] = { 0.1, 1e30, INFINITY };
     const WrStop *stops = of->stops;
@@ -186,7 +186,7 @@ static void check_stops(WrHardGauge *g, const WrHeightColormap *of)
 }
 
 /* The angle at which the colour starts equals the angle of full strength: a step. */
-static void check_steep(WrHardGauge *g, WrHeightColormap *of)
+static void check_steep(WrHardMeasurement *g, WrHeightColormap *of)
 {
     const double angle = wr_hard_between(g, 5, 85), height = of->stops[3].height + 1;
     double rgb[3];
@@ -201,7 +201,7 @@ static void check_steep(WrHardGauge *g, WrHeightColormap *of)
 }
 
 /* Cliffs as high as float's maximum are steep, not NaN; a rolled table produces the rolled picture, to the bit. */
-static bool check_table(WrHardGauge *g, const WrHeightColormap *of, WrError *err)
+static bool check_table(WrHardMeasurement *g, const WrHeightColormap *of, WrError *err)
 {
     WrField *field = wr_hard_rough(g, 13, 9, WR_WRAP_PERIODIC);
     wr_field_set(field, 0, 4, 3e38f);
@@ -226,7 +226,7 @@ static bool check_table(WrHardGauge *g, const WrHeightColormap *of, WrError *err
     return good;
 }
 
-bool wr_hard_hc178(WrHardGauge *g, WrError *err)
+bool wr_hard_hc178(WrHardMeasurement *g, WrError *err)
 {
     bool good = true;
     for (int k = 0; k < 60 && good; k++) {

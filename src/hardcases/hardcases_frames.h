@@ -20,7 +20,7 @@ typedef struct WrHardMesh {
 WrTriangles *wr_hard_triangles(const WrHardMesh *mesh, WrError *err);
 
 /* Pictures of a mesh seen from above in every arithmetic and by the reference: each value is finite. */
-bool wr_hard_mesh_tame(WrHardGauge *gauge, const WrHardMesh *mesh, WrError *err);
+bool wr_hard_mesh_tame(WrHardMeasurement *gauge, const WrHardMesh *mesh, WrError *err);
 /* The mesh from above, orthographic, 2.2 units high about the origin, and one light. Takes ownership of the
    mesh. */
 WrScene *wr_hard_above(WrTriangles *triangles, double height);
@@ -29,13 +29,13 @@ WrScene *wr_hard_above(WrTriangles *triangles, double height);
 bool wr_hard_mikk(const WrHardMesh *mesh, WrTangent *out, WrError *err);
 /* Counts a violation for each frame that is not unit, perpendicular to the corner's normal and with b = sign n x
    t. A frame with sign -1 and t (1,0,0), the value for undefined frames, need not be perpendicular. */
-void wr_hard_units(WrHardGauge *gauge, const WrHardMesh *mesh, const WrTangent *frames);
+void wr_hard_units(WrHardMeasurement *gauge, const WrHardMesh *mesh, const WrTangent *frames);
 
 /* clang-format off */
 #define WR_HARD_FRAMES(X)                                                                          \
     X(28) X(29) X(30) X(31)                                                                        \
     X(126) X(127) X(128) X(129) X(130) X(131) X(132) X(133) X(134) X(135) X(136)
 /* clang-format on */
-#define WR_HARD_DECLARE(number) bool wr_hard_hc##number(WrHardGauge *gauge, WrError *err);
+#define WR_HARD_DECLARE(number) bool wr_hard_hc##number(WrHardMeasurement *gauge, WrError *err);
 WR_HARD_FRAMES(WR_HARD_DECLARE)
 #undef WR_HARD_DECLARE

@@ -14,7 +14,7 @@
 /* Kernel sets for float measurements: "ref" and another, both exact, and the other's fast form. */
 #define WR_HARD_SETS 3
 
-struct WrHardGauge {
+struct WrHardMeasurement {
     const WrKernels *kernels[WR_HARD_SETS]; /* the exact ones, then the fast one */
     int sets;                               /* number of exact ones: 1 if they are the same */
     int all;                                /* number including the fast one, if there is one */
@@ -30,16 +30,17 @@ struct WrHardGauge {
 };
 
 /* Reports a deviation, 0 or more; NaN counts as infinite. */
-void wr_hard_off(WrHardGauge *gauge, WrHardPrecision precision, double deviation);
+void wr_hard_off(WrHardMeasurement *gauge, WrHardPrecision precision, double deviation);
 /* Reports |got - want|. */
-void wr_hard_near(WrHardGauge *gauge, WrHardPrecision precision, double got, double want);
+void wr_hard_near(WrHardMeasurement *gauge, WrHardPrecision precision, double got, double want);
 /* Reports one violation unless ok. */
-void wr_hard_holds(WrHardGauge *gauge, WrHardPrecision precision, bool ok);
+void wr_hard_holds(WrHardMeasurement *gauge, WrHardPrecision precision, bool ok);
 
 /* Random number, 0 <= x < 1, repeatable: splitmix64, reseeded for each case. */
-double wr_hard_random(WrHardGauge *gauge);
-double wr_hard_between(WrHardGauge *gauge, double low, double high);
-float wr_hard_float(WrHardGauge *gauge); /* as wr_hard_random, exactly representable in float */
+double wr_hard_random(WrHardMeasurement *gauge);
+double wr_hard_between(WrHardMeasurement *gauge, double low, double high);
+float wr_hard_float(
+    WrHardMeasurement *gauge); /* as wr_hard_random, exactly representable in float */
 
 /* ---- points of surfaces ---- */
 
@@ -57,7 +58,7 @@ WrShape wr_hard_shape(WrSurfaceKind kind);
 WrShape wr_hard_patch(WrVec3 (*point)(int i, int j));
 /* A point by a kernel: P, Pu, Pv, n, |N|, n_u, n_v; the others 0. N is n |N|. The shape is scaled by `scale`, a
    power of two. */
-WrSurfacePointf wr_hard_point(WrHardGauge *gauge, int set, const WrShape *shape, double scale,
+WrSurfacePointf wr_hard_point(WrHardMeasurement *gauge, int set, const WrShape *shape, double scale,
                               int face, float u, float v);
 
 /* Slopes and height at a point. */
@@ -67,10 +68,10 @@ typedef struct WrHardSlope {
 /* n' in double, normalised. */
 WrVec3 wr_hard_perturbed(WrBumpMode mode, const WrSurfacePoint *at, WrHardSlope slope);
 /* n' by a kernel, seen from the side of n (behind: from the other side). */
-WrVec3 wr_hard_perturbed_f(WrHardGauge *gauge, int set, WrBumpMode mode, const WrSurfacePointf *at,
-                           WrHardSlope slope, bool behind);
+WrVec3 wr_hard_perturbed_f(WrHardMeasurement *gauge, int set, WrBumpMode mode,
+                           const WrSurfacePointf *at, WrHardSlope slope, bool behind);
 /* n' by the renderer's kernels in double: set 0 or 1. */
-WrVec3 wr_hard_perturbed_wide(WrHardGauge *gauge, int set, WrBumpMode mode,
+WrVec3 wr_hard_perturbed_wide(WrHardMeasurement *gauge, int set, WrBumpMode mode,
                               const WrSurfacePoint *at, WrHardSlope slope);
 /* The point converted to double, for formulas on float's own numbers. */
 WrSurfacePoint wr_hard_point_to_double(const WrSurfacePointf *at);
@@ -80,7 +81,7 @@ WrSurfacePointf wr_hard_narrow(const WrSurfacePoint *at);
 /* ---- tables ---- */
 
 /* A table of random heights in -0.5..0.5. Never NULL. */
-WrField *wr_hard_rough(WrHardGauge *gauge, int width, int height, WrWrap wrap);
+WrField *wr_hard_rough(WrHardMeasurement *gauge, int width, int height, WrWrap wrap);
 /* A smooth table: a few waves of height about 1. */
 WrField *wr_hard_waves(int width, int height);
 bool wr_hard_equal(const WrField *a, const WrField *b);
@@ -92,7 +93,7 @@ WrHardSlope wr_hard_sample(const WrField *field, WrScheme scheme, double u, doub
 bool wr_hard_same_slope(WrHardSlope a, WrHardSlope b); /* every bit */
 
 /* Sets the scene to rough terrain of 5 x 5 patches, 1 unit wide, seen from above or below and rotated at random. */
-void wr_hard_ground(WrHardGauge *gauge, WrScene *scene);
+void wr_hard_ground(WrHardMeasurement *gauge, WrScene *scene);
 
 /* ---- pictures ---- */
 
@@ -100,20 +101,20 @@ typedef struct WrHardShot {
     WrRenderer *renderer;
     WrFrame frame;
 } WrHardShot;
-bool wr_hard_shoot(WrHardGauge *gauge, const WrFrameRequest *request, WrHardShot *shot,
+bool wr_hard_shoot(WrHardMeasurement *gauge, const WrFrameRequest *request, WrHardShot *shot,
                    WrError *err);
 void wr_hard_put_away(WrHardShot *shot);
 /* Number of non-finite values of the picture. */
 int64_t wr_hard_wild(const WrHardShot *shot);
 
 /* The picture in double, by the reference: samples x samples a pixel. Zero-initialise *out; fini it. */
-bool wr_hard_refer(WrHardGauge *gauge, const WrFrameRequest *request, int samples, WrReference *out,
-                   WrError *err);
+bool wr_hard_refer(WrHardMeasurement *gauge, const WrFrameRequest *request, int samples,
+                   WrReference *out, WrError *err);
 int64_t wr_hard_wild_reference(const WrReference *reference);
 
 /* The picture in an arithmetic: exact, by the fast kernels, or in double. */
 typedef enum WrHardWay { WR_HARD_EXACT, WR_HARD_FAST, WR_HARD_WIDE, WR_HARD_WAYS } WrHardWay;
-bool wr_hard_shoot_by(WrHardGauge *gauge, const WrFrameRequest *request, WrHardWay way,
+bool wr_hard_shoot_by(WrHardMeasurement *gauge, const WrFrameRequest *request, WrHardWay way,
                       WrHardShot *shot, WrError *err);
 /* Number of values by which two pictures of one size differ by more than `off`, including NaN. */
 int64_t wr_hard_differ(const WrHardShot *a, const WrHardShot *b, double off);

@@ -12,7 +12,8 @@ static inline WrHardPrecision wr_hard_precision(int way)
 }
 
 /* Renders pictures in every arithmetic and by the reference: every value must be finite. */
-bool wr_hard_tame(WrHardGauge *gauge, const WrField *field, const WrScene *scene, WrError *err);
+bool wr_hard_tame(WrHardMeasurement *gauge, const WrField *field, const WrScene *scene,
+                  WrError *err);
 
 /* clang-format off */
 #define WR_HARD_LATER(X)                                                                           \
@@ -20,6 +21,6 @@ bool wr_hard_tame(WrHardGauge *gauge, const WrField *field, const WrScene *scene
     X(166) X(167) X(168) X(169) X(170) X(171) X(172) X(173) X(174) X(175)                          \
     X(176) X(177) X(178) X(179)
 /* clang-format on */
-#define WR_HARD_DECLARE(number) bool wr_hard_hc##number(WrHardGauge *gauge, WrError *err);
+#define WR_HARD_DECLARE(number) bool wr_hard_hc##number(WrHardMeasurement *gauge, WrError *err);
 WR_HARD_LATER(WR_HARD_DECLARE)
 #undef WR_HARD_DECLARE

@@ -32,7 +32,7 @@ static WrScene *alone(const char *surface)
 }
 
 /* Number of pixels of a convex body that change if its own shadow is computed although the plan leaves it out. */
-static bool changes(WrHardGauge *g, WrScene *scene, WrHardPrecision precision, WrError *err)
+static bool changes(WrHardMeasurement *g, WrScene *scene, WrHardPrecision precision, WrError *err)
 {
     WrForce force[WR_EFFECT_COUNT] = { WR_FORCE_NONE };
     WrHardShot with, without;
@@ -54,7 +54,7 @@ static bool changes(WrHardGauge *g, WrScene *scene, WrHardPrecision precision, W
     return good;
 }
 
-static bool hc190(WrHardGauge *g, WrError *err)
+static bool hc190(WrHardMeasurement *g, WrError *err)
 {
     static const char *const surfaces[] = { "sphere", "capsule", "cube", "plane" };
     bool good = true;
@@ -75,7 +75,7 @@ static bool hc190(WrHardGauge *g, WrError *err)
 
 /* A square of two triangles above the ground, with the camera between: rays to a lamp straight above pass
    through the common edge, and through the corners. */
-static WrScene *roofed(WrHardGauge *g, double shift)
+static WrScene *roofed(WrHardMeasurement *g, double shift)
 {
     WrScene *ground = alone("plane");
     ground->shape.value[0] = ground->shape.value[1] = 4;
@@ -95,7 +95,7 @@ static WrScene *roofed(WrHardGauge *g, double shift)
     return both;
 }
 
-static bool hc191(WrHardGauge *g, WrError *err)
+static bool hc191(WrHardMeasurement *g, WrError *err)
 {
     bool good = true;
     for (int i = 0; i < 6 && good; i++) {
@@ -159,7 +159,7 @@ static double looked_at(const WrField *field, int i, int j, int direction)
 }
 
 /* A table of w x h texels: flat, a ramp that falls at its seam, or rough. */
-static bool table_of(WrHardGauge *g, int w, int h, int kind, WrError *err)
+static bool table_of(WrHardMeasurement *g, int w, int h, int kind, WrError *err)
 {
     WrField *field = wr_hard_rough(g, w, h, WR_WRAP_PERIODIC);
     WrHorizon made = { 0 };
@@ -174,7 +174,7 @@ static bool table_of(WrHardGauge *g, int w, int h, int kind, WrError *err)
     return good;
 }
 
-static void line_of(WrHardGauge *g, int n, int kind)
+static void line_of(WrHardMeasurement *g, int n, int kind)
 {
     double heights[SIDE_HORIZON] = { 0 }, slope[SIDE_HORIZON];
     int hull[2 * SIDE_HORIZON];
@@ -188,7 +188,7 @@ static void line_of(WrHardGauge *g, int n, int kind)
     }
 }
 
-static bool hc122(WrHardGauge *g, WrError *err)
+static bool hc122(WrHardMeasurement *g, WrError *err)
 {
     const int sizes[][2] = { { 1, 1 }, { 2, 1 }, { 1, 2 }, { 2, 2 }, { 3, 17 }, { 29, 2 } };
     bool good = true;
@@ -202,7 +202,7 @@ static bool hc122(WrHardGauge *g, WrError *err)
 }
 
 /* A lamp in the plane of flat ground, below it, and straight above any ground. */
-static bool hc123(WrHardGauge *g, WrError *err)
+static bool hc123(WrHardMeasurement *g, WrError *err)
 {
     const double quarter = atan2(1, 0);
     (void)err;
@@ -243,7 +243,7 @@ typedef struct Place {
 static const WrReflectance ordinary = { WR_REFLECT_GGX, WR_ENERGY_KEPT, 20, 0.5, 0.3, 1.5 };
 
 /* Reflected light by the kernels. */
-static double in_float(WrHardGauge *g, int set, const WrReflectance *of, Place at)
+static double in_float(WrHardMeasurement *g, int set, const WrReflectance *of, Place at)
 {
     WrStrip *s = g->strip;
     WrMatter m;
@@ -263,7 +263,7 @@ static double in_float(WrHardGauge *g, int set, const WrReflectance *of, Place a
     return (double)s->dr[0] + (double)s->sr[0];
 }
 
-static double in_double(WrHardGauge *g, int set, const WrReflectance *of, Place at)
+static double in_double(WrHardMeasurement *g, int set, const WrReflectance *of, Place at)
 {
     WrStripd *s = g->wide_strip;
     WrMatter m;
@@ -283,7 +283,7 @@ static double in_double(WrHardGauge *g, int set, const WrReflectance *of, Place 
 }
 
 /* Checks that it is 0 or more, and at most `most`, for every set and every model except Blinn-Phong. */
-static void within(WrHardGauge *g, const WrReflectance *numbers, Place at, double most)
+static void within(WrHardMeasurement *g, const WrReflectance *numbers, Place at, double most)
 {
     for (int k = 0; k < 2 * (WR_REFLECT_COUNT - 1); k++) {
         WrReflectance of = *numbers;
@@ -297,7 +297,7 @@ static void within(WrHardGauge *g, const WrReflectance *numbers, Place at, doubl
     }
 }
 
-static WrVec3 random_unit(WrHardGauge *g, double low)
+static WrVec3 random_unit(WrHardMeasurement *g, double low)
 {
     const WrVec3 a = { wr_hard_between(g, -1, 1), wr_hard_between(g, -1, 1),
                        wr_hard_between(g, low, 1) };
@@ -306,7 +306,7 @@ static WrVec3 random_unit(WrHardGauge *g, double low)
 
 static const WrVec3 up = { 0, 0, 1 };
 
-static bool hc97(WrHardGauge *g, WrError *err)
+static bool hc97(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     for (int i = 0; i < 40; i++) {
@@ -316,7 +316,7 @@ static bool hc97(WrHardGauge *g, WrError *err)
     return true;
 }
 
-static bool hc98(WrHardGauge *g, WrError *err)
+static bool hc98(WrHardMeasurement *g, WrError *err)
 {
     const double least[] = { 0, 1e-20, 1e-30, 1e-7 };
     (void)err;
@@ -348,7 +348,7 @@ static double narrow(Place at, double alpha)
     return (double)(0.5L * a2 / (w * w) * 0.5L * nl / (nl * lv + nv * ll));
 }
 
-static bool hc99(WrHardGauge *g, WrError *err)
+static bool hc99(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     for (int i = 0; i < 200; i++) {
@@ -370,7 +370,7 @@ static bool hc99(WrHardGauge *g, WrError *err)
     return true;
 }
 
-static bool hc100(WrHardGauge *g, WrError *err)
+static bool hc100(WrHardMeasurement *g, WrError *err)
 {
     const double odd[] = { NAN, INFINITY, -INFINITY, -1, 2, 0, 1, 1e300 };
     (void)err;
@@ -396,7 +396,7 @@ static double by_angles(double c, double ior)
 
 /* Ratio of the reflection by Torrance and Sparrow's facets of some index to that of mirror facets, with n' equal
    to h. */
-static double share(WrHardGauge *g, int set, bool wide, double ior, Place at)
+static double share(WrHardMeasurement *g, int set, bool wide, double ior, Place at)
 {
     const WrReflectance of = { WR_REFLECT_TORRANCE_SPARROW, WR_ENERGY_KEPT, 0, 0.5, 0, ior };
     WrReflectance none = of, all = of;
@@ -408,7 +408,7 @@ static double share(WrHardGauge *g, int set, bool wide, double ior, Place at)
     return (got[0] - got[1]) / (got[2] - got[1]);
 }
 
-static bool hc102(WrHardGauge *g, WrError *err)
+static bool hc102(WrHardMeasurement *g, WrError *err)
 {
     const double index[] = { 1.5, 3.7, 1.01, 20 };
     (void)err;
@@ -425,7 +425,7 @@ static bool hc102(WrHardGauge *g, WrError *err)
     return true;
 }
 
-static bool hc104(WrHardGauge *g, WrError *err)
+static bool hc104(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     for (int i = 0; i < 120; i++) {
@@ -445,7 +445,7 @@ static bool hc104(WrHardGauge *g, WrError *err)
 }
 
 /* n.v from just above 0 to below by steps of 1e-4. */
-static bool hc105(WrHardGauge *g, WrError *err)
+static bool hc105(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     for (int i = 0; i < 4 * 40; i++) {
@@ -463,7 +463,7 @@ static bool hc105(WrHardGauge *g, WrError *err)
     return true;
 }
 
-static bool hc107(WrHardGauge *g, WrError *err)
+static bool hc107(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     for (int i = 0; i < 40; i++) {
@@ -475,7 +475,7 @@ static bool hc107(WrHardGauge *g, WrError *err)
     return true;
 }
 
-static bool hc108(WrHardGauge *g, WrError *err)
+static bool hc108(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     for (int i = 0; i < 40; i++) {
@@ -489,8 +489,8 @@ static bool hc108(WrHardGauge *g, WrError *err)
 }
 
 /* A picture of partial or full metal, in that colour. */
-static bool of_metal(WrHardGauge *g, double metal, double colour, bool in_double, WrHardShot *shot,
-                     WrError *err)
+static bool of_metal(WrHardMeasurement *g, double metal, double colour, bool in_double,
+                     WrHardShot *shot, WrError *err)
 {
     WrScene *scene = wr_scene_new();
     WrShape shape;
@@ -509,7 +509,7 @@ static bool of_metal(WrHardGauge *g, double metal, double colour, bool in_double
     return good;
 }
 
-static bool hc110(WrHardGauge *g, WrError *err)
+static bool hc110(WrHardMeasurement *g, WrError *err)
 {
     const double metals[] = { 0.5, 0.83, 1 }, colours[] = { 1 + 1e-6, 3.7, 1e6 };
     bool good = true;
@@ -602,7 +602,7 @@ static WrEnvironmentMap *around(int w, int h, Sky *sky, WrError *err)
 }
 
 /* Mirror reflection in direction d by the kernels. */
-static double mirrored(WrHardGauge *g, int set, const WrEnvLookup *m, WrVec3 d)
+static double mirrored(WrHardMeasurement *g, int set, const WrEnvLookup *m, WrVec3 d)
 {
     WrStrip *s = g->strip;
     const WrKernMirror how = { .axes = { 1, 0, 0, 0, 1, 0, 0, 0, 1 },
@@ -623,7 +623,7 @@ static double mirrored(WrHardGauge *g, int set, const WrEnvLookup *m, WrVec3 d)
 static const double straight[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
 
 /* Diffuse light of a normal by the kernels. */
-static double lit(WrHardGauge *g, int set, const WrEnvironmentMap *from, WrVec3 n)
+static double lit(WrHardMeasurement *g, int set, const WrEnvironmentMap *from, WrVec3 n)
 {
     WrStrip *s = g->strip;
     double form[3][WR_FORM_TERMS];
@@ -637,7 +637,7 @@ static double lit(WrHardGauge *g, int set, const WrEnvironmentMap *from, WrVec3 
     return (double)s->dr[0];
 }
 
-static WrVec3 random_direction(WrHardGauge *g)
+static WrVec3 random_direction(WrHardMeasurement *g)
 {
     const WrVec3 a = { wr_hard_between(g, -1, 1), wr_hard_between(g, -1, 1),
                        wr_hard_between(g, -1, 1) };
@@ -645,8 +645,8 @@ static WrVec3 random_direction(WrHardGauge *g)
 }
 
 /* Equal results from both sides of a point where longitudes jump. */
-static void look_twice(WrHardGauge *g, const WrEnvironmentMap *from, const WrEnvLookup *m, WrVec3 a,
-                       WrVec3 b)
+static void look_twice(WrHardMeasurement *g, const WrEnvironmentMap *from, const WrEnvLookup *m,
+                       WrVec3 a, WrVec3 b)
 {
     double x[3], y[3];
     wr_environment_map_at(from, a, x);
@@ -656,7 +656,7 @@ static void look_twice(WrHardGauge *g, const WrEnvironmentMap *from, const WrEnv
         wr_hard_near(g, WR_HARD_FLOAT, mirrored(g, set, m, a), mirrored(g, set, m, b));
 }
 
-static bool hc111(WrHardGauge *g, WrError *err)
+static bool hc111(WrHardMeasurement *g, WrError *err)
 {
     WrEnvLookup m = { 0 };
     WrEnvironmentMap *from = around(37, 18, rough, err);
@@ -675,7 +675,7 @@ static bool hc111(WrHardGauge *g, WrError *err)
     return true;
 }
 
-static bool hc112(WrHardGauge *g, WrError *err)
+static bool hc112(WrHardMeasurement *g, WrError *err)
 {
     static const int sizes[][2] = { { 1, 1 }, { 1, 7 }, { 9, 1 }, { 13, 5 }, { 2, 3 } };
     for (int k = 0; k < 5; k++) {
@@ -699,7 +699,7 @@ static bool hc112(WrHardGauge *g, WrError *err)
     return true;
 }
 
-static bool hc113(WrHardGauge *g, WrError *err)
+static bool hc113(WrHardMeasurement *g, WrError *err)
 {
     WrEnvironmentMap *from = around(512, 256, sun, err);
     if (!from) return false;
@@ -722,7 +722,7 @@ static bool hc113(WrHardGauge *g, WrError *err)
     return true;
 }
 
-static bool hc114(WrHardGauge *g, WrError *err)
+static bool hc114(WrHardMeasurement *g, WrError *err)
 {
     static const float strange[] = { NAN, -NAN, INFINITY, -INFINITY, 3e38f, -1, -0.0f, 0.5f };
     WrEnvironmentMapChanges replaced;
@@ -754,7 +754,7 @@ static bool hc114(WrHardGauge *g, WrError *err)
     return good;
 }
 
-static bool hc115(WrHardGauge *g, WrError *err)
+static bool hc115(WrHardMeasurement *g, WrError *err)
 {
     WrEnvironmentMap *from = around(37, 18, one, err);
     bool good = from != NULL;
@@ -798,7 +798,7 @@ static WrEnvironmentBrdf facets_of(double alpha)
     return (WrEnvironmentBrdf){ .lobe = WR_LOBE_FACETS, .alpha = alpha, .power = 1, .gated = true };
 }
 
-static bool hc101(WrHardGauge *g, WrError *err)
+static bool hc101(WrHardMeasurement *g, WrError *err)
 {
     const double near[] = { 1, 1 - 1e-12, 1 - 1e-6, 0.9991 };
     const double flat[] = { 1, 2.0 / 3, 1.0 / 4, 0, -1.0 / 24 }; /* coefficients of max(0, c) */
@@ -833,7 +833,7 @@ static bool hc101(WrHardGauge *g, WrError *err)
     return good;
 }
 
-static bool hc116(WrHardGauge *g, WrError *err)
+static bool hc116(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     for (int i = 0; i < 40; i++) {
@@ -883,8 +883,8 @@ static const WrHardCase rows_surround[] = {
 WR_HARD_LIST(surround, rows_surround);
 
 /* The highlight of n', l, v by the kernels. */
-static double highlight(WrHardGauge *g, int set, WrVec3f perturbed, WrVec3f light, WrVec3f view,
-                        double shininess, bool gate)
+static double highlight(WrHardMeasurement *g, int set, WrVec3f perturbed, WrVec3f light,
+                        WrVec3f view, double shininess, bool gate)
 {
     WrStrip *s = g->strip;
     const WrKernLight kern = { .where = { light.x, light.y, light.z }, .rgb = { 1, 1, 1 } };
@@ -899,7 +899,7 @@ static double highlight(WrHardGauge *g, int set, WrVec3f perturbed, WrVec3f ligh
 }
 
 /* The highlight by the kernels in double. */
-static double highlight_wide(WrHardGauge *g, int set, const WrHardLit *lit)
+static double highlight_wide(WrHardMeasurement *g, int set, const WrHardLit *lit)
 {
     WrStripd *s = g->wide_strip;
     const WrVec3 l = lit->light;
@@ -931,7 +931,7 @@ static double lobe_of(WrVec3 perturbed, WrVec3 light, WrVec3 view, double s)
 }
 
 /* A random unit vector in the upper half. */
-static WrVec3 random_up(WrHardGauge *g)
+static WrVec3 random_up(WrHardMeasurement *g)
 {
     const WrVec3 a = { wr_hard_between(g, -1, 1), wr_hard_between(g, -1, 1),
                        wr_hard_between(g, 0.2, 1) };
@@ -946,7 +946,7 @@ static double steps(double got, double want, double s, double ulp)
 }
 
 /* n' near h, both in random directions: where a high power is not 0. */
-static bool generic_highlight(WrHardGauge *g, double s, WrError *err)
+static bool generic_highlight(WrHardMeasurement *g, double s, WrError *err)
 {
     const WrVec3 l = random_up(g), v = random_up(g), h = v3_unit(v3_add(l, v), l);
     const double wide = wr_hard_between(g, 0, 2.5) / sqrt(1.0 + s);
@@ -969,7 +969,7 @@ static bool generic_highlight(WrHardGauge *g, double s, WrError *err)
 }
 
 /* A dented plane under a light from the eye's position, as pictures: float compared with double. */
-static bool shiny_pictures(WrHardGauge *g, WrError *err)
+static bool shiny_pictures(WrHardMeasurement *g, WrError *err)
 {
     WrField *field = wr_hard_waves(32, 32);
     bool good = true;
@@ -1013,7 +1013,7 @@ static bool shiny_pictures(WrHardGauge *g, WrError *err)
 }
 
 /* Random directions for each power; the power itself for floats; and every highlight must be within 0..1. */
-static bool hc89(WrHardGauge *g, WrError *err)
+static bool hc89(WrHardMeasurement *g, WrError *err)
 {
     static const double powers[] = { 0, 1, 0.5, 30, 1000, 1e5, 1e6 };
     for (int k = 0; k < 7 * 300; k++) {
@@ -1034,7 +1034,7 @@ static bool hc89(WrHardGauge *g, WrError *err)
 }
 
 /* n' and h equal, but longer than 1 by some ulps. */
-static bool hc90(WrHardGauge *g, WrError *err)
+static bool hc90(WrHardMeasurement *g, WrError *err)
 {
     float c = 1.0f;
     for (int k = 0; k < 16; k++) {
@@ -1061,7 +1061,7 @@ static bool hc90(WrHardGauge *g, WrError *err)
 }
 
 /* No half vector: light exactly from behind, or no light at all; with and without the gate. */
-static bool hc91(WrHardGauge *g, WrError *err)
+static bool hc91(WrHardMeasurement *g, WrError *err)
 {
     static const double powers[] = { 0, 1, 30 };
     for (int k = 0; k < 12; k++) {
@@ -1094,7 +1094,7 @@ static double mean_off(double got, double want, int n, int bits)
 }
 
 /* A flat plane under a directional light, seen from afar: all samples of a pixel are equal. */
-static bool hc92(WrHardGauge *g, WrError *err)
+static bool hc92(WrHardMeasurement *g, WrError *err)
 {
     enum { VALUES = 16 * 16 * 4 };
     static const int counts[] = { 1, 2, 3, 5, 16, 64 };
@@ -1134,7 +1134,7 @@ static bool hc92(WrHardGauge *g, WrError *err)
 }
 
 /* Impossible covariances: slightly negative, or a mixed term larger than the others allow. */
-static bool hc93(WrHardGauge *g, WrError *err)
+static bool hc93(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     static const double spreads[][3] = { { -1e-9, 0, -1e-9 },    { 0.01, 0.0100001, 0.01 },
@@ -1171,7 +1171,7 @@ static bool hc93(WrHardGauge *g, WrError *err)
 }
 
 /* The full computation, including everything a plan would leave out. */
-static bool hc94(WrHardGauge *g, WrError *err)
+static bool hc94(WrHardMeasurement *g, WrError *err)
 {
     static const WrSurfaceKind kinds[] = { WR_SURFACE_sphere, WR_SURFACE_plane, WR_SURFACE_torus };
     WrField *flat = wr_field_new(40, 24, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.3f, err);
@@ -1200,7 +1200,7 @@ static bool hc94(WrHardGauge *g, WrError *err)
     return good;
 }
 
-static bool hc95(WrHardGauge *g, WrError *err)
+static bool hc95(WrHardMeasurement *g, WrError *err)
 {
     static const int sizes[][2] = { { 1, 1 }, { 1, 41 }, { 41, 1 },   { 257, 3 },
                                     { 0, 0 }, { 0, 5 },  { -1, 5 },   { 16385, 1 },
@@ -1232,7 +1232,7 @@ static bool hc95(WrHardGauge *g, WrError *err)
     return good;
 }
 
-static bool hc96(WrHardGauge *g, WrError *err)
+static bool hc96(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     float rgba[] = { NAN, 0.5f, 0, 1, INFINITY, 1, 2, 1, -1, 0.25f, -INFINITY, 1 };

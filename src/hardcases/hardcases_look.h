@@ -11,8 +11,9 @@ typedef struct WrHardLook {
     WrLook look;
     WrScheme scheme;
 } WrHardLook;
-bool wr_hard_look_init(WrHardGauge *gauge, WrHardLook *look, const WrField *field, WrScheme scheme,
-                       double ru, double rv, WrError *err);
+bool wr_hard_look_init(WrHardMeasurement *gauge, WrHardLook *look, const WrField *field,
+                       WrScheme scheme, double ru, double rv, WrError *err);
 void wr_hard_look_fini(WrHardLook *look);
 /* F, Fu, Fv at (u, v) by a kernel, height 1. Also leaves the reduced position in strip->tu[0], tv[0]. */
-WrHardSlope wr_hard_look_at(WrHardGauge *gauge, int set, const WrHardLook *look, float u, float v);
+WrHardSlope wr_hard_look_at(WrHardMeasurement *gauge, int set, const WrHardLook *look, float u,
+                            float v);

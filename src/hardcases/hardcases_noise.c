@@ -17,14 +17,14 @@
 static int fitting(double cells, double step, int texels)
 {
     int count = 0;
-    while (count < WR_OCTAVES_MOST && cells <= texels / 2.0) {
+    while (count < WR_OCTAVES_MAX && cells <= texels / 2.0) {
         count++;
         cells *= step;
     }
     return count;
 }
 
-static bool hc62(WrHardGauge *g, WrError *err)
+static bool hc62(WrHardMeasurement *g, WrError *err)
 {
     static const int sizes[] = { 1, 2, 16, 64, 100, 512, 4096 };
     static const double steps[] = { 2, 3, 1.5 };
@@ -33,7 +33,7 @@ static bool hc62(WrHardGauge *g, WrError *err)
         WrOctaves octaves = wr_octaves_default(2);
         octaves.tile = false;
         octaves.step = steps[k / 7 % 3];
-        octaves.count = WR_OCTAVES_MOST;
+        octaves.count = WR_OCTAVES_MAX;
         octaves.cells[0] = octaves.cells[1] = 1 << (k / 21);
         WrOctavesPlan plan;
         if (!wr_octaves_plan(&octaves, texels, &plan, err)) return false;
@@ -44,7 +44,7 @@ static bool hc62(WrHardGauge *g, WrError *err)
 }
 
 /* One cell of Perlin noise per texel, texel centres on the lattice: the result is 0. */
-static bool hc63(WrHardGauge *g, WrError *err)
+static bool hc63(WrHardMeasurement *g, WrError *err)
 {
     const double offset[2] = { 0.5, 0.5 };
     WrOctaves octaves = wr_octaves_default(2);
@@ -64,7 +64,7 @@ static bool hc63(WrHardGauge *g, WrError *err)
     return true;
 }
 
-static bool hc64(WrHardGauge *g, WrError *err)
+static bool hc64(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     static const struct {
@@ -91,7 +91,7 @@ static bool hc64(WrHardGauge *g, WrError *err)
 }
 
 /* At lattice points Perlin noise is 0 with a slope: |f| has a crease there, whose slope counts as 0. */
-static bool hc65(WrHardGauge *g, WrError *err)
+static bool hc65(WrHardMeasurement *g, WrError *err)
 {
     WrOctaves octaves = wr_octaves_default(2);
     octaves.mode = WR_OCTAVES_TURBULENCE;
@@ -114,7 +114,7 @@ static bool hc65(WrHardGauge *g, WrError *err)
 
 /* Any step tiles: one period further the value is equal to the bit, at positions where u + 1 is exact; and one
    ulp before its end the noise is continuous. */
-static bool hc68(WrHardGauge *g, WrError *err)
+static bool hc68(WrHardMeasurement *g, WrError *err)
 {
     static const double steps[] = { 2, 1.99, 1.5, 3 };
     for (int k = 0; k < 4; k++) {
@@ -178,7 +178,8 @@ typedef struct Pixel {
     double right[3], down[3];
 } Pixel;
 
-static double in_float(WrHardGauge *g, int set, const WrKernGraind *of, WrVec3 p, const Pixel *px)
+static double in_float(WrHardMeasurement *g, int set, const WrKernGraind *of, WrVec3 p,
+                       const Pixel *px)
 {
     WrStrip *s = g->strip;
     WrKernGrain grain;
@@ -193,7 +194,8 @@ static double in_float(WrHardGauge *g, int set, const WrKernGraind *of, WrVec3 p
     return (double)s->cr[0];
 }
 
-static double in_double(WrHardGauge *g, int set, const WrKernGraind *of, WrVec3 p, const Pixel *px)
+static double in_double(WrHardMeasurement *g, int set, const WrKernGraind *of, WrVec3 p,
+                        const Pixel *px)
 {
     WrStripd *s = g->wide_strip;
     WrRaysd rays = { .d0 = { 0, 0, -1 }, .toward = { 0, 0, 1 } };
@@ -206,8 +208,8 @@ static double in_double(WrHardGauge *g, int set, const WrKernGraind *of, WrVec3 
 }
 
 /* Both precisions with every set: `want`, each deviation times `by`. */
-static void near_all(WrHardGauge *g, const WrKernGraind *of, WrVec3 p, const Pixel *px, double want,
-                     double by)
+static void near_all(WrHardMeasurement *g, const WrKernGraind *of, WrVec3 p, const Pixel *px,
+                     double want, double by)
 {
     for (int set = 0; set < g->sets; set++)
         wr_hard_near(g, WR_HARD_FLOAT, by * in_float(g, set, of, p, px), by * want);
@@ -215,14 +217,14 @@ static void near_all(WrHardGauge *g, const WrKernGraind *of, WrVec3 p, const Pix
         wr_hard_near(g, WR_HARD_DOUBLE, in_double(g, set, of, p, px), want);
 }
 
-static double near_float(WrHardGauge *g, double low, double high)
+static double near_float(WrHardMeasurement *g, double low, double high)
 {
     return (double)(float)wr_hard_between(g, low, high);
 }
 
 /* ---- on the axis, below 0 (HC117) ---- */
 
-static bool hc117(WrHardGauge *g, WrError *err)
+static bool hc117(WrHardMeasurement *g, WrError *err)
 {
     WrKernGraind board, wood;
     WrSolidTexture grain = bare(WR_SOLID_TEXTURE_CHECKER);
@@ -260,7 +262,7 @@ static long double pulses(long double t, long double d)
 }
 
 /* Rings with edges of width w, at the distance t. */
-static void ring(WrHardGauge *g, double t, double w, double share, double want, double by)
+static void ring(WrHardMeasurement *g, double t, double w, double share, double want, double by)
 {
     WrSolidTexture grain = bare(WR_SOLID_TEXTURE_WOOD);
     WrKernGraind of;
@@ -274,7 +276,7 @@ static void ring(WrHardGauge *g, double t, double w, double share, double want, 
     wr_hard_holds(g, WR_HARD_FLOAT, narrow >= 0 && narrow <= 1);
 }
 
-static bool hc118(WrHardGauge *g, WrError *err)
+static bool hc118(WrHardMeasurement *g, WrError *err)
 {
     static const double widths[] = { 1e-6, 1e-3, 0.3, 0.99, 1.01, 7.7, 1e4 };
     (void)err;
@@ -291,7 +293,7 @@ static bool hc118(WrHardGauge *g, WrError *err)
     return true;
 }
 
-static bool hc119(WrHardGauge *g, WrError *err)
+static bool hc119(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     for (int i = 0; i < 60; i++) {
@@ -305,7 +307,7 @@ static bool hc119(WrHardGauge *g, WrError *err)
 
 /* ---- one place in different views (HC120) ---- */
 
-static bool hc120(WrHardGauge *g, WrError *err)
+static bool hc120(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     for (int i = 0; i < 100; i++) {
@@ -326,7 +328,7 @@ static bool hc120(WrHardGauge *g, WrError *err)
 
 /* ---- far away (HC121) ---- */
 
-static bool hc121(WrHardGauge *g, WrError *err)
+static bool hc121(WrHardMeasurement *g, WrError *err)
 {
     static const WrSolidTextureKind kinds[] = { WR_SOLID_TEXTURE_GRANITE, WR_SOLID_TEXTURE_NOISE };
     const Pixel far = { { 1e3, 0, 0 }, { 0, 1e3, 0 } };
@@ -386,7 +388,7 @@ static WrNoise noise_of(WrNoiseKind kind, int dim, int period)
 }
 
 /* In double at the lattice points themselves; in float on a grid in which one texel in four is a lattice point. */
-static bool hc59(WrHardGauge *g, WrError *err)
+static bool hc59(WrHardMeasurement *g, WrError *err)
 {
     static const WrNoiseKind kinds[] = { WR_NOISE_VALUE, WR_NOISE_GRADIENT, WR_NOISE_PERLIN };
     for (int k = 0; k < 3 * 200; k++) {
@@ -417,7 +419,7 @@ static bool hc59(WrHardGauge *g, WrError *err)
 }
 
 /* Across 0 noise changes at most by its slope, and x - n equals x. */
-static bool hc60(WrHardGauge *g, WrError *err)
+static bool hc60(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     static const double little[] = { -1e-9, -1e-17, -0.0 };
@@ -439,7 +441,7 @@ static bool hc60(WrHardGauge *g, WrError *err)
 }
 
 /* Positions beyond every exact integer: reduced to the period exactly, and finite without one. */
-static bool hc61(WrHardGauge *g, WrError *err)
+static bool hc61(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     static const double far[] = { 1e7, 3e9, 1e16, 7.3e299, INFINITY, NAN };
@@ -468,7 +470,7 @@ static uint32_t mixed(uint32_t x)
     return x ^ (x >> 16);
 }
 
-static bool hc66(WrHardGauge *g, WrError *err)
+static bool hc66(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     for (int k = 0; k < 3000; k++) {
@@ -492,7 +494,7 @@ static bool hc66(WrHardGauge *g, WrError *err)
 }
 
 /* On a face two simplices meet: values one ulp to either side must agree, apart from the noise's own slope. */
-static bool hc67(WrHardGauge *g, WrError *err)
+static bool hc67(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     const WrNoise flat = noise_of(WR_NOISE_SIMPLEX, 2, 0), solid = noise_of(WR_NOISE_SIMPLEX, 3, 0);

@@ -70,7 +70,8 @@ static bool write_text(Values *values, const char *text, double u, double v, con
 }
 
 /* Number of texels of either part that differ from the other's, moved by half a table. */
-static void same_rolled(WrHardGauge *g, const WrRelief *still, const WrRelief *moved, int w, int h)
+static void same_rolled(WrHardMeasurement *g, const WrRelief *still, const WrRelief *moved, int w,
+                        int h)
 {
     WrField *heights = wr_hard_rolled(still->heights, w / 2, h / 2);
     WrField *cover = wr_hard_rolled(still->cover, w / 2, h / 2);
@@ -80,7 +81,7 @@ static void same_rolled(WrHardGauge *g, const WrRelief *still, const WrRelief *m
     wr_field_free(cover);
 }
 
-static bool hc78(WrHardGauge *g, WrError *err)
+static bool hc78(WrHardMeasurement *g, WrError *err)
 {
     enum { W = 64, H = 48 };
     Values values;
@@ -112,7 +113,7 @@ static bool hc78(WrHardGauge *g, WrError *err)
 /* ---- solids ---- */
 
 /* sqrt(max(0, r^2 - d^2)) of the nearest periodic image, for a sphere of that radius at (u, v). */
-static void check_sphere(WrHardGauge *g, const WrRelief *relief, int n, double r, double u,
+static void check_sphere(WrHardMeasurement *g, const WrRelief *relief, int n, double r, double u,
                          double v)
 {
     const double x = n * u - 0.5, y = n * (1.0 - v) - 0.5;
@@ -128,7 +129,7 @@ static void check_sphere(WrHardGauge *g, const WrRelief *relief, int n, double r
     }
 }
 
-static bool hc79(WrHardGauge *g, WrError *err)
+static bool hc79(WrHardMeasurement *g, WrError *err)
 {
     static const double spheres[][3] = { { 20, 0.5, 0.5 }, { 0.3, 0.52, 0.27 }, { 12, 0, 0 },
                                          { 31, 0.3, 0.9 }, { 200, 0.4, 0.6 },   { 9, 7.25, -3.5 } };
@@ -154,7 +155,7 @@ static bool hc79(WrHardGauge *g, WrError *err)
 }
 
 /* Boxes side by side and overlapping, with tops in one plane: equal heights wherever they meet. */
-static bool hc80(WrHardGauge *g, WrError *err)
+static bool hc80(WrHardMeasurement *g, WrError *err)
 {
     Values values;
     if (!values_of(&values, "solid", "box", err)) return false;
@@ -188,7 +189,7 @@ static bool hc80(WrHardGauge *g, WrError *err)
 
 /* ---- history ---- */
 
-static bool hc81(WrHardGauge *g, WrError *err)
+static bool hc81(WrHardMeasurement *g, WrError *err)
 {
     enum { STROKES = 1000, EVERY = 20 };
     WrHash hashes[STROKES / EVERY + 1];
@@ -313,7 +314,7 @@ static int cracks(const WrTriangles *t)
     return open;
 }
 
-static bool look_for_cracks(WrHardGauge *g, const WrFrameRequest *request, WrError *err)
+static bool look_for_cracks(WrHardMeasurement *g, const WrFrameRequest *request, WrError *err)
 {
     const WrScene *scene = request->scene;
     WrHardShot shot;
@@ -331,7 +332,7 @@ static bool look_for_cracks(WrHardGauge *g, const WrFrameRequest *request, WrErr
     return good;
 }
 
-static bool hc124(WrHardGauge *g, WrError *err)
+static bool hc124(WrHardMeasurement *g, WrError *err)
 {
     static const double rates[] = { 16, 4, 1.7, 0.5 };
     WrField *field = wr_hard_rough(g, 11, 7, WR_WRAP_PERIODIC);
@@ -350,7 +351,7 @@ static bool hc124(WrHardGauge *g, WrError *err)
 
 /* All values are finite, by facets and by the reference. If the number of facets reaches its limit, that is
    reported, and the second arithmetic, which uses the same facets, is skipped. */
-static bool ends(WrHardGauge *g, const WrFrameRequest *request, bool endless, WrError *err)
+static bool ends(WrHardMeasurement *g, const WrFrameRequest *request, bool endless, WrError *err)
 {
     WrReference truth = { 0 };
     bool good = wr_hard_refer(g, request, 1, &truth, err);
@@ -369,7 +370,7 @@ static bool ends(WrHardGauge *g, const WrFrameRequest *request, bool endless, Wr
     return good;
 }
 
-static bool hc125(WrHardGauge *g, WrError *err)
+static bool hc125(WrHardMeasurement *g, WrError *err)
 {
     WrField *level = wr_field_new(4, 3, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 1, err);
     WrField *rough = wr_hard_rough(g, 31, 17, WR_WRAP_PERIODIC);
@@ -439,7 +440,7 @@ static WrSample at(double u, double v, double pressure)
 }
 
 /* Compares two tables: largest difference of heights. */
-static void compare(WrHardGauge *g, const WrField *a, const WrField *b)
+static void compare(WrHardMeasurement *g, const WrField *a, const WrField *b)
 {
     for (int j = 0; j < wr_field_height(a); j++)
         for (int i = 0; i < wr_field_width(a); i++)
@@ -447,7 +448,7 @@ static void compare(WrHardGauge *g, const WrField *a, const WrField *b)
                          (double)wr_field_get(b, i, j));
 }
 
-static bool hc69(WrHardGauge *g, WrError *err)
+static bool hc69(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     static const double radii[] = { 0.3, 1.5, 10, 31.9, 32, 50 };
@@ -465,7 +466,7 @@ static bool hc69(WrHardGauge *g, WrError *err)
     return true;
 }
 
-static bool hc70(WrHardGauge *g, WrError *err)
+static bool hc70(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     static const double radii[] = { 200, 1e6, 1e9, INFINITY };
@@ -480,7 +481,7 @@ static bool hc70(WrHardGauge *g, WrError *err)
     return true;
 }
 
-static bool hc71(WrHardGauge *g, WrError *err)
+static bool hc71(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     static const double none[] = { 0, -1, NAN, -INFINITY };
@@ -515,7 +516,7 @@ static bool hc71(WrHardGauge *g, WrError *err)
     return true;
 }
 
-static bool hc72(WrHardGauge *g, WrError *err)
+static bool hc72(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     static const double radii[] = { 0.4, 3, 30 };
@@ -533,7 +534,7 @@ static bool hc72(WrHardGauge *g, WrError *err)
     return true;
 }
 
-static bool hc73(WrHardGauge *g, WrError *err)
+static bool hc73(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     const WrSample across[] = { at(0.9375, 0.875, 1), at(0.0625, 0.125, 1), at(0.25, 0.0, 1) };
@@ -552,7 +553,7 @@ static bool hc73(WrHardGauge *g, WrError *err)
     return true;
 }
 
-static bool hc74(WrHardGauge *g, WrError *err)
+static bool hc74(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     static const double pressures[][2] = { { NAN, 0 },      { -3, 0 }, { -INFINITY, 0 },
@@ -574,7 +575,7 @@ static bool hc74(WrHardGauge *g, WrError *err)
     return true;
 }
 
-static bool hc75(WrHardGauge *g, WrError *err)
+static bool hc75(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     static const double radii[] = { 0.9, 6, 40 };
@@ -595,7 +596,7 @@ static bool hc75(WrHardGauge *g, WrError *err)
 }
 
 /* A million dabs of 2^-10 are exactly 976.5625; dabs of FLT_MAX / 10 stop at FLT_MAX. Relative deviation. */
-static bool hc76(WrHardGauge *g, WrError *err)
+static bool hc76(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     static const double strengths[] = { 0x1p-10, (double)FLT_MAX / 10 };
@@ -619,7 +620,7 @@ static double mean_of(const WrField *field)
 }
 
 /* Change of the mean by one pass, and the excess over the previous range. */
-static void check_pass(WrHardGauge *g, const WrField *was, const WrField *is)
+static void check_pass(WrHardMeasurement *g, const WrField *was, const WrField *is)
 {
     float low, high, low_now, high_now;
     wr_field_range(was, &low, &high);
@@ -629,7 +630,7 @@ static void check_pass(WrHardGauge *g, const WrField *was, const WrField *is)
     wr_hard_off(g, WR_HARD_FLOAT, fmax(0.0, (double)low - (double)low_now));
 }
 
-static bool hc77(WrHardGauge *g, WrError *err)
+static bool hc77(WrHardMeasurement *g, WrError *err)
 {
     WrField *field = wr_hard_rough(g, 90, 70, WR_WRAP_PERIODIC);
     const WrOpInfo *blur = wr_op_find("blur");

@@ -3,7 +3,7 @@
 #pragma once
 #include "hardcases/hardcases_internal.h"
 
-bool wr_hard_hc33(WrHardGauge *gauge, WrError *err);
-bool wr_hard_hc34(WrHardGauge *gauge, WrError *err);
-bool wr_hard_hc153(WrHardGauge *gauge, WrError *err);
-bool wr_hard_hc154(WrHardGauge *gauge, WrError *err);
+bool wr_hard_hc33(WrHardMeasurement *gauge, WrError *err);
+bool wr_hard_hc34(WrHardMeasurement *gauge, WrError *err);
+bool wr_hard_hc153(WrHardMeasurement *gauge, WrError *err);
+bool wr_hard_hc154(WrHardMeasurement *gauge, WrError *err);

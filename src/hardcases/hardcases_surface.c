@@ -25,7 +25,7 @@
 /* Hard cases of surfaces defined by exponents and by text: superellipsoids, profiles, formulas. */
 
 /* n at (u, v) of each kernel set and of the formula, compared with the expected one. */
-static void angles(WrHardGauge *g, const WrShape *shape, double u, double v, WrVec3 want)
+static void angles(WrHardMeasurement *g, const WrShape *shape, double u, double v, WrVec3 want)
 {
     WrSurfacePoint at;
     wr_surface_at(shape, 0, u, v, &at);
@@ -36,7 +36,7 @@ static void angles(WrHardGauge *g, const WrShape *shape, double u, double v, WrV
     }
 }
 
-static bool hc143(WrHardGauge *g, WrError *err)
+static bool hc143(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     WrShape shape = wr_hard_shape(WR_SURFACE_superellipsoid);
@@ -60,7 +60,7 @@ static WrSurfaceData *made(WrSurfaceKind kind, const char *one, WrError *err)
     return wr_surface_data_make(kind, text, err);
 }
 
-static bool hc144(WrHardGauge *g, WrError *err)
+static bool hc144(WrHardMeasurement *g, WrError *err)
 {
     static const char *const wrong[3] = { "1,0;0,0.5;1,1", "1,0;0.01,0.5;0.01,1.5;1,2",
                                           "1,0;1,0;0,0.5;0,0.5;1,1" };
@@ -81,7 +81,7 @@ static bool hc144(WrHardGauge *g, WrError *err)
 }
 
 /* The expression is refused, and the message names the column. */
-static void refused(WrHardGauge *g, const char *expression, const char *column)
+static void refused(WrHardMeasurement *g, const char *expression, const char *column)
 {
     WrError why = { "" };
     WrSurfaceData *data = made(WR_SURFACE_formula, expression, &why);
@@ -89,7 +89,7 @@ static void refused(WrHardGauge *g, const char *expression, const char *column)
     wr_surface_data_free(data);
 }
 
-static bool hc149(WrHardGauge *g, WrError *err)
+static bool hc149(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     refused(g, "1+sqrt(u)", "column 3");
@@ -109,7 +109,7 @@ static bool hc149(WrHardGauge *g, WrError *err)
     return true;
 }
 
-static bool hc150(WrHardGauge *g, WrError *err)
+static bool hc150(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     static const char *const open[5] = { "(", "-", "sin(", "2^", "1+(" };
@@ -154,7 +154,7 @@ WR_HARD_LIST(forms, rows);
 enum { SIDE = 5 };
 
 /* Patches over rough heights. The caller frees them. */
-static float (*rough_points(WrHardGauge *g, int side, double height))[48]
+static float (*rough_points(WrHardMeasurement *g, int side, double height))[48]
 {
     float heights[SIDE * SIDE * 4], (*points)[48];
     int columns, rows_patches;
@@ -163,7 +163,7 @@ static float (*rough_points(WrHardGauge *g, int side, double height))[48]
     return wr_terrain_points(&terrain, &points, &columns, &rows_patches, NULL) ? points : NULL;
 }
 
-void wr_hard_ground(WrHardGauge *g, WrScene *scene)
+void wr_hard_ground(WrHardMeasurement *g, WrScene *scene)
 {
     float(*points)[48] = rough_points(g, SIDE, 0.1);
     const double turn = wr_hard_between(g, 0, 6);
@@ -211,7 +211,7 @@ static double on_patch(const WrPatches *set, int32_t i, const double uv[2], cons
 }
 
 /* The common edges of a square's four patches: points with equal positions. */
-static void compare_edges(WrHardGauge *g, const WrPatches *set, const WrField *field)
+static void compare_edges(WrHardMeasurement *g, const WrPatches *set, const WrField *field)
 {
     int met = 0;
     for (int32_t a = 0; a < 16; a++)
@@ -232,7 +232,7 @@ static void compare_edges(WrHardGauge *g, const WrPatches *set, const WrField *f
     wr_hard_holds(g, WR_HARD_DOUBLE, met >= 4 * 9);
 }
 
-static bool hc151(WrHardGauge *g, WrError *err)
+static bool hc151(WrHardMeasurement *g, WrError *err)
 {
     WrField *field = wr_hard_rough(g, 16, 16, WR_WRAP_PERIODIC);
     bool good = true;
@@ -257,7 +257,7 @@ static bool hc151(WrHardGauge *g, WrError *err)
 
 /* Smooth terrain of 5 x 5 patches; a control point beside an edge is moved; a patch is missing; a single one
    with one edge shrunk to a point. */
-static bool hc152(WrHardGauge *g, WrError *err)
+static bool hc152(WrHardMeasurement *g, WrError *err)
 {
     bool good = true;
     for (int k = 0; k < 4 && good; k++) {
@@ -271,13 +271,14 @@ static bool hc152(WrHardGauge *g, WrError *err)
         WrTriangles *made = wr_patches_new((const float(*)[48])points, count, WR_PATCH_EACH, err);
         good = made != NULL;
         if (!good) break;
-        const WrPatchesTold *told = &made->patches->told;
-        wr_hard_holds(g, WR_HARD_DOUBLE, (told->creased > 0) == (k == 1));
+        const WrPatchesReport *report = &made->patches->report;
+        wr_hard_holds(g, WR_HARD_DOUBLE, (report->creased > 0) == (k == 1));
         wr_hard_holds(g, WR_HARD_DOUBLE,
-                      k != 1 || (told->crease_of[0] <= 12 && told->crease_of[1] <= 17));
-        wr_hard_holds(g, WR_HARD_DOUBLE, told->loops == (k == 2 ? 2 : 1));
-        wr_hard_holds(g, WR_HARD_DOUBLE, told->open == (k == 3 ? 3 : 4 * SIDE + (k == 2 ? 4 : 0)));
-        wr_hard_holds(g, WR_HARD_DOUBLE, told->collapsed == (k == 3 ? 1 : 0));
+                      k != 1 || (report->crease_of[0] <= 12 && report->crease_of[1] <= 17));
+        wr_hard_holds(g, WR_HARD_DOUBLE, report->loops == (k == 2 ? 2 : 1));
+        wr_hard_holds(g, WR_HARD_DOUBLE,
+                      report->open == (k == 3 ? 3 : 4 * SIDE + (k == 2 ? 4 : 0)));
+        wr_hard_holds(g, WR_HARD_DOUBLE, report->collapsed == (k == 3 ? 1 : 0));
         wr_triangles_free(made);
         wr_free(points);
     }
@@ -346,7 +347,7 @@ static bool ellipsoid(const WrScene *scene, int i, WrVec3 *n)
     return true;
 }
 
-static void look(WrHardGauge *g, WrHardPrecision precision, const WrScene *scene,
+static void look(WrHardMeasurement *g, WrHardPrecision precision, const WrScene *scene,
                  const float *normals, double bound)
 {
     for (int i = 0; i < SIDE_STRETCH * SIDE_STRETCH; i++) {
@@ -358,7 +359,7 @@ static void look(WrHardGauge *g, WrHardPrecision precision, const WrScene *scene
 }
 
 /* In every arithmetic, and by the reference. */
-static bool try_ball(WrHardGauge *g, WrVec3 sizes, WrError *err)
+static bool try_ball(WrHardMeasurement *g, WrVec3 sizes, WrError *err)
 {
     WrScene *scene = ball_of(sizes);
     WrField *field = wr_hard_waves(16, 16);
@@ -390,26 +391,26 @@ static bool try_ball(WrHardGauge *g, WrVec3 sizes, WrError *err)
     return good;
 }
 
-static bool try_balls(WrHardGauge *g, const WrVec3 *sizes, int count, WrError *err)
+static bool try_balls(WrHardMeasurement *g, const WrVec3 *sizes, int count, WrError *err)
 {
     bool good = true;
     for (int i = 0; i < count && good; i++) good = try_ball(g, sizes[i], err);
     return good;
 }
 
-bool wr_hard_hc33(WrHardGauge *g, WrError *err)
+bool wr_hard_hc33(WrHardMeasurement *g, WrError *err)
 {
     static const WrVec3 sizes[] = { { 1, 1, 100 }, { 100, 1, 1 }, { 0.8, 0.008, 0.8 } };
     return try_balls(g, sizes, 3, err);
 }
 
-bool wr_hard_hc34(WrHardGauge *g, WrError *err)
+bool wr_hard_hc34(WrHardMeasurement *g, WrError *err)
 {
     static const WrVec3 sizes[] = { { -1, 1, 1 }, { 0.7, -1, 0.9 }, { 1, 1, -1 }, { -1, -1, -1 } };
     return try_balls(g, sizes, 4, err);
 }
 
-bool wr_hard_hc153(WrHardGauge *g, WrError *err)
+bool wr_hard_hc153(WrHardMeasurement *g, WrError *err)
 {
     static const WrVec3 sizes[] = { { 1, 1, -100 }, { 1, 1, 0 }, { 1, 1, -0.0 },
                                     { 0, 1, 1 },    { 0, 1, 0 }, { -1, 0, -0.5 } };
@@ -439,7 +440,7 @@ static WrScene *pair_at(double far)
     return scene;
 }
 
-bool wr_hard_hc154(WrHardGauge *g, WrError *err)
+bool wr_hard_hc154(WrHardMeasurement *g, WrError *err)
 {
     enum { WIDE = 200 }; /* the outlines are about 500 pixels: moved by 2^-8 of one, 2 change */
     WrField *field = wr_hard_waves(16, 16);
@@ -509,7 +510,7 @@ static WrVec3 by_gradient(const WrSurfacePoint *at, double fu, double fv)
     return v3_sub(n, slope);
 }
 
-static bool hc32(WrHardGauge *g, WrError *err)
+static bool hc32(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     static const double degrees[] = { 90, 80, 60, 45, 20 };
@@ -611,7 +612,7 @@ static void take(double x, double y, double z, double nx, double ny, double nz,
 
 /* The square's diagonal, whose (u,v) differ by one ulp on its two sides: two corners and two frames, as the mesh
    reports; with equal (u,v) they are one. */
-bool wr_hard_hc129(WrHardGauge *g, WrError *err)
+bool wr_hard_hc129(WrHardMeasurement *g, WrError *err)
 {
     for (int apart = 0; apart <= 2; apart++) {
         WrHardMesh mesh = { .face = { { 0, 1, 2 }, { 4, 2, 3 } }, .corners = 5, .faces = 2 };
@@ -627,7 +628,7 @@ bool wr_hard_hc129(WrHardGauge *g, WrError *err)
         wr_hard_holds(g, WR_HARD_DOUBLE, apart ? turned > 0.5 : turned == 0);
         WrTriangles *made = wr_hard_triangles(&mesh, err);
         if (!made) return false;
-        wr_hard_holds(g, WR_HARD_DOUBLE, made->told.near_uv == (apart > 0));
+        wr_hard_holds(g, WR_HARD_DOUBLE, made->report.near_uv == (apart > 0));
         wr_hard_holds(g, WR_HARD_DOUBLE, made->corner_count == 4 + (apart > 0));
         wr_triangles_free(made);
         if (!wr_hard_mesh_tame(g, &mesh, err)) return false;
@@ -636,7 +637,7 @@ bool wr_hard_hc129(WrHardGauge *g, WrError *err)
 }
 
 /* Two triangles folded onto each other, with opposite tangents and equal handedness: their sum is 0. */
-bool wr_hard_hc130(WrHardGauge *g, WrError *err)
+bool wr_hard_hc130(WrHardMeasurement *g, WrError *err)
 {
     WrHardMesh fold = { .face = { { 0, 1, 2 }, { 1, 0, 3 } }, .corners = 4, .faces = 2 };
     static const double x[4] = { 0, 0, -1, -1 }, y[4] = { 0, 1, 0, 0 };
@@ -652,7 +653,7 @@ bool wr_hard_hc130(WrHardGauge *g, WrError *err)
 
 /* A triangle with two coincident corners copies the frame of its neighbour's corners; a single degenerate one
    has (1,0,0). */
-bool wr_hard_hc131(WrHardGauge *g, WrError *err)
+bool wr_hard_hc131(WrHardMeasurement *g, WrError *err)
 {
     WrHardMesh mesh = { .face = { { 0, 1, 2 }, { 0, 0, 1 }, { 3, 3, 3 } },
                         .corners = 4,
@@ -675,7 +676,7 @@ bool wr_hard_hc131(WrHardGauge *g, WrError *err)
 
 /* Three and more triangles at one edge, with corners chosen at random from few: grouping terminates, and frames
    are valid. */
-bool wr_hard_hc132(WrHardGauge *g, WrError *err)
+bool wr_hard_hc132(WrHardMeasurement *g, WrError *err)
 {
     for (int round = 0; round < 400; round++) {
         WrHardMesh mesh = { .corners = WR_HARD_CORNERS, .faces = WR_HARD_FACES };
@@ -713,7 +714,7 @@ bool wr_hard_hc132(WrHardGauge *g, WrError *err)
 
 /* Normals of needles that are a ten-millionth as wide as long, compared with the cross product at their corner
    without rounding: in float the corners' own, in double the gradient's. */
-bool wr_hard_hc133(WrHardGauge *g, WrError *err)
+bool wr_hard_hc133(WrHardMeasurement *g, WrError *err)
 {
     for (int round = 0; round < 300; round++) {
         WrHardMesh mesh = { .face = { { 0, 1, 2 } }, .corners = 3, .faces = 1 };
@@ -755,7 +756,7 @@ bool wr_hard_hc133(WrHardGauge *g, WrError *err)
 }
 
 /* A zero or NaN normal is replaced by the mean of its faces', or by its face's if those are opposite. */
-bool wr_hard_hc136(WrHardGauge *g, WrError *err)
+bool wr_hard_hc136(WrHardMeasurement *g, WrError *err)
 {
     static const double bad[4] = { 0, (double)NAN, (double)INFINITY, -0.0 };
     for (int k = 0; k < 8; k++) {
@@ -768,8 +769,8 @@ bool wr_hard_hc136(WrHardGauge *g, WrError *err)
         if (opposite) mesh.face[1][0] = 0, mesh.face[1][1] = 2, mesh.face[1][2] = 1;
         WrTriangles *made = wr_hard_triangles(&mesh, err);
         if (!made) return false;
-        wr_hard_holds(g, WR_HARD_DOUBLE, made->told.bad_normal == 1);
-        wr_hard_holds(g, WR_HARD_DOUBLE, made->told.face_normal == (opposite ? 2 : 0));
+        wr_hard_holds(g, WR_HARD_DOUBLE, made->report.bad_normal == 1);
+        wr_hard_holds(g, WR_HARD_DOUBLE, made->report.face_normal == (opposite ? 2 : 0));
         for (int i = 0; i < made->corner_count; i++) {
             const float *n = made->corners[i].n;
             wr_hard_holds(g, WR_HARD_DOUBLE, n[0] == 0 && n[1] == 0 && fabsf(n[2]) == 1);
@@ -809,7 +810,7 @@ static WrTriangles *fan(int count, int from, int step, double x, double y, WrErr
 
 /* Rays exactly through the centre vertex of a fan: in double by the reference's tree, in float by pictures with
    a sample at it (pictures of an odd size have one). */
-bool wr_hard_hc134(WrHardGauge *g, WrError *err)
+bool wr_hard_hc134(WrHardMeasurement *g, WrError *err)
 {
     enum { RAYS = 1000000, FANS = 10 };
     WrField *field = wr_hard_waves(8, 8);
@@ -856,7 +857,7 @@ bool wr_hard_hc134(WrHardGauge *g, WrError *err)
 }
 
 /* Two fans with alternating triangles: at every angle each sample belongs to exactly one of them. */
-bool wr_hard_hc135(WrHardGauge *g, WrError *err)
+bool wr_hard_hc135(WrHardMeasurement *g, WrError *err)
 {
     enum { TURNS = 1000, ACROSS = 24 };
     WrField *field = wr_hard_waves(8, 8);
@@ -894,7 +895,7 @@ bool wr_hard_hc135(WrHardGauge *g, WrError *err)
 static const WrVec3 zero = { 0, 0, 0 };
 
 /* The angle between n in float and the expected one, for each kernel set. */
-static void angle_f(WrHardGauge *g, const WrShape *shape, float u, float v, WrVec3 want)
+static void angle_f(WrHardMeasurement *g, const WrShape *shape, float u, float v, WrVec3 want)
 {
     for (int k = 0; k < g->sets; k++) {
         WrSurfacePointf at = wr_hard_point(g, k, shape, 1.0, 0, u, v);
@@ -902,14 +903,14 @@ static void angle_f(WrHardGauge *g, const WrShape *shape, float u, float v, WrVe
     }
 }
 
-static void angle_d(WrHardGauge *g, const WrShape *shape, double u, double v, WrVec3 want)
+static void angle_d(WrHardMeasurement *g, const WrShape *shape, double u, double v, WrVec3 want)
 {
     WrSurfacePoint at;
     wr_surface_at(shape, 0, u, v, &at);
     wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(at.n_unit, want));
 }
 
-static bool hc01(WrHardGauge *g, WrError *err)
+static bool hc01(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     const WrShape sphere = wr_hard_shape(WR_SURFACE_sphere);
@@ -923,7 +924,7 @@ static bool hc01(WrHardGauge *g, WrError *err)
 }
 
 /* F = 0.1 x / R has one value at the pole; its surface gradient at n is 0.1 (e_x - n_x n), R = 1. */
-static bool hc02(WrHardGauge *g, WrError *err)
+static bool hc02(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     const WrShape sphere = wr_hard_shape(WR_SURFACE_sphere);
@@ -951,7 +952,7 @@ static bool hc02(WrHardGauge *g, WrError *err)
     return true;
 }
 
-static bool hc03(WrHardGauge *g, WrError *err)
+static bool hc03(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     const WrShape sphere = wr_hard_shape(WR_SURFACE_sphere);
@@ -974,7 +975,7 @@ static bool hc03(WrHardGauge *g, WrError *err)
     return true;
 }
 
-static bool hc04(WrHardGauge *g, WrError *err)
+static bool hc04(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     const WrShape cone = wr_hard_shape(WR_SURFACE_cone);
@@ -1004,7 +1005,7 @@ static WrVec3 dish_high(int i, int j)
     return dish_low(i, 3 - j);
 }
 
-static bool hc05(WrHardGauge *g, WrError *err)
+static bool hc05(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     const WrShape dishes[2] = { wr_hard_patch(dish_low), wr_hard_patch(dish_high) };
@@ -1035,7 +1036,7 @@ static WrVec3 line_point(int i, int j)
 
 /* No normal exists: the result is the defined one everywhere, bumps keep its length 1, and a picture of the
    patch contains no NaN. */
-static bool degenerate(WrHardGauge *g, const WrShape *shape, WrError *err)
+static bool degenerate(WrHardMeasurement *g, const WrShape *shape, WrError *err)
 {
     const WrHardSlope slope = { 0.3, 2, -1 };
     for (int k = 0; k < 81; k++) {
@@ -1068,14 +1069,14 @@ static bool degenerate(WrHardGauge *g, const WrShape *shape, WrError *err)
     return good;
 }
 
-static bool hc06(WrHardGauge *g, WrError *err)
+static bool hc06(WrHardMeasurement *g, WrError *err)
 {
     const WrShape shape = wr_hard_patch(same_point);
     return degenerate(g, &shape, err);
 }
 
 /* Points on a line of any direction, with rounded coordinates: Pu x Pv is rounding error. */
-static WrShape line_shape(WrHardGauge *g)
+static WrShape line_shape(WrHardMeasurement *g)
 {
     WrShape shape = wr_hard_shape(WR_SURFACE_bezier);
     WrVec3 p[2];
@@ -1089,7 +1090,7 @@ static WrShape line_shape(WrHardGauge *g)
     return shape;
 }
 
-static bool hc07(WrHardGauge *g, WrError *err)
+static bool hc07(WrHardMeasurement *g, WrError *err)
 {
     const WrShape shape = wr_hard_patch(line_point);
     bool good = degenerate(g, &shape, err);
@@ -1101,7 +1102,7 @@ static bool hc07(WrHardGauge *g, WrError *err)
 }
 
 /* The normal of a tube points away from the tube's centre line, for any two radii. */
-static bool hc08(WrHardGauge *g, WrError *err)
+static bool hc08(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     static const double sizes[][2] = { { 1, 0 }, { 0.5, 0.5 }, { 0.25, 0.75 }, { 0, 1 } };
@@ -1124,7 +1125,7 @@ static bool hc08(WrHardGauge *g, WrError *err)
 
 /* Pictures of tori of many sizes with proportional heights: all equal, except for the last digits of visibility.
    A different picture counts as a deviation of 1. */
-static bool same_pictures(WrHardGauge *g, WrError *err)
+static bool same_pictures(WrHardMeasurement *g, WrError *err)
 {
     enum { SIZE = 48 };
     static const double scales[] = { 1, 3, 0.7, 1e-6, 1e6, 1e-20, 1e20 };
@@ -1157,7 +1158,7 @@ static bool same_pictures(WrHardGauge *g, WrError *err)
 }
 
 /* invariant: the same n' at any scale; blinn: the same if the heights grow proportionally. */
-static bool hc09(WrHardGauge *g, WrError *err)
+static bool hc09(WrHardMeasurement *g, WrError *err)
 {
     static const double scales[] = { 1e-20, 1e-6, 1e6, 1e20 };
     for (int i = 0; i < 400; i++) {
@@ -1191,12 +1192,12 @@ static bool hc09(WrHardGauge *g, WrError *err)
 }
 
 /* Cosine of the angle between n and a tangent, in ulps of the precision. */
-static void upright(WrHardGauge *g, WrHardPrecision p, WrVec3 n, WrVec3 tangent, double ulp)
+static void upright(WrHardMeasurement *g, WrHardPrecision p, WrVec3 n, WrVec3 tangent, double ulp)
 {
     wr_hard_off(g, p, fabs(v3_dot(n, tangent)) / v3_len(tangent) / ulp);
 }
 
-static bool hc10(WrHardGauge *g, WrError *err)
+static bool hc10(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     static const double sides[] = { 1e10, 0.75, 0.25, -0.5, 0.75 }; /* a, b, c */
@@ -1220,7 +1221,7 @@ static bool hc10(WrHardGauge *g, WrError *err)
 
 /* A patch whose tangents are nearly parallel: sixteen points i a + j (a + e b), a and b at random, e from 1e-6
    to 1e-3, of any size, rounded to float; both precisions use this rounded patch. */
-static WrShape nearly_shape(WrHardGauge *g, double size)
+static WrShape nearly_shape(WrHardMeasurement *g, double size)
 {
     WrShape shape = wr_hard_shape(WR_SURFACE_bezier);
     const double apart = pow(10, wr_hard_between(g, -6, -3));
@@ -1245,7 +1246,7 @@ static WrVec3 true_cross(WrVec3 a, WrVec3 b)
 }
 
 /* Angle between n and that, in ulps divided by the sine; the tangents are as computed. */
-static void leans(WrHardGauge *g, WrHardPrecision p, const WrSurfacePoint *at, double ulp)
+static void leans(WrHardMeasurement *g, WrHardPrecision p, const WrSurfacePoint *at, double ulp)
 {
     const WrVec3 normal = true_cross(at->pu, at->pv);
     const double sine = v3_len(normal) / v3_len(at->pu) / v3_len(at->pv);
@@ -1253,7 +1254,7 @@ static void leans(WrHardGauge *g, WrHardPrecision p, const WrSurfacePoint *at, d
     wr_hard_off(g, p, v3_angle_rad(at->n_unit, normal) * sine / ulp);
 }
 
-static bool hc11(WrHardGauge *g, WrError *err)
+static bool hc11(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     static const double sizes[] = { 1, 1.0 / 3.0, 1e-6, 1e6 };

@@ -17,7 +17,7 @@
 
 /* ---- Hard cases of flat tables: no detail, and detail at a level of a million ---- */
 
-static bool hc47(WrHardGauge *g, WrError *err)
+static bool hc47(WrHardMeasurement *g, WrError *err)
 {
     static const float levels[] = { 0, 1, 0.1f, -1e6f, 3.3e38f, 1e-40f };
     bool good = true;
@@ -48,7 +48,7 @@ static bool hc47(WrHardGauge *g, WrError *err)
 
 /* Slopes of a table at a level of a million, compared with those of the same stored heights minus a million
    (which is exact), heights per texel, in units of the step of stored heights, 1/16. */
-static bool hc48(WrHardGauge *g, WrError *err)
+static bool hc48(WrHardMeasurement *g, WrError *err)
 {
     WrField *low = wr_hard_waves(64, 64), *high = wr_field_share(low);
     for (int j = 0; j < 64; j++)
@@ -104,7 +104,7 @@ WR_HARD_LIST(flat, rows);
 /* ---- Hard cases of heights: extreme ones, integer ones, and edges of cells ---- */
 
 /* One texel at float's maximum: outside the scheme's reach not a bit differs. */
-static bool hc49(WrHardGauge *g, WrError *err)
+static bool hc49(WrHardMeasurement *g, WrError *err)
 {
     WrField *field = wr_hard_rough(g, 100, 100, WR_WRAP_PERIODIC), *spoilt = wr_field_share(field);
     const float wild[] = { NAN, INFINITY, -INFINITY };
@@ -141,7 +141,7 @@ static bool hc49(WrHardGauge *g, WrError *err)
     return good;
 }
 
-static bool hc50(WrHardGauge *g, WrError *err)
+static bool hc50(WrHardMeasurement *g, WrError *err)
 {
     bool good = true;
     for (int wrap = 0; wrap < 2 && good; wrap++) {
@@ -197,7 +197,7 @@ static WrField *through_codes(const WrField *field, WrPixelType type, double *wo
 
 /* Slopes of integer heights compared with those of the heights themselves, in n / (2 last code): the largest
    effect of half a code in either direction on a central difference. */
-static bool quantised(WrHardGauge *g, WrPixelType type, WrError *err)
+static bool quantised(WrHardMeasurement *g, WrPixelType type, WrError *err)
 {
     static const int sizes[] = { 64, 256, 1024 };
     const double last = type == WR_PIXEL_U8 ? 255.0 : 65535.0;
@@ -229,12 +229,12 @@ static bool quantised(WrHardGauge *g, WrPixelType type, WrError *err)
     return good;
 }
 
-static bool hc51(WrHardGauge *g, WrError *err)
+static bool hc51(WrHardMeasurement *g, WrError *err)
 {
     return quantised(g, WR_PIXEL_U8, err);
 }
 
-static bool hc52(WrHardGauge *g, WrError *err)
+static bool hc52(WrHardMeasurement *g, WrError *err)
 {
     return quantised(g, WR_PIXEL_U16, err);
 }
@@ -264,8 +264,8 @@ static bool write_codes(const char *name, const float *heights, uint16_t *codes,
 }
 
 /* Saved, read, and saved again: the same bytes, and heights within half a code. */
-static bool save_twice(WrHardGauge *g, const char *name, const float *heights, uint16_t *codes,
-                       WrError *err)
+static bool save_twice(WrHardMeasurement *g, const char *name, const float *heights,
+                       uint16_t *codes, WrError *err)
 {
     char *first = NULL, *second = NULL;
     size_t first_length = 0, second_length = 0;
@@ -286,7 +286,7 @@ static bool save_twice(WrHardGauge *g, const char *name, const float *heights, u
 }
 
 /* Every possible code, and random heights. */
-static bool hc53(WrHardGauge *g, WrError *err)
+static bool hc53(WrHardMeasurement *g, WrError *err)
 {
     float *heights = wr_alloc(CODES, sizeof *heights);
     uint16_t *codes = wr_alloc(CODES, sizeof *codes);
@@ -304,7 +304,7 @@ static bool hc53(WrHardGauge *g, WrError *err)
 /* ---- edges of cells ---- */
 
 /* The jump of Fu from one ulp before a cell's edge to one after, heights per texel. */
-static bool hc54(WrHardGauge *g, WrError *err)
+static bool hc54(WrHardMeasurement *g, WrError *err)
 {
     static const WrScheme smooth[] = { WR_SCHEME_CENTRAL, WR_SCHEME_BSPLINE, WR_SCHEME_BSPLINE_FIT,
                                        WR_SCHEME_CATMULL };
@@ -392,7 +392,7 @@ static WrShape coincident(int how)
 
 /* Along the diagonal n is continuous at the corner, in float and in double (the edges beside it have normals of
    their own); everywhere it has length 1 after perturbation. */
-bool wr_hard_hc156(WrHardGauge *g, WrError *err)
+bool wr_hard_hc156(WrHardMeasurement *g, WrError *err)
 {
     static const double near[] = { 0, 1e-30, 1e-7, 1e-5 };
     WrField *field = wr_hard_waves(32, 32);
@@ -433,7 +433,7 @@ bool wr_hard_hc156(WrHardGauge *g, WrError *err)
 
 /* The hole closes to a point where Pu vanishes: beside it n points away from the tube's centre line, and
    perturbed normals have length 1 for any table. */
-bool wr_hard_hc160(WrHardGauge *g, WrError *err)
+bool wr_hard_hc160(WrHardMeasurement *g, WrError *err)
 {
     WrField *field = wr_hard_waves(32, 32);
     bool good = true;
@@ -466,7 +466,7 @@ bool wr_hard_hc160(WrHardGauge *g, WrError *err)
         if (i > 3) continue;
         WrScene *scene = wr_scene_new();
         scene->shape = torus;
-        WrHardGauge quiet = *g; /* counts violations; here deviations are measured */
+        WrHardMeasurement quiet = *g; /* counts violations; here deviations are measured */
         good = wr_hard_tame(&quiet, field, scene, err);
         wr_hard_off(g, WR_HARD_FLOAT, good && quiet.worst[0] == g->worst[0] ? 0.0 : 1.0);
         wr_scene_free(scene);
@@ -476,7 +476,7 @@ bool wr_hard_hc160(WrHardGauge *g, WrError *err)
 }
 
 /* Kernel results n and n' there: NaN light counts as none, so pictures would hide it. */
-static void thin_point(WrHardGauge *g, int set, const WrScene *scene, WrHardSlope slope)
+static void thin_point(WrHardMeasurement *g, int set, const WrScene *scene, WrHardSlope slope)
 {
     const double unit = scalbn(1.0, -ilogb(wr_shape_radius(&scene->shape)));
     const WrSurfacePointf at =
@@ -487,7 +487,7 @@ static void thin_point(WrHardGauge *g, int set, const WrScene *scene, WrHardSlop
 }
 
 /* Sides of 1e-30 beside others of 1: almost no area, and unbounded slopes per unit of length. */
-bool wr_hard_hc161(WrHardGauge *g, WrError *err)
+bool wr_hard_hc161(WrHardMeasurement *g, WrError *err)
 {
     static const struct {
         WrSurfaceKind kind;
@@ -535,7 +535,7 @@ static WrField *repeated(const WrField *field, int across, int down)
 }
 
 /* Tables of one row, one column and one texel, as pictures: equal to those of the table repeated to eight. */
-bool wr_hard_hc157(WrHardGauge *g, WrError *err)
+bool wr_hard_hc157(WrHardMeasurement *g, WrError *err)
 {
     static const int sizes[][2] = { { 1, 24 }, { 24, 1 }, { 1, 1 } };
     static const WrSurfaceKind kinds[] = { WR_SURFACE_sphere, WR_SURFACE_plane, WR_SURFACE_bent };
@@ -575,7 +575,7 @@ bool wr_hard_hc157(WrHardGauge *g, WrError *err)
 
 /* A layer added and an almost equal one subtracted: the result is the difference of two stored heights, which is
    exact at any level; in either order, above any layers. */
-bool wr_hard_hc162(WrHardGauge *g, WrError *err)
+bool wr_hard_hc162(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     enum { COUNT = 512 };
@@ -602,7 +602,7 @@ bool wr_hard_hc162(WrHardGauge *g, WrError *err)
 
 /* Every operation on tables at both limits of float: heights stay finite, and a flat table of the largest height
    is unchanged by operations that do not affect flat areas. */
-bool wr_hard_hc165(WrHardGauge *g, WrError *err)
+bool wr_hard_hc165(WrHardMeasurement *g, WrError *err)
 {
     enum { WIDE = 80, HIGH = 70 }; /* crop limits itself to 64 */
     static const float ends[] = { FLT_MAX, -FLT_MAX, 1e-45f, -1e-45f, 0x1p-126f, -0.0f, 1e37f };
@@ -626,7 +626,7 @@ bool wr_hard_hc165(WrHardGauge *g, WrError *err)
 }
 
 /* +0 and -0 in one table: the picture of a flat table, to the bit. */
-bool wr_hard_hc173(WrHardGauge *g, WrError *err)
+bool wr_hard_hc173(WrHardMeasurement *g, WrError *err)
 {
     WrField *mixed = wr_field_new(24, 24, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.0f, err);
     WrField *plain = wr_field_new(24, 24, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.0f, err);
@@ -658,7 +658,7 @@ bool wr_hard_hc173(WrHardGauge *g, WrError *err)
 }
 
 /* Kernel fetches from it, scaled to float's maximum, are finite: an infinite slope has no direction. */
-static bool look_stays_finite(WrHardGauge *g, const WrField *field, const WrScene *scene,
+static bool look_stays_finite(WrHardMeasurement *g, const WrField *field, const WrScene *scene,
                               WrError *err)
 {
     WrHardLook look;
@@ -675,7 +675,7 @@ static bool look_stays_finite(WrHardGauge *g, const WrField *field, const WrScen
 }
 
 /* Heights of 1e30 in a table, with a height of 1e30 in the scene. */
-bool wr_hard_hc175(WrHardGauge *g, WrError *err)
+bool wr_hard_hc175(WrHardMeasurement *g, WrError *err)
 {
     static const double heights[] = { 1e30, -1e300, 1e-300 };
     WrField *field = wr_hard_waves(24, 24);
@@ -698,7 +698,7 @@ bool wr_hard_hc175(WrHardGauge *g, WrError *err)
 /* ---- light ---- */
 
 /* Kernels with the lamp, and the eye, exactly at the lit point. */
-static void touching(WrHardGauge *g)
+static void touching(WrHardMeasurement *g)
 {
     for (int k = 0; k < 40; k++) {
         const float hair = k % 4 ? ldexpf(1.0f, -20 * (k % 4) - k) : 0.0f;
@@ -741,7 +741,7 @@ static void touching(WrHardGauge *g)
 
 /* A lamp at a point of the surface, and one inside: the direction is undefined there, but every value is finite
    and within the light's range. */
-bool wr_hard_hc159(WrHardGauge *g, WrError *err)
+bool wr_hard_hc159(WrHardMeasurement *g, WrError *err)
 {
     WrField *field = wr_hard_waves(32, 32);
     bool good = true;
@@ -794,13 +794,13 @@ static const double ends[] = { 0, 1, -0.0, 5, -3 };
 
 /* Fetches by every scheme and kernel set, reduced in float and in double: calls `check` with each. */
 typedef struct Looker {
-    WrHardGauge *g;
+    WrHardMeasurement *g;
     const WrField *field;
     const WrHardLook *look;
     WrScheme scheme;
     int set;
 } Looker;
-static bool each_look(WrHardGauge *g, const WrField *field, double ru, double rv,
+static bool each_look(WrHardMeasurement *g, const WrField *field, double ru, double rv,
                       void (*check)(const Looker *), WrError *err)
 {
     for (int scheme = 0; scheme < WR_SCHEME_COUNT; scheme++) {
@@ -850,7 +850,7 @@ static void check_ends(const Looker *l)
     wr_hard_holds(l->g, WR_HARD_FLOAT, at >= -l->look->look.pitch - 1 && at < last);
 }
 
-static bool hc35(WrHardGauge *g, WrError *err)
+static bool hc35(WrHardMeasurement *g, WrError *err)
 {
     static const int sizes[] = { 1, 3, 64, 100 };
     for (int n = 1; n < 5000; n++) {
@@ -889,7 +889,7 @@ static void check_tiny(const Looker *l)
     }
 }
 
-static bool hc36(WrHardGauge *g, WrError *err)
+static bool hc36(WrHardMeasurement *g, WrError *err)
 {
     WrField *field = wr_hard_rough(g, 64, 64, WR_WRAP_PERIODIC);
     const bool good = each_look(g, field, 1, 1, check_tiny, err);
@@ -908,7 +908,7 @@ static void check_wild(const Looker *l)
     }
 }
 
-static bool hc37(WrHardGauge *g, WrError *err)
+static bool hc37(WrHardMeasurement *g, WrError *err)
 {
     WrField *field = wr_hard_rough(g, 20, 30, WR_WRAP_PERIODIC);
     const bool good = each_look(g, field, 1, 1, check_wild, err);
@@ -922,7 +922,7 @@ static void check_half(const Looker *l)
     same_f(l, -0.5f / 64, -0.5f / 16, 1 - 0.5f / 64, 1 - 0.5f / 16);
 }
 
-static bool hc38(WrHardGauge *g, WrError *err)
+static bool hc38(WrHardMeasurement *g, WrError *err)
 {
     WrField *field = wr_hard_rough(g, 64, 16, WR_WRAP_PERIODIC);
     const bool good = each_look(g, field, 1, 1, check_half, err);
@@ -931,7 +931,7 @@ static bool hc38(WrHardGauge *g, WrError *err)
 }
 
 /* Dyadic positions around the seams, so that u + 1/2 is exact; the table rolled by half in either direction. */
-static bool hc39(WrHardGauge *g, WrError *err)
+static bool hc39(WrHardMeasurement *g, WrError *err)
 {
     WrField *field = wr_hard_rough(g, 32, 64, WR_WRAP_PERIODIC);
     WrField *rolled = wr_hard_rolled(field, 16, 32);
@@ -971,7 +971,7 @@ static double reduced_off(double u, double r, double got)
     return fabs(64.0 * (d - rint(d)));
 }
 
-static bool hc40(WrHardGauge *g, WrError *err)
+static bool hc40(WrHardMeasurement *g, WrError *err)
 {
     static const double repeats[] = { 1e3, 1e5, 1e6, 1e7, 1e7 / 3.0, -1e7, 12345.678 };
     WrField *field = wr_hard_rough(g, 64, 64, WR_WRAP_PERIODIC);
@@ -998,7 +998,7 @@ static bool hc40(WrHardGauge *g, WrError *err)
 
 /* At k/128 with 0 repeats F is constant, with -1 it is mirrored, with a fractional r it is F at the fractional
    part of r u, r times as steep. Dyadic u, so that 1 - u and r u are exact. */
-static void check_repeats(WrHardGauge *g, const WrField *field, const WrHardLook *plain,
+static void check_repeats(WrHardMeasurement *g, const WrField *field, const WrHardLook *plain,
                           const WrHardLook *turned, double r)
 {
     for (int k = 1; k < 100; k++) {
@@ -1017,7 +1017,7 @@ static void check_repeats(WrHardGauge *g, const WrField *field, const WrHardLook
     }
 }
 
-static bool hc41(WrHardGauge *g, WrError *err)
+static bool hc41(WrHardMeasurement *g, WrError *err)
 {
     static const double repeats[] = { 0, -1, 0.5, 2.5, -2.25, 0.0078125, 77.125 };
     WrField *field = wr_hard_rough(g, 64, 64, WR_WRAP_PERIODIC);
@@ -1076,7 +1076,7 @@ static void check_modulus(const Looker *l)
     }
 }
 
-static bool hc46(WrHardGauge *g, WrError *err)
+static bool hc46(WrHardMeasurement *g, WrError *err)
 {
     static const int sizes[][2] = { { 3, 3 }, { 48, 100 }, { 64, 64 }, { 16383, 1 } };
     bool good = true;
@@ -1109,7 +1109,7 @@ static void check_flat_v(const Looker *l)
     }
 }
 
-static bool flat_both(WrHardGauge *g, int w, int h, bool along_u, bool along_v, WrError *err)
+static bool flat_both(WrHardMeasurement *g, int w, int h, bool along_u, bool along_v, WrError *err)
 {
     bool good = true;
     for (int wrap = 0; wrap < 2 && good; wrap++) {
@@ -1121,12 +1121,12 @@ static bool flat_both(WrHardGauge *g, int w, int h, bool along_u, bool along_v, 
     return good;
 }
 
-static bool hc42(WrHardGauge *g, WrError *err)
+static bool hc42(WrHardMeasurement *g, WrError *err)
 {
     return flat_both(g, 1, 1, true, true, err);
 }
 
-static bool hc43(WrHardGauge *g, WrError *err)
+static bool hc43(WrHardMeasurement *g, WrError *err)
 {
     return flat_both(g, 1, 9, true, false, err) && flat_both(g, 9, 1, false, true, err);
 }
@@ -1141,7 +1141,7 @@ static void check_two(const Looker *l)
                   wr_hard_sample(l->field, l->scheme, (double)u, (double)v).fu != 0.0);
 }
 
-static bool hc44(WrHardGauge *g, WrError *err)
+static bool hc44(WrHardMeasurement *g, WrError *err)
 {
     WrField *field = wr_hard_rough(g, 2, 9, WR_WRAP_PERIODIC);
     const bool good = each_look(g, field, 1, 1, check_two, err);
@@ -1164,7 +1164,7 @@ static void check_board(const Looker *l)
                       1e-12);
 }
 
-static bool hc45(WrHardGauge *g, WrError *err)
+static bool hc45(WrHardMeasurement *g, WrError *err)
 {
     WrField *field = wr_field_new(16, 16, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.0f, err);
     if (!field) return false;

@@ -45,7 +45,7 @@ static int focal_heights(const WrShape *shape, const WrSurfacePoint *at, double 
 
 /* At a focal height: n without a slope, as on the sphere with one; else the result of the formulas for the
    remaining tangent and the slope. */
-static void check_focal(WrHardGauge *g, const WrSurfacePoint *at, WrHardSlope slope)
+static void check_focal(WrHardMeasurement *g, const WrSurfacePoint *at, WrHardSlope slope)
 {
     const bool level = slope.fu == 0.0 && slope.fv == 0.0;
     const WrVec3 want = wr_hard_perturbed(WR_BUMP_EXACT, at, slope);
@@ -78,7 +78,7 @@ static WrShape grown(WrShape shape, double grow)
 }
 
 /* A surface that is focal everywhere at one height looks as it does without heights. */
-static bool focal_pictures(WrHardGauge *g, WrError *err)
+static bool focal_pictures(WrHardMeasurement *g, WrError *err)
 {
     static const WrSurfaceKind kinds[] = { WR_SURFACE_torus, WR_SURFACE_sphere,
                                            WR_SURFACE_cylinder };
@@ -117,7 +117,7 @@ static bool sheared(WrSurfaceKind kind)
            kind == WR_SURFACE_superellipsoid || kind == WR_SURFACE_formula;
 }
 
-static bool hc12(WrHardGauge *g, WrError *err)
+static bool hc12(WrHardMeasurement *g, WrError *err)
 {
     for (int i = 0; i < 100 * WR_SURFACE_COUNT; i++) {
         const WrSurfaceKind kind = (WrSurfaceKind)(i % WR_SURFACE_COUNT);
@@ -207,7 +207,7 @@ static double mean_coverage(const WrFrame *frame)
 }
 
 /* An eye inside the patch's extent. Share of pixels in which closed form and mesh differ. */
-static bool closed_against_mesh(WrHardGauge *g, WrError *err)
+static bool closed_against_mesh(WrHardMeasurement *g, WrError *err)
 {
     enum { W = 120, H = 100 };
     WrField *field = wr_hard_waves(32, 32);
@@ -245,7 +245,7 @@ static bool closed_against_mesh(WrHardGauge *g, WrError *err)
 
 /* From a point a twentieth of a radius above every surface, along it: parts are beside and behind the eye. Share
    of pixels in which pictures differ from the reference. */
-static bool among_surfaces(WrHardGauge *g, WrError *err)
+static bool among_surfaces(WrHardMeasurement *g, WrError *err)
 {
     enum { SIZE = 72 };
     WrField *field = wr_hard_waves(32, 32);
@@ -279,7 +279,7 @@ static bool among_surfaces(WrHardGauge *g, WrError *err)
     return good;
 }
 
-static bool hc82(WrHardGauge *g, WrError *err)
+static bool hc82(WrHardMeasurement *g, WrError *err)
 {
     return closed_against_mesh(g, err) && among_surfaces(g, err);
 }
@@ -294,7 +294,7 @@ static bool lower_half(const float *alpha, int width, int height)
 }
 
 /* Eyes on every surface, looking along it, and slightly above: corners at and behind depth 0. */
-static bool hc83(WrHardGauge *g, WrError *err)
+static bool hc83(WrHardMeasurement *g, WrError *err)
 {
     static const double heights[] = { 0, 1e-300, 1e-30, 1e-9, 1e-3 };
     WrField *field = wr_hard_waves(32, 32);
@@ -332,7 +332,7 @@ static bool hc83(WrHardGauge *g, WrError *err)
 
 /* A lamp beside the eye: the inside is lit as in the reference, in all pixels except those where one ulp moves
    the bump. */
-static bool hc84(WrHardGauge *g, WrError *err)
+static bool hc84(WrHardMeasurement *g, WrError *err)
 {
     enum { SIZE = 48, FEW = SIZE * SIZE / 50 };
     static const WrSurfaceKind bodies[] = { WR_SURFACE_sphere, WR_SURFACE_cube, WR_SURFACE_torus };
@@ -378,7 +378,7 @@ static bool hc84(WrHardGauge *g, WrError *err)
 
 /* Straight at a point through a window of a tenth of a radius, or at a bent patch larger than the picture; or
    from behind, where triangles have reversed orientation. */
-static WrScene *filling(WrHardGauge *g, int k, bool behind)
+static WrScene *filling(WrHardMeasurement *g, int k, bool behind)
 {
     const bool patch = k >= WR_SURFACE_COUNT;
     WrScene *scene = scene_of(patch ? WR_SURFACE_bent : (WrSurfaceKind)k);
@@ -402,7 +402,7 @@ static WrScene *filling(WrHardGauge *g, int k, bool behind)
 }
 
 /* Every pixel is covered, equally for any number of threads. */
-static bool hc85(WrHardGauge *g, WrError *err)
+static bool hc85(WrHardMeasurement *g, WrError *err)
 {
     WrField *field = wr_hard_waves(32, 32);
     WrPool *pool = wr_pool_new(3), *own = g->pool;
@@ -441,7 +441,8 @@ static bool hc85(WrHardGauge *g, WrError *err)
 }
 
 /* Coverage of the view by the reference, in a picture of 256 x 256. */
-static bool large_coverage(WrHardGauge *g, const WrFrameRequest *request, double *out, WrError *err)
+static bool large_coverage(WrHardMeasurement *g, const WrFrameRequest *request, double *out,
+                           WrError *err)
 {
     enum { SIZE = 256 };
     WrFrameRequest large = *request;
@@ -456,7 +457,7 @@ static bool large_coverage(WrHardGauge *g, const WrFrameRequest *request, double
 
 /* Pixels of 2 x 2 units around objects of 1 to 3: coverage compared with that of a picture of many small pixels,
    and with the area if that is known; one row of samples more or less on each side is 6 percent. */
-static bool hc86(WrHardGauge *g, WrError *err)
+static bool hc86(WrHardMeasurement *g, WrError *err)
 {
     const double sphere = wr_hard_shape(WR_SURFACE_sphere).value[0];
     WrField *field = wr_hard_waves(32, 32);
@@ -494,7 +495,7 @@ static bool hc86(WrHardGauge *g, WrError *err)
 
 /* 0.01 rad per frame at 60 Hz, the last ticks of a day, compared with the same rotation reduced in whole
    degrees: tick t is t 0.01 rad; 36000 ticks of 0.01 degree are a full turn. */
-static bool hc87(WrHardGauge *g, WrError *err)
+static bool hc87(WrHardMeasurement *g, WrError *err)
 {
     WrScene *scene = wr_scene_new();
     scene->posed = true;
@@ -512,7 +513,7 @@ static bool hc87(WrHardGauge *g, WrError *err)
     return good;
 }
 
-static bool hc88(WrHardGauge *g, WrError *err)
+static bool hc88(WrHardMeasurement *g, WrError *err)
 {
     WrScene *scene = wr_scene_new();
     bool good = true;
@@ -616,7 +617,7 @@ WrScene *wr_hard_above(WrTriangles *triangles, double height)
     return scene;
 }
 
-bool wr_hard_mesh_tame(WrHardGauge *g, const WrHardMesh *mesh, WrError *err)
+bool wr_hard_mesh_tame(WrHardMeasurement *g, const WrHardMesh *mesh, WrError *err)
 {
     WrTriangles *triangles = wr_hard_triangles(mesh, err);
     if (!triangles) return false;
@@ -635,7 +636,7 @@ bool wr_hard_mikk(const WrHardMesh *mesh, WrTangent *out, WrError *err)
     return wr_tangents_mikk(mesh->corner, faces, mesh->faces, out, err);
 }
 
-void wr_hard_units(WrHardGauge *g, const WrHardMesh *mesh, const WrTangent *frames)
+void wr_hard_units(WrHardMeasurement *g, const WrHardMesh *mesh, const WrTangent *frames)
 {
     for (int32_t i = 0; i < 3 * mesh->faces; i++) {
         const float *n = mesh->corner[mesh->face[i / 3][i % 3]].n;
@@ -669,10 +670,12 @@ static WrHardMesh pair(const float uv[4][2])
     return mesh;
 }
 
-static void told(WrHardGauge *g, const WrHardMesh *mesh, int32_t collinear, int32_t mirrored)
+static void report(WrHardMeasurement *g, const WrHardMesh *mesh, int32_t collinear,
+                   int32_t mirrored)
 {
     WrTriangles *made = wr_hard_triangles(mesh, NULL);
-    const bool good = made && made->told.collinear == collinear && made->told.mirrored == mirrored;
+    const bool good =
+        made && made->report.collinear == collinear && made->report.mirrored == mirrored;
     wr_hard_holds(g, WR_HARD_DOUBLE, good);
     wr_triangles_free(made);
 }
@@ -723,8 +726,8 @@ static WrVec3 by_map(const WrField *field, const WrScene *scene, const Map *map,
 /* Pictures of a flat mesh in the plane z = 0 within -1..1, under a table of waves `height` high, compared with n
    - grad F computed from the maps of u and v: float by the pictures' normals, double by the reference's. *bent:
    the largest slope found. */
-static bool measure_bend(WrHardGauge *g, const WrHardMesh *mesh, const Map map[2], double height,
-                         double *bent, WrError *err)
+static bool measure_bend(WrHardMeasurement *g, const WrHardMesh *mesh, const Map map[2],
+                         double height, double *bent, WrError *err)
 {
     WrTriangles *triangles = wr_hard_triangles(mesh, err);
     if (!triangles) return false;
@@ -768,10 +771,11 @@ static bool measure_bend(WrHardGauge *g, const WrHardMesh *mesh, const Map map[2
 }
 
 /* Checks that the pair bends as the maps require, within those bounds, and at least by `least` at its steepest. */
-static bool bends_within(WrHardGauge *g, const WrHardMesh *mesh, const Map map[2], double height,
-                         double least, double in_float, double in_double, WrError *err)
+static bool bends_within(WrHardMeasurement *g, const WrHardMesh *mesh, const Map map[2],
+                         double height, double least, double in_float, double in_double,
+                         WrError *err)
 {
-    WrHardGauge apart = *g;
+    WrHardMeasurement apart = *g;
     double bent;
     for (int p = 0; p < WR_HARD_PRECISIONS; p++)
         apart.worst[p] = 0, apart.nudge[p] = 0, apart.checks[p] = 0;
@@ -785,7 +789,7 @@ static bool bends_within(WrHardGauge *g, const WrHardMesh *mesh, const Map map[2
 
 /* ---- zero area ---- */
 
-bool wr_hard_hc28(WrHardGauge *g, WrError *err)
+bool wr_hard_hc28(WrHardMeasurement *g, WrError *err)
 {
     static const float one[4][2] = {
         { 0.3f, 0.7f }, { 0.3f, 0.7f }, { 0.3f, 0.7f }, { 0.3f, 0.7f }
@@ -798,8 +802,8 @@ bool wr_hard_hc28(WrHardGauge *g, WrError *err)
     WrVec3 t;
     double det;
     wr_hard_holds(g, WR_HARD_DOUBLE, !solve(&still, 0, &t, &det) && !solve(&thin, 1, &t, &det));
-    told(g, &still, 2, 0);
-    told(g, &thin, 2, 0);
+    report(g, &still, 2, 0);
+    report(g, &thin, 2, 0);
     if (!wr_hard_mikk(&still, frames, err)) return false;
     wr_hard_units(g, &still, frames);
     if (!wr_hard_mikk(&thin, frames, err)) return false;
@@ -809,7 +813,7 @@ bool wr_hard_hc28(WrHardGauge *g, WrError *err)
 }
 
 /* Along u = |x| the table still bends normals; across it nothing changes. */
-bool wr_hard_hc127(WrHardGauge *g, WrError *err)
+bool wr_hard_hc127(WrHardMeasurement *g, WrError *err)
 {
     static const float line[4][2] = { { 1, 0 }, { 0, 0 }, { 0, 0 }, { 1, 0 } };
     static const Map map[2] = { { { 0, -1, 0 }, { 0 } }, { { 0, 1, 0 }, { 0 } } };
@@ -818,7 +822,7 @@ bool wr_hard_hc127(WrHardGauge *g, WrError *err)
 }
 
 /* With the triangle and without it: the picture has the same bits. */
-bool wr_hard_hc29(WrHardGauge *g, WrError *err)
+bool wr_hard_hc29(WrHardMeasurement *g, WrError *err)
 {
     static const float uv[4][2] = { { 1, 0 }, { 0, 0 }, { 0, 1 }, { 1, 0 } };
     const WrHardMesh whole = pair(uv);
@@ -839,7 +843,7 @@ bool wr_hard_hc29(WrHardGauge *g, WrError *err)
                     *without = wr_hard_triangles(&whole, err);
         good = with && without;
         wr_hard_holds(g, WR_HARD_DOUBLE,
-                      good && with->told.no_area == 1 && with->triangle_count == 2);
+                      good && with->report.no_area == 1 && with->triangle_count == 2);
         WrScene *a = good ? wr_hard_above(with, 0.1) : NULL;
         WrScene *b = good ? wr_hard_above(without, 0.1) : NULL;
         for (int way = 0; way < WR_HARD_WAYS && good; way++) {
@@ -863,7 +867,7 @@ bool wr_hard_hc29(WrHardGauge *g, WrError *err)
 
 /* u = k x, v = k y with 1e-15: det is 1e-30 of either sign, and a proportionally higher table produces the same
    bend. */
-bool wr_hard_hc30(WrHardGauge *g, WrError *err)
+bool wr_hard_hc30(WrHardMeasurement *g, WrError *err)
 {
     const double k = (double)1e-15f;
     bool good = true;
@@ -885,7 +889,7 @@ bool wr_hard_hc30(WrHardGauge *g, WrError *err)
         wr_hard_units(g, &mesh, frames);
         for (int i = 0; i < 6; i++)
             wr_hard_holds(g, WR_HARD_DOUBLE, frames[i].sign == side && frames[i].t.x * side > 0);
-        told(g, &mesh, 0, side < 0 ? 2 : 0);
+        report(g, &mesh, 0, side < 0 ? 2 : 0);
         good = bends_within(g, &mesh, map, 0.02 / k, 0.05, 1e-5, 1e-10, err);
     }
     return good;
@@ -893,7 +897,7 @@ bool wr_hard_hc30(WrHardGauge *g, WrError *err)
 
 /* As hc30, but so nearly along a line that det is rounding error: no frame, which is reported; u and v bend as
    required. */
-bool wr_hard_hc126(WrHardGauge *g, WrError *err)
+bool wr_hard_hc126(WrHardMeasurement *g, WrError *err)
 {
     static const float slip[] = { 0, -0.0f, 0x1p-24f, -0x1p-24f };
     bool good = true;
@@ -907,7 +911,7 @@ bool wr_hard_hc126(WrHardGauge *g, WrError *err)
         WrVec3 t;
         double det;
         wr_hard_holds(g, WR_HARD_DOUBLE, !solve(&mesh, 0, &t, &det) && !solve(&mesh, 1, &t, &det));
-        told(g, &mesh, 2, 0);
+        report(g, &mesh, 2, 0);
         good = wr_hard_mikk(&mesh, frames, err);
         if (good) wr_hard_units(g, &mesh, frames);
         good = good && bends_within(g, &mesh, map, 0.02, 0.05, 1e-5, 1e-6, err);
@@ -918,7 +922,7 @@ bool wr_hard_hc126(WrHardGauge *g, WrError *err)
 /* ---- mirrored ---- */
 
 /* u = |x|, v = y: each corner that both share has two frames, of either handedness. */
-bool wr_hard_hc31(WrHardGauge *g, WrError *err)
+bool wr_hard_hc31(WrHardMeasurement *g, WrError *err)
 {
     static const float uv[4][2] = { { 1, 0 }, { 0, 0 }, { 0, 1 }, { 1, 0 } };
     const WrHardMesh mesh = pair(uv);
@@ -934,12 +938,12 @@ bool wr_hard_hc31(WrHardGauge *g, WrError *err)
         wr_hard_holds(g, WR_HARD_DOUBLE,
                       mean[i].sign == side && fabs(mean[i].t.x - ACROSS * side) < 1e-12);
     }
-    told(g, &mesh, 0, 1);
+    report(g, &mesh, 0, 1);
     return wr_hard_mesh_tame(g, &mesh, err);
 }
 
 /* Bumps are raised on both sides: n' by the map, whose gradient does not depend on handedness. */
-bool wr_hard_hc128(WrHardGauge *g, WrError *err)
+bool wr_hard_hc128(WrHardMeasurement *g, WrError *err)
 {
     static const float uv[4][2] = { { 1, 0 }, { 0, 0 }, { 0, 1 }, { 1, 0 } };
     static const Map map[2] = { { { 0, -1, 0 }, { 0, 0, 1 } }, { { 0, 1, 0 }, { 0, 0, 1 } } };
@@ -951,7 +955,7 @@ bool wr_hard_hc128(WrHardGauge *g, WrError *err)
 
 /* Hard cases of HC156 and later: eyes inside, far away and close by, light from behind, seams. */
 
-bool wr_hard_tame(WrHardGauge *g, const WrField *field, const WrScene *scene, WrError *err)
+bool wr_hard_tame(WrHardMeasurement *g, const WrField *field, const WrScene *scene, WrError *err)
 {
     const WrFrameRequest request = { .field = field, .scene = scene, .width = 40, .height = 40 };
     bool good = true;
@@ -969,7 +973,7 @@ bool wr_hard_tame(WrHardGauge *g, const WrField *field, const WrScene *scene, Wr
 }
 
 /* Share of pixels in which pictures of each arithmetic differ from the reference by more than `off`. */
-static bool against_reference(WrHardGauge *g, const WrFrameRequest *request, int samples,
+static bool against_reference(WrHardMeasurement *g, const WrFrameRequest *request, int samples,
                               double off, WrError *err)
 {
     const int count = request->width * request->height;
@@ -1009,7 +1013,7 @@ static void give_light(WrScene *scene, WrLightKind kind, WrVec3 where)
 
 /* ---- eyes ---- */
 
-bool wr_hard_hc158(WrHardGauge *g, WrError *err)
+bool wr_hard_hc158(WrHardMeasurement *g, WrError *err)
 {
     static const struct {
         WrSurfaceKind kind;
@@ -1041,7 +1045,7 @@ bool wr_hard_hc158(WrHardGauge *g, WrError *err)
     return good;
 }
 
-bool wr_hard_hc164(WrHardGauge *g, WrError *err)
+bool wr_hard_hc164(WrHardMeasurement *g, WrError *err)
 {
     WrField *field = wr_hard_waves(32, 32);
     bool good = true;
@@ -1066,7 +1070,7 @@ bool wr_hard_hc164(WrHardGauge *g, WrError *err)
 }
 
 /* Orthographic from above, and a perspective view from near: each ray hits the cone. */
-bool wr_hard_hc167(WrHardGauge *g, WrError *err)
+bool wr_hard_hc167(WrHardMeasurement *g, WrError *err)
 {
     enum { SIZE = 41 };
     WrField *field = wr_hard_waves(32, 32);
@@ -1102,7 +1106,7 @@ bool wr_hard_hc167(WrHardGauge *g, WrError *err)
 
 /* The middle column looks down by 45 degrees at its middle and by `far` at the ground's end: below that every
    pixel shows ground, in every arithmetic. */
-static bool down_to_the_feet(WrHardGauge *g, const WrFrameRequest *request, double far,
+static bool down_to_the_feet(WrHardMeasurement *g, const WrFrameRequest *request, double far,
                              WrError *err)
 {
     const int size = request->height;
@@ -1125,7 +1129,7 @@ static bool down_to_the_feet(WrHardGauge *g, const WrFrameRequest *request, doub
 }
 
 /* The plane in closed form, and as a bent patch by mesh: flat, so that only its position matters. */
-bool wr_hard_hc168(WrHardGauge *g, WrError *err)
+bool wr_hard_hc168(WrHardMeasurement *g, WrError *err)
 {
     static const double sides[] = { 3, 2e5, 1.7e7 };
     WrField *field = wr_hard_waves(32, 32);
@@ -1153,7 +1157,7 @@ bool wr_hard_hc168(WrHardGauge *g, WrError *err)
 
 /* An infinite plane: from above and below, looking up, along it and away from it, on it, and from so far that
    its sides are smaller than a pixel. The formula for the area of a far pixel is infinite. */
-bool wr_hard_hc179(WrHardGauge *g, WrError *err)
+bool wr_hard_hc179(WrHardMeasurement *g, WrError *err)
 {
     static const struct {
         double eye, up; /* the eye's height; the upward component of the view */
@@ -1183,7 +1187,7 @@ bool wr_hard_hc179(WrHardGauge *g, WrError *err)
 }
 
 /* Below 0.01 degrees, compared with the equivalent window at the object. */
-bool wr_hard_hc170(WrHardGauge *g, WrError *err)
+bool wr_hard_hc170(WrHardMeasurement *g, WrError *err)
 {
     enum { SIZE = 72 };
     WrField *field = wr_hard_waves(32, 32);
@@ -1218,7 +1222,7 @@ bool wr_hard_hc170(WrHardGauge *g, WrError *err)
 }
 
 /* Odd sizes put a pixel's centre on the corner towards the eye, and columns on edges. */
-bool wr_hard_hc171(WrHardGauge *g, WrError *err)
+bool wr_hard_hc171(WrHardMeasurement *g, WrError *err)
 {
     static const WrVec3 eyes[] = { { 3, 3, 3 }, { 3, 3, 0 }, { 0, -3, 3 }, { 3, 0, 0 } };
     WrField *field = wr_hard_waves(32, 32);
@@ -1250,7 +1254,7 @@ bool wr_hard_hc171(WrHardGauge *g, WrError *err)
 }
 
 /* right, up and forward: unit length, orthogonal, right-handed. */
-bool wr_hard_hc172(WrHardGauge *g, WrError *err)
+bool wr_hard_hc172(WrHardMeasurement *g, WrError *err)
 {
     WrScene *scene = scene_of_far(WR_SURFACE_torus);
     bool good = true;
@@ -1282,7 +1286,7 @@ bool wr_hard_hc172(WrHardGauge *g, WrError *err)
 
 /* v and l almost opposite: the rounding error of h is ulp / |l + v|; a power s makes s (n'.h) of it, or its
    square root of s near 1. */
-bool wr_hard_hc166(WrHardGauge *g, WrError *err)
+bool wr_hard_hc166(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     for (int k = 0; k < 4000; k++) {
@@ -1332,7 +1336,7 @@ bool wr_hard_hc166(WrHardGauge *g, WrError *err)
 /* ---- seams and filters ---- */
 
 /* The kernels' closed forms for rays that hit y = +-0: u is 0 where x > 0 and a half where x < 0. */
-bool wr_hard_hc169(WrHardGauge *g, WrError *err)
+bool wr_hard_hc169(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
     static const float nothing[] = { 0.0f, -0.0f, 1e-45f, -1e-45f, 1e-20f, -1e-20f, 1e-9f, -1e-9f };
@@ -1370,7 +1374,7 @@ bool wr_hard_hc169(WrHardGauge *g, WrError *err)
 
 /* A table rolled by half on a body turned by half: the former seam is now at its back. Filters that used the
    step of u across the seam as a footprint would blur it. */
-bool wr_hard_hc174(WrHardGauge *g, WrError *err)
+bool wr_hard_hc174(WrHardMeasurement *g, WrError *err)
 {
     static const WrSurfaceKind kinds[] = { WR_SURFACE_cylinder, WR_SURFACE_torus,
                                            WR_SURFACE_sphere };
@@ -1404,7 +1408,7 @@ bool wr_hard_hc174(WrHardGauge *g, WrError *err)
 }
 
 /* Compared with the picture without heights, without highlights: the highlight is spread, as it should be. */
-bool wr_hard_hc163(WrHardGauge *g, WrError *err)
+bool wr_hard_hc163(WrHardMeasurement *g, WrError *err)
 {
     static const double repeats[] = { 1e6, 1e6 / 3.0, 12345.678, -1e6 };
     WrField *field = wr_hard_waves(64, 64);

@@ -155,7 +155,7 @@ static bool open_pnm(WrPlain *p, int64_t length, WrError *err)
     p->width = (int)width, p->height = (int)height, p->most = most;
     p->channels = kind == '3' || kind == '6' ? 3 : 1;
     p->coding = kind <= '3' ? DECODED : most > 255 ? CODES_16 : CODES_8;
-    p->data = wr_stream_tell(p->file);
+    p->data = wr_stream_position(p->file);
     return p->coding != DECODED || read_text(p, kind == '1', length, err);
 }
 

@@ -14,8 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NAME_MOST 80 /* bytes */
-#define PATH_MOST 4000
+#define MAX_NAME 80 /* bytes */
+#define MAX_PATH 4000
 #define LETTERS 8 /* letters of a sample that is not the font's name */
 
 typedef struct Listed {
@@ -33,7 +33,7 @@ static char *name_of(FcPattern *font, const char *what)
     FcChar8 *said = NULL;
     if (FcPatternGetString(font, what, 0, &said) != FcResultMatch || !said[0]) return NULL;
     size_t length = 0;
-    while (length < NAME_MOST && said[length]) length++;
+    while (length < MAX_NAME && said[length]) length++;
     while (length > 0 && (said[length] & 0xc0) == 0x80) length--;
     char *name = wr_strndup((const char *)said, length);
     for (char *c = name; *c; c++)
@@ -126,7 +126,7 @@ static bool can_be_named(const char *path)
 {
     for (const char *c = path; *c; c++)
         if ((unsigned char)*c < 0x20 || *c == 0x7f) return false;
-    return strlen(path) < PATH_MOST && wr_font_strange_bytes(path) == 0;
+    return strlen(path) < MAX_PATH && wr_font_strange_bytes(path) == 0;
 }
 
 static void take(List *list, FcPattern *font)

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #define BUFFERS 1024
-#define BODIES_MOST 1000000 /* primitives of all nodes together */
+#define BODIES_MAX 1000000 /* primitives of all nodes together */
 
 typedef struct Gltf {
     json_object *root;
@@ -497,8 +497,8 @@ static bool add_body(Gltf *file, json_object *mesh, json_object *primitive, json
     double uv_m[6];
     bool mirrored = false;
     Body body = { .points = { 0 } };
-    if (++file->bodies > BODIES_MOST)
-        return wr_fail(err, "more than %d placings of meshes", BODIES_MOST);
+    if (++file->bodies > BODIES_MAX)
+        return wr_fail(err, "more than %d placings of meshes", BODIES_MAX);
     if (mode < 4 || mode > 6) return true; /* points and lines have no area */
     wr_gltf_transform(wr_gltf_mapped(material), uv_m);
     name_part(file, mesh, material);

@@ -99,7 +99,7 @@ typedef struct WrImageRequest {
                       that are georeferenced or have a no-data value. Unless keep_lost: -9999 and
                       -32768 also mark missing values of numbers */
 } WrImageRequest;
-WrImage *wr_image_read_wish(const char *path, const WrImageRequest *wish, WrError *err);
+WrImage *wr_image_read_request(const char *path, const WrImageRequest *wish, WrError *err);
 /* Reads a file in memory; name is used in messages, and its extension selects the format. */
 WrImage *wr_image_read_bytes(const char *name, const void *bytes, size_t length, WrError *err);
 

@@ -14,8 +14,8 @@
 
 /* ---- the mesh under construction ---- */
 
-#define ALIKE 32 /* wedges of one place that are compared; further ones are not merged */
-#define WORK_MOST 2000000000 /* steps: a few seconds */
+#define ALIKE 32            /* wedges of one place that are compared; further ones are not merged */
+#define WORK_MAX 2000000000 /* steps: a few seconds */
 /* A mesh whose distance from the origin is this many times its size loses at least 2 of 24 bits; a
    nearer one is not moved. */
 #define FAR 64.0
@@ -276,7 +276,7 @@ static bool clip_ears(WrMeshBuild *build, const int32_t *c, const Flat *p, int32
 {
     for (int32_t i = 0; i < count; i++) left[i] = i;
     for (int32_t n = count, i = 0, tried = 0; n >= 3;) {
-        if (build->work > WORK_MOST)
+        if (build->work > WORK_MAX)
             return wr_fail(err,
                            "a dented polygon of %d corners would take too long to cut; "
                            "save triangles",

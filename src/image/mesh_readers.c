@@ -122,7 +122,7 @@ static bool scan_any_number(WrScan *scan, double *out)
 /* ---- OBJ ---- */
 
 #define NOTHING (-1)
-#define CORNERS_MOST 65536            /* of one polygon */
+#define CORNERS_MAX 65536             /* of one polygon */
 #define NO_MATERIAL "DefaultMaterial" /* treated as no material */
 
 /* Indices of a position, of (u,v) and of a normal, or NOTHING. */
@@ -136,7 +136,7 @@ typedef struct Obj {
     float (*vt)[2], (*vn)[3];
     int32_t v_count, vt_count, vn_count, face_count;
     int32_t *first;   /* for each position: 1 + its latest point */
-    int32_t *polygon; /* [CORNERS_MOST] */
+    int32_t *polygon; /* [CORNERS_MAX] */
     char object[WR_MESH_NAME], material[WR_MESH_NAME];
 } Obj;
 
@@ -278,7 +278,7 @@ static bool read_face(Obj *obj, WrScan *line)
     int32_t count = 0;
     const char *name = obj->material[0] ? obj->material : obj->object;
     for (; line->at < line->end; count++) {
-        if (count == CORNERS_MOST || !take_corner(obj, line, &c)) return false;
+        if (count == CORNERS_MAX || !take_corner(obj, line, &c)) return false;
         obj->polygon[count] = wr_mesh_build_wedge(obj->build, &obj->first[c.v], obj->v[c.v],
                                                   c.vn < 0 ? NULL : obj->vn[c.vn],
                                                   c.vt < 0 ? NULL : obj->vt[c.vt], NULL);
@@ -361,7 +361,7 @@ static bool make_room(Obj *obj)
     obj->vt = room(obj->vt_count, sizeof *obj->vt);
     obj->vn = room(obj->vn_count, sizeof *obj->vn);
     obj->first = room(obj->v_count, sizeof *obj->first);
-    obj->polygon = room(CORNERS_MOST, sizeof *obj->polygon);
+    obj->polygon = room(CORNERS_MAX, sizeof *obj->polygon);
     const int32_t points = obj->v_count;
     obj->v_count = obj->vt_count = obj->vn_count = 0;
     return obj->v && obj->vt && obj->vn && obj->first && obj->polygon &&
@@ -880,9 +880,9 @@ bool wr_ply_read(const char *bytes, size_t length, WrMeshBuild *build, WrError *
 
 /* ---- STL ---- */
 
-#define HEAD 84               /* bytes: a title of 80, the number of triangles */
-#define RECORD 50             /* bytes: a normal, three points, two unused bytes */
-#define FACET_CORNERS_MOST 64 /* corners of an ASCII facet; the format has 3 */
+#define HEAD 84              /* bytes: a title of 80, the number of triangles */
+#define RECORD 50            /* bytes: a normal, three points, two unused bytes */
+#define FACET_CORNERS_MAX 64 /* corners of an ASCII facet; the format has 3 */
 
 /* ---- binary ---- */
 
@@ -936,7 +936,7 @@ typedef struct Stl {
     WrMeshBuild *build;
     int64_t facet; /* from 1 */
     float normal[3];
-    int32_t corners[FACET_CORNERS_MOST];
+    int32_t corners[FACET_CORNERS_MAX];
     int32_t count; /* of the present facet */
 } Stl;
 
@@ -988,9 +988,9 @@ static bool add_facet_corner(Stl *stl, WrError *err)
     double p[3];
     if (stl->facet == 0) return wr_fail(err, "is damaged: it has a vertex before any facet");
     if (!take_three(stl, "vertex", p, err)) return false;
-    if (stl->count == FACET_CORNERS_MOST)
+    if (stl->count == FACET_CORNERS_MAX)
         return wr_fail(err, "is damaged: facet %lld has more than %d corners",
-                       (long long)stl->facet, FACET_CORNERS_MOST);
+                       (long long)stl->facet, FACET_CORNERS_MAX);
     stl->corners[stl->count++] = stl->build->point_count;
     return wr_mesh_build_point(stl->build, p, stl->normal, NULL, err);
 }

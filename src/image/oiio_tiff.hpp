@@ -77,7 +77,7 @@ inline bool tiff_no_data(int fd, int directory, std::string &text, std::string &
 {
     if (!TIFFFdOpen || !TIFFSetDirectory || !TIFFGetField || !TIFFClose) return false;
     /* A copy shares its position with the original, which OpenImageIO reads. */
-    const int64_t position = wr_fd_tell(fd);
+    const int64_t position = wr_fd_position(fd);
     int copy = wr_fd_copy(fd);
     if (copy < 0) return false;
     wr_fd_seek(copy, 0);

@@ -111,10 +111,10 @@ static void choose_first(const WrImagePart *part, WrChannelChoice *choice)
 
 static void list(const WrImagePart *part, WrText *text)
 {
-    enum { MOST = 24 };
-    for (int c = 0; c < part->channels && c < MOST; c++)
+    enum { MAX_MOST = 24 };
+    for (int c = 0; c < part->channels && c < MAX_MOST; c++)
         wr_text_addf(text, "%s%.40s", c ? ", " : "", part->channel_names[c]);
-    if (part->channels > MOST) wr_text_addf(text, " and %d more", part->channels - MOST);
+    if (part->channels > MAX_MOST) wr_text_addf(text, " and %d more", part->channels - MAX_MOST);
 }
 
 /* "a,b", each by its full name. */
@@ -209,13 +209,13 @@ static WrImageFile *open_file(const char *name, int fd, int most, bool numbers, 
 
 WrImageFile *wr_image_file_open(const char *path, WrError *err)
 {
-    return open_file(path, wr_reader_file(path, WR_FILE_MOST, err), WR_IMAGE_PARTS_MAX, false,
+    return open_file(path, wr_reader_file(path, WR_FILE_MAX, err), WR_IMAGE_PARTS_MAX, false,
                      !wr_reader_inside(), err);
 }
 
 WrImageFile *wr_image_file_open_levels(const char *path, WrError *err)
 {
-    return open_file(path, wr_reader_file(path, WR_FILE_MOST, err), WR_CODEC_LEVELS, false,
+    return open_file(path, wr_reader_file(path, WR_FILE_MAX, err), WR_CODEC_LEVELS, false,
                      !wr_reader_inside(), err);
 }
 
@@ -329,16 +329,16 @@ static WrImage *read_whole(WrImageRows *rows, WrError *err)
 WrImageRows *wr_image_rows_open(const char *path, const WrImageRequest *wish, WrError *err)
 {
     if (wr_sidecar_takes(path)) return wr_sidecar_rows(path, wish, err);
-    return open_rows(path, wr_reader_file(path, WR_FILE_MOST, err), wish, err);
+    return open_rows(path, wr_reader_file(path, WR_FILE_MAX, err), wish, err);
 }
 
 WrImage *wr_image_read(const char *path, WrError *err)
 {
     const WrImageRequest all = { .channel = NULL };
-    return wr_image_read_wish(path, &all, err);
+    return wr_image_read_request(path, &all, err);
 }
 
-WrImage *wr_image_read_wish(const char *path, const WrImageRequest *wish, WrError *err)
+WrImage *wr_image_read_request(const char *path, const WrImageRequest *wish, WrError *err)
 {
     return read_whole(wr_image_rows_open(path, wish, err), err);
 }
@@ -462,7 +462,7 @@ static void tell(const WrImageFile *file, int index, const WrChannelChoice *choi
 }
 
 /* Reports an all-zero result if only a part of a file was selected. */
-static void tell_zero(WrImageRows *rows, int count, const float *values)
+static void report_zero(WrImageRows *rows, int count, const float *values)
 {
     WrImage *head = &rows->head;
     const size_t most = (size_t)rows->is.width * (size_t)count * (size_t)rows->choice.count;
@@ -521,7 +521,7 @@ static bool read_band(WrImageRows *rows, int y, int count, float *out, WrError *
     if (rows->elevation) mark_missing(out, pixels * (size_t)rows->choice.count);
     rows->head.replaced +=
         replace_bad_pixels(out, pixels, rows->choice.count, rows->keep || rows->fills);
-    tell_zero(rows, count, out);
+    report_zero(rows, count, out);
     return true;
 }
 

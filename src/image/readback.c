@@ -35,15 +35,15 @@ static bool verify_texts(WrImageFile *file, int index, const WrImageOut *part, W
     return true;
 }
 
-#define MOST_CHANNELS 64 /* maximum number of channels that may be reordered in the file */
+#define MAX_CHANNELS 64 /* maximum number of channels that may be reordered in the file */
 
 /* EXR sorts channels by their names: channel c of the part is channel from[c] of the file. *moved: the
  * order differs. False if the channels differ. */
-static bool find_channels(const WrImageOut *part, const WrImagePart *is, int from[MOST_CHANNELS],
+static bool find_channels(const WrImageOut *part, const WrImagePart *is, int from[MAX_CHANNELS],
                           bool *moved)
 {
     *moved = false;
-    if (is->channels != part->channels || part->channels > MOST_CHANNELS) return false;
+    if (is->channels != part->channels || part->channels > MAX_CHANNELS) return false;
     for (int c = 0; part->channel_names && c < is->channels; c++) {
         int at = 0;
         while (at < is->channels && strcmp(part->channel_names[c], is->channel_names[at]) != 0)
@@ -117,7 +117,7 @@ static bool verify_part(WrImageFile *file, int index, const WrImageFormat *forma
     if (exact && is.channels != part->channels)
         return wr_fail(err, "part %d has %d channels, not %d", index + 1, is.channels,
                        part->channels);
-    int from[MOST_CHANNELS];
+    int from[MAX_CHANNELS];
     bool moved;
     bool shown = part->seen && find_channels(part, &is, from, &moved) && rows_fit(part);
     if (!(shown ? show_rows(file, index, part, format->exact, moved ? from : NULL, &have, err)

@@ -96,11 +96,11 @@ static bool die_of_time(WrReader *reader)
 
 static bool die_of_status(WrReader *reader, const Answer *answer)
 {
-    WrWireDied told;
+    WrWireDied report;
     WrError why;
-    if (answer->head.length != sizeof told) return die_of_nonsense(reader);
-    memcpy(&told, answer->bytes, sizeof told);
-    const WrChildEnd end = { (WrChildWhy)told.why, told.number };
+    if (answer->head.length != sizeof report) return die_of_nonsense(reader);
+    memcpy(&report, answer->bytes, sizeof report);
+    const WrChildEnd end = { (WrChildWhy)report.why, report.number };
     if (end.why == WR_CHILD_LATE) return die_of_time(reader);
     if (end.why == WR_CHILD_KILLED)
         return die(reader, "the reader was killed while it read this file (by hand, or for want of "

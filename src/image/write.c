@@ -219,12 +219,12 @@ typedef struct Bytes {
     size_t length, room;
 } Bytes;
 
-#define BYTES_MOST ((size_t)1 << 40) /* no encoder seeks farther */
+#define BYTES_MAX ((size_t)1 << 40) /* no encoder seeks farther */
 
 static bool bytes_write(void *to, const void *bytes, size_t length, int64_t at)
 {
     Bytes *all = to;
-    if (at < 0 || (uint64_t)at > BYTES_MOST || length > BYTES_MOST) return errno = EFBIG, false;
+    if (at < 0 || (uint64_t)at > BYTES_MAX || length > BYTES_MAX) return errno = EFBIG, false;
     const size_t from = (size_t)at, end = from + length;
     if (end > all->room) {
         const size_t room = end + end / 2;

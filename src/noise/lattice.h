@@ -13,8 +13,8 @@
 
 typedef struct WrError WrError;
 
-#define WR_NOISE_AXES 3           /* maximum number of dimensions of a caller's noise */
-#define WR_LATTICE_MOST (1 << 30) /* maximum cells of a period */
+#define WR_NOISE_AXES 3          /* maximum number of dimensions of a caller's noise */
+#define WR_LATTICE_MAX (1 << 30) /* maximum cells of a period */
 
 /* The fade alpha(x), from 0 at x = 0 to 1 at x = 1 with alpha(1 - x) = 1 - alpha(x). */
 #define WR_FADES(X)                                                                                \
@@ -59,7 +59,7 @@ typedef struct WrLattice {
     WrLatticeSource source;
     uint32_t seed; /* HASH: any; LECTURE: the salt; otherwise unused */
     int period
-        [WR_NOISE_AXES];  /* cells along x, y, z, 1..WR_LATTICE_MOST; 0: not periodic (the indices
+        [WR_NOISE_AXES];  /* cells along x, y, z, 1..WR_LATTICE_MAX; 0: not periodic (the indices
                              of a hash repeat after 2^32 cells); DATA: from 1 */
     const double *values; /* DATA: [z][y][x] of period; finite; borrowed */
     const double *slopes; /* DATA: [z][y][x][dim], d/dx first, per cell; finite; borrowed */

@@ -77,9 +77,9 @@ static bool check_period(const WrNoise *noise, int axis, WrError *err)
     const WrNoiseRepeat *repeat = &info->repeat[noise->dim - 1];
     int period = noise->lattice.period[axis], step = repeat->step[axis];
     char name = "xyz"[axis];
-    if (period < 0 || period > WR_LATTICE_MOST)
+    if (period < 0 || period > WR_LATTICE_MAX)
         return wr_fail(err, "%s noise: period %d along %c: must be 0 (none) to %d cells",
-                       info->name, period, name, WR_LATTICE_MOST);
+                       info->name, period, name, WR_LATTICE_MAX);
     if (period == 0) {
         if (repeat->always || noise->lattice.source == WR_LATTICE_DATA)
             return wr_fail(err, "%s noise%s needs a period along %c: at least %d cells", info->name,

@@ -103,10 +103,10 @@ WrOctaves wr_octaves_default(int dim)
 
 int wr_octaves_usable(double n0, double s, int texels)
 {
-    double limit = texels > 0 ? 0.5 * texels : WR_LATTICE_MOST;
-    if (limit > WR_LATTICE_MOST) limit = WR_LATTICE_MOST;
+    double limit = texels > 0 ? 0.5 * texels : WR_LATTICE_MAX;
+    if (limit > WR_LATTICE_MAX) limit = WR_LATTICE_MAX;
     int usable = 0;
-    for (double n = n0; usable < WR_OCTAVES_MOST && n <= limit; n *= s) usable++;
+    for (double n = n0; usable < WR_OCTAVES_MAX && n <= limit; n *= s) usable++;
     return usable;
 }
 
@@ -132,7 +132,7 @@ static bool check_cells(const WrOctaves *octaves, WrError *err)
         const char what[] = { 'c', 'e', 'l', 'l', 's', ' ',      'a',
                               'l', 'o', 'n', 'g', ' ', "xyz"[a], 0 };
         double low = octaves->tile ? 1.0 : 1e-9;
-        if (!check_number(what, octaves->cells[a], low, WR_LATTICE_MOST, err)) return false;
+        if (!check_number(what, octaves->cells[a], low, WR_LATTICE_MAX, err)) return false;
     }
     return true;
 }
@@ -141,8 +141,8 @@ static bool check_octaves(const WrOctaves *octaves, WrError *err)
 {
     if (octaves->dim < 1 || octaves->dim > WR_NOISE_AXES)
         return wr_fail(err, "noise in %d dimensions: must be 1..%d", octaves->dim, WR_NOISE_AXES);
-    if (octaves->count < 1 || octaves->count > WR_OCTAVES_MOST)
-        return wr_fail(err, "noise of %d octaves: must be 1..%d", octaves->count, WR_OCTAVES_MOST);
+    if (octaves->count < 1 || octaves->count > WR_OCTAVES_MAX)
+        return wr_fail(err, "noise of %d octaves: must be 1..%d", octaves->count, WR_OCTAVES_MAX);
     if ((int)octaves->mode < 0 || octaves->mode >= WR_OCTAVES_MODE_COUNT)
         return wr_fail(err, "octave mode %d: must be 0..%d", (int)octaves->mode,
                        WR_OCTAVES_MODE_COUNT - 1);
@@ -168,7 +168,7 @@ static int repeat_cells(const WrOctaves *octaves, int axis, double n)
     if ((int)octaves->kind >= 0 && octaves->kind < WR_NOISE_KIND_COUNT)
         step = wr_noises[octaves->kind].repeat[octaves->dim - 1].step[axis];
     if (step == 0) step = 1; /* the check below reports that it cannot repeat */
-    double steps = floor(n / step + 0.5), most = WR_LATTICE_MOST / step;
+    double steps = floor(n / step + 0.5), most = WR_LATTICE_MAX / step;
     return step * (int)(steps < 1.0 ? 1.0 : steps > most ? most : steps);
 }
 

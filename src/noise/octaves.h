@@ -26,7 +26,7 @@
 
 typedef struct WrError WrError;
 
-#define WR_OCTAVES_MOST 32
+#define WR_OCTAVES_MAX 32
 
 #define WR_OCTAVES_MODES(X)                                                                        \
     X(WR_OCTAVES_FBM, "fbm")                                                                       \
@@ -43,15 +43,14 @@ typedef struct WrOctaves {
     WrLatticeSource source; /* HASH, or LECTURE with salt (seed + i) mod 1000 */
     int dim;                /* 1..3 */
     WrOctavesMode mode;
-    bool tile;    /* repeats with period 1 in each coordinate */
-    int count;    /* octaves, 1..WR_OCTAVES_MOST */
-    double ratio; /* r, above 1 */
-    double step;  /* s, above 1 */
-    double
-        cells[WR_NOISE_AXES]; /* n0 per axis, cells per unit; tile: 1..WR_LATTICE_MOST, rounded to
+    bool tile;                   /* repeats with period 1 in each coordinate */
+    int count;                   /* octaves, 1..WR_OCTAVES_MAX */
+    double ratio;                /* r, above 1 */
+    double step;                 /* s, above 1 */
+    double cells[WR_NOISE_AXES]; /* n0 per axis, cells per unit; tile: 1..WR_LATTICE_MAX, rounded to
                                  integers; else above 0 */
-    uint32_t seed;            /* any */
-    const double *offsets;    /* [count][dim] cells, |offset| <= 1e9, borrowed for the call; NULL:
+    uint32_t seed;               /* any */
+    const double *offsets; /* [count][dim] cells, |offset| <= 1e9, borrowed for the call; NULL:
                                  by `scatter` */
     bool scatter; /* without offsets: each octave gets its own from the seed, so that the octaves'
                      lattice points do not coincide at the origin; false: none */
@@ -84,7 +83,7 @@ typedef struct WrOctavesPlan {
     int asked;    /* requested octaves */
     int used;     /* octaves kept, the first ones; 0..asked. With none the sum is 0 everywhere */
     double bound; /* upper bound of |N| */
-    WrOctave octave[WR_OCTAVES_MOST];
+    WrOctave octave[WR_OCTAVES_MAX];
 } WrOctavesPlan;
 
 /* Checks the parameters and computes the plan.
@@ -92,15 +91,15 @@ typedef struct WrOctavesPlan {
  * texels   [dim] samples per unit of p of the grid to be filled, or 0 per axis: no limit there. NULL:
  *          no limit. From the first octave on that has more than half a cell per texel along an axis
  *          (beyond the Nyquist frequency, where it would alias: HC62), octaves are dropped; so are
- *          those with more than WR_LATTICE_MOST cells per unit. plan->used is the number that is left.
+ *          those with more than WR_LATTICE_MAX cells per unit. plan->used is the number that is left.
  * Errors   count, r, s, cells, offsets, ridge numbers out of range (HC64); a kind that does not support
  *          the dimension, or cannot tile */
 bool wr_octaves_plan(const WrOctaves *octaves, const int *texels, WrOctavesPlan *plan,
                      WrError *err);
 
 /* Number of octaves i = 0, 1, ... with n0 s^i <= texels/2: 1 + floor(log_s(texels/(2 n0))), at most
- * WR_OCTAVES_MOST, and 0 when the first is already too fine. n0 > 0, s > 1; texels 0: no limit but
- * WR_LATTICE_MOST cells. At n0 s^i = texels k (texel centres: k even) every sample falls on the
+ * WR_OCTAVES_MAX, and 0 when the first is already too fine. n0 > 0, s > 1; texels 0: no limit but
+ * WR_LATTICE_MAX cells. At n0 s^i = texels k (texel centres: k even) every sample falls on the
  * lattice, where perlin and simplex are 0 and value noise is white (HC63); all of these lie beyond the
  * limit. */
 int wr_octaves_usable(double n0, double s, int texels);

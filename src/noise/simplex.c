@@ -11,7 +11,7 @@
    simplices, at distance sqrt(1/2) in any dimension: on a face, where rounding may select either
    simplex, the terms of the corners that differ are 0 or nearly 0 (HC67). */
 
-#define MOST WR_NOISE_DIMENSIONS
+#define MAX_MOST WR_NOISE_DIMENSIONS
 
 typedef struct Skew {
     double f, g;
@@ -20,7 +20,7 @@ typedef struct Skew {
 
 /* c is 1 / max of the sum of (1/2 - r_k^2)^4 r_k over a simplex, found by search, rounded down: 99.204
  * (the midpoint of an edge, where it is 81/2 sqrt(6)), 107.653, 108.567 for d = 2, 3, 4. */
-static const Skew skews[MOST + 1] = {
+static const Skew skews[MAX_MOST + 1] = {
     [2] = { 0.36602540378443865, 0.21132486540518712, 99.2 },
     [3] = { 1.0 / 3.0, 1.0 / 6.0, 107.6 / 1.41421356237309505 },
     [4] = { 0.30901699437494742, 0.13819660112501052, 108.5 / 1.73205080756887729 },
@@ -52,7 +52,7 @@ static int64_t floor_mod(int64_t a, int64_t n)
  * 6 P is 18 m. */
 static uint32_t corner_hash(int dim, const WrLattice *lattice, const int64_t *q)
 {
-    uint32_t c[MOST] = { 0 };
+    uint32_t c[MAX_MOST] = { 0 };
     for (int a = 0; a < dim; a++) {
         int64_t index = dim == 3 ? 6 * q[a] - (q[0] + q[1] + q[2]) : q[a];
         if (dim == 3 && lattice->period[a])
@@ -65,8 +65,8 @@ static uint32_t corner_hash(int dim, const WrLattice *lattice, const int64_t *q)
 static double simplex(int dim, const WrLattice *lattice, const double *t, double *slope)
 {
     const Skew *skew = &skews[dim];
-    double sum = 0.0, base_sum = 0.0, base[MOST], x[MOST], f = 0.0;
-    int rank[MOST] = { 0 };
+    double sum = 0.0, base_sum = 0.0, base[MAX_MOST], x[MAX_MOST], f = 0.0;
+    int rank[MAX_MOST] = { 0 };
     for (int a = 0; a < dim; a++) sum += t[a];
     for (int a = 0; a < dim; a++) {
         base[a] = floor(t[a] + sum * skew->f);
@@ -79,8 +79,8 @@ static double simplex(int dim, const WrLattice *lattice, const double *t, double
     for (int a = 0; a < dim; a++)
         for (int b = a + 1; b < dim; b++) rank[x[a] >= x[b] ? a : b]++;
     for (int k = 0; k <= dim; k++) {
-        double y[MOST];
-        int64_t q[MOST];
+        double y[MAX_MOST];
+        int64_t q[MAX_MOST];
         for (int a = 0; a < dim; a++) {
             int up = rank[a] >= dim - k;
             y[a] = x[a] - up + k * skew->g;
@@ -128,28 +128,29 @@ double wr_noise_sheared(const WrNoise *noise, const double *t, double *slope)
 static double cubes(const WrLattice *lattice, const double *t, double *slope)
 {
     static const double scale = 0.57735026918962576;
-    double base[MOST], x[MOST];
-    WrNoiseBlend corner[1 << MOST];
-    for (int a = 0; a < MOST; a++) {
+    double base[MAX_MOST], x[MAX_MOST];
+    WrNoiseBlend corner[1 << MAX_MOST];
+    for (int a = 0; a < MAX_MOST; a++) {
         base[a] = floor(t[a]);
         x[a] = t[a] - base[a];
     }
-    for (int k = 0; k < 1 << MOST; k++) {
-        uint32_t c[MOST];
-        for (int a = 0; a < MOST; a++) c[a] = (uint32_t)((int64_t)base[a] + (k >> a & 1));
-        const double *g = wr_lattice_gradient(MOST, wr_lattice_hash(lattice->seed, c, MOST));
+    for (int k = 0; k < 1 << MAX_MOST; k++) {
+        uint32_t c[MAX_MOST];
+        for (int a = 0; a < MAX_MOST; a++) c[a] = (uint32_t)((int64_t)base[a] + (k >> a & 1));
+        const double *g =
+            wr_lattice_gradient(MAX_MOST, wr_lattice_hash(lattice->seed, c, MAX_MOST));
         corner[k].f = 0.0;
-        for (int a = 0; a < MOST; a++) {
+        for (int a = 0; a < MAX_MOST; a++) {
             corner[k].d[a] = scale * g[a];
             corner[k].f += corner[k].d[a] * (x[a] - (k >> a & 1));
         }
     }
-    return wr_noise_blend(&wr_fades[WR_FADE_QUINTIC], MOST, x, corner, slope);
+    return wr_noise_blend(&wr_fades[WR_FADE_QUINTIC], MAX_MOST, x, corner, slope);
 }
 
 static double simplices(const WrLattice *lattice, const double *t, double *slope)
 {
-    return simplex(MOST, lattice, t, slope);
+    return simplex(MAX_MOST, lattice, t, slope);
 }
 
 /* A period of P cells becomes a circle of circumference P: with R = P/(2 pi) and angle 2 pi t/P,

@@ -73,33 +73,33 @@ static bool is_converted(const Reading *r)
 /* Stores a unit vector; true if it faced away from a tangent plane. */
 static bool put_vector(double x, double y, double z, bool object, float out[3])
 {
-    const bool away = !object && z < WR_NORMAL_LEAST;
-    if (away) z = WR_NORMAL_LEAST;
+    const bool away = !object && z < WR_NORMAL_MIN;
+    if (away) z = WR_NORMAL_MIN;
     const double unit = 1 / sqrt(x * x + y * y + z * z);
     out[0] = (float)(x * unit), out[1] = (float)(y * unit), out[2] = (float)(z * unit);
     return away;
 }
 
 /* Reads one texel. */
-static void read_vector(const Reading *r, size_t i, float out[3], WrNormalTold *told)
+static void read_vector(const Reading *r, size_t i, float out[3], WrNormalMapReport *report)
 {
     const float *t = texel_of(r, i);
     double x = number(r, (double)t[0]), y = number(r, (double)t[1]);
     const double xy = x * x + y * y;
     double z = r->channels == 3 ? number(r, (double)t[2]) : sqrt(fmax(0, 1 - xy));
     const double length = sqrt(xy + z * z), off = r->channels == 3 ? fabs(length - 1) : 0;
-    told->off = fmax(told->off, off);
-    told->off_mean += off / (double)texels_of(r->from);
+    report->off = fmax(report->off, off);
+    report->off_mean += off / (double)texels_of(r->from);
     if (!(length > 0)) { /* undefined direction */
         out[0] = out[1] = 0, out[2] = 1;
-        told->away++;
+        report->away++;
         return;
     }
     const bool level = r->last && fabs(z) < LEVEL_CODES / r->last;
     x /= length, y /= length, z /= length;
     const bool away = put_vector(x, y, z, r->object, out);
-    told->away += away;
-    told->level += away && level;
+    report->away += away;
+    report->level += away && level;
 }
 
 void wr_normal_map_slopes(const float n[3], double *p, double *q)
@@ -141,16 +141,16 @@ static double twist(const WrImage *image, double step, double *noise)
 
 #define SURE 6 /* standard deviations */
 
-static bool find_down(const WrImage *image, double step, WrNormalTold *told)
+static bool find_down(const WrImage *image, double step, WrNormalMapReport *report)
 {
     double noise;
     const double sum = twist(image, step, &noise);
-    told->undecided = !(fabs(sum) > SURE * noise);
-    return !told->undecided && sum < 0;
+    report->undecided = !(fabs(sum) > SURE * noise);
+    return !report->undecided && sum < 0;
 }
 
 /* Reads all texels with the reading's settings. */
-static WrImage *read_vectors(Reading *r, WrCoding coding, WrNormalTold *told, WrError *err)
+static WrImage *read_vectors(Reading *r, WrCoding coding, WrNormalMapReport *report, WrError *err)
 {
     WrCoding found;
     if (!wr_coding_find(r->from, r->channels, coding, &found, err)) return NULL;
@@ -160,17 +160,17 @@ static WrImage *read_vectors(Reading *r, WrCoding coding, WrNormalTold *told, Wr
     r->last = (int)wr_pixel_last(r->from->type);
     r->remap = found == WR_CODING_UNIT;
     r->centred = !r->object && is_centred(r);
-    told->channels = r->channels;
-    told->own = !r->remap;
-    told->centred = r->centred;
-    told->converted = !r->object && is_converted(r);
+    report->channels = r->channels;
+    report->own = !r->remap;
+    report->centred = r->centred;
+    report->converted = !r->object && is_converted(r);
     for (size_t i = 0; i < texels_of(to); i++) {
         if (i % LOOK == 0 && wr_progress_stopped()) {
             wr_image_free(to);
             wr_fail(err, "cancelled");
             return NULL;
         }
-        read_vector(r, i, to->data + 3 * i, told);
+        read_vector(r, i, to->data + 3 * i, report);
     }
     return to;
 }
@@ -204,36 +204,37 @@ WrImage *wr_normal_map_raised(const WrImage *map, int64_t *away, WrError *err)
 }
 
 WrImage *wr_normal_map_read(const WrImage *from, WrGreen green, int channels, WrCoding coding,
-                            WrNormalTold *told, WrError *err)
+                            WrNormalMapReport *report, WrError *err)
 {
     const int colours = from->channels > 3 ? 3 : from->channels;
     Reading r = { .from = from, .channels = channels ? channels : colours };
-    *told = (WrNormalTold){ 0 };
+    *report = (WrNormalMapReport){ 0 };
     if (r.channels < 2 || r.channels > from->channels) {
         wr_fail(err, "a normal map of %d channels: it has %d; must be 2 or 3",
                 r.channels < 2 ? 2 : r.channels, from->channels);
         return NULL;
     }
-    WrImage *to = read_vectors(&r, coding, told, err);
+    WrImage *to = read_vectors(&r, coding, report, err);
     if (!to) return NULL;
     const double step = r.last ? 2.0 / r.last : 1e-6;
-    told->green_down = green == WR_GREEN_AUTO ? find_down(to, step, told) : green == WR_GREEN_DOWN;
-    if (told->green_down) turn_green(to);
+    report->green_down =
+        green == WR_GREEN_AUTO ? find_down(to, step, report) : green == WR_GREEN_DOWN;
+    if (report->green_down) turn_green(to);
     return to;
 }
 
 WrImage *wr_normal_map_read_object(const WrImage *from, bool green_down, WrCoding coding,
-                                   WrNormalTold *told, WrError *err)
+                                   WrNormalMapReport *report, WrError *err)
 {
     Reading r = { .from = from, .channels = 3, .object = true };
-    *told = (WrNormalTold){ 0 };
+    *report = (WrNormalMapReport){ 0 };
     if (from->channels < 3) {
         wr_fail(err, "a normal map of the object's axes: it has %d channels; must be 3",
                 from->channels);
         return NULL;
     }
-    WrImage *to = read_vectors(&r, coding, told, err);
-    told->green_down = green_down;
+    WrImage *to = read_vectors(&r, coding, report, err);
+    report->green_down = green_down;
     if (to && green_down) turn_green(to);
     return to;
 }
@@ -244,7 +245,7 @@ static bool is_made(const float n[3], bool object)
     const double square =
         (double)n[0] * (double)n[0] + (double)n[1] * (double)n[1] + (double)n[2] * (double)n[2];
     return fabs(square - 1) <= 4 * (double)FLT_EPSILON &&
-           (object || (double)n[2] >= WR_NORMAL_LEAST * 0.999);
+           (object || (double)n[2] >= WR_NORMAL_MIN * 0.999);
 }
 
 WrImage *wr_normal_map_keep(const WrImage *held, bool object, WrError *err)

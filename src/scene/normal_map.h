@@ -10,7 +10,7 @@
              code represents 0, and codes are relative to it, with the same distance to either end.
    Vectors   normalised. With two channels z = sqrt(1 - x^2 - y^2); if x^2 + y^2 > 1, z is that of a
              vector that faces away.
-   Away      z of WR_NORMAL_LEAST and less becomes WR_NORMAL_LEAST, and is counted: slopes stay finite,
+   Away      z of WR_NORMAL_MIN and less becomes WR_NORMAL_MIN, and is counted: slopes stay finite,
              with their own sign. The two codes beside the middle are z = 0 within rounding: `level` is
              their number among those.
    Green     up: y runs against the picture's rows, like v. If unknown it is detected: a height table
@@ -27,12 +27,12 @@
 typedef struct WrError WrError;
 typedef struct WrImage WrImage;
 
-#define WR_NORMAL_LEAST 1e-3
+#define WR_NORMAL_MIN 1e-3
 
 typedef enum WrGreen { WR_GREEN_AUTO, WR_GREEN_UP, WR_GREEN_DOWN } WrGreen;
 
 /* Report on a map that was read. */
-typedef struct WrNormalTold {
+typedef struct WrNormalMapReport {
     bool green_down; /* its second number ran with the rows, and was inverted */
     bool undecided;  /* the direction could not be detected: up was assumed */
     int channels;    /* number of channels read: 2 or 3 */
@@ -42,20 +42,20 @@ typedef struct WrNormalTold {
     int64_t away;    /* texels that faced away, or were beyond the unit circle */
     int64_t level;   /* those of them that are level within the rounding of z to codes */
     double off, off_mean; /* distance of the lengths of three numbers from 1: maximum, mean */
-} WrNormalTold;
+} WrNormalMapReport;
 
-/* Reads unit vectors, x along u, y along v, z >= about WR_NORMAL_LEAST: a picture of three channels.
+/* Reads unit vectors, x along u, y along v, z >= about WR_NORMAL_MIN: a picture of three channels.
    channels: 2, 3, or 0: all, at most 3. NULL and an error if it has fewer, or if the coding does not
    match. */
 WrImage *wr_normal_map_read(const WrImage *from, WrGreen green, int channels, WrCoding coding,
-                            WrNormalTold *told, WrError *err);
+                            WrNormalMapReport *report, WrError *err);
 /* Reads a map in the object's axes: three channels, all directions allowed. green_down: its second
  * number is inverted. */
 WrImage *wr_normal_map_read_object(const WrImage *from, bool green_down, WrCoding coding,
-                                   WrNormalTold *told, WrError *err);
+                                   WrNormalMapReport *report, WrError *err);
 /* A copy with inverted second numbers. */
 WrImage *wr_normal_map_turned(const WrImage *map, WrError *err);
-/* Converts vectors of any direction to tangent space: z of WR_NORMAL_LEAST and less becomes that, and
+/* Converts vectors of any direction to tangent space: z of WR_NORMAL_MIN and less becomes that, and
  * is counted. */
 WrImage *wr_normal_map_raised(const WrImage *map, int64_t *away, WrError *err);
 /* Shares a document's map, which must have the form of read maps. An error if it differs by more than 4

@@ -72,7 +72,7 @@ bool wr_texture_sample_axes(WrNormalFrame frame, const WrSurfacePoint *at, WrMap
  * limited as in reading. */
 static WrVec3 gradient_of(WrVec3 m, WrVec3 n)
 {
-    const double z = v3_dot(n, m), least = WR_NORMAL_LEAST * v3_len(m);
+    const double z = v3_dot(n, m), least = WR_NORMAL_MIN * v3_len(m);
     const WrVec3 none = { 0, 0, 0 };
     if (!(least > 0)) return none;
     return v3_scale(v3_mad(m, n, -z), -1 / (z > least ? z : least));

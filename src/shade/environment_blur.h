@@ -9,7 +9,7 @@
 typedef struct WrPool WrPool;
 
 /* Width of the narrowest blurred lobe: smoother surfaces are treated as mirrors (E43). */
-#define WR_BLUR_LEAST (1.0 / 64)
+#define WR_BLUR_MIN (1.0 / 64)
 #define WR_BLUR_WIDEST 1024 /* texels */
 
 /* Width of a blurred picture in texels: a power of two with `fine` texels over the width of the lobe in

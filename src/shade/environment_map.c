@@ -244,7 +244,7 @@ static float clamp_value(float x, WrEnvironmentMapChanges *changes)
 {
     if (isnan(x)) return changes->not_numbers++, 0;
     if (x < 0) return changes->negative++, 0;
-    if (x > WR_ENVIRONMENT_MAP_MOST) return changes->too_large++, WR_ENVIRONMENT_MAP_MOST;
+    if (x > WR_ENVIRONMENT_MAP_MAX) return changes->too_large++, WR_ENVIRONMENT_MAP_MAX;
     return x;
 }
 

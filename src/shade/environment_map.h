@@ -34,14 +34,14 @@ typedef enum WrEnvironmentMapKind {
 extern const char *const wr_environment_map_names[WR_ENVIRONMENT_MAP_KINDS];
 extern const char *const wr_environment_map_labels[WR_ENVIRONMENT_MAP_KINDS]; /* English */
 
-#define WR_ENVIRONMENT_MAP_MOST                                                                    \
+#define WR_ENVIRONMENT_MAP_MAX                                                                     \
     1e9f /* largest texel value; larger values and infinity are replaced by it (HC114) */
 #define WR_ENVIRONMENT_MAP_WIDTH 4096 /* wider pictures are reduced by averaging texels */
 #define WR_HARMONICS 9                /* of orders 0, 1, 2 */
 
 typedef struct WrEnvironmentMap {
     int refs;          /* atomic */
-    WrImage *image;    /* three channels, linear, 0..WR_ENVIRONMENT_MAP_MOST; owned */
+    WrImage *image;    /* three channels, linear, 0..WR_ENVIRONMENT_MAP_MAX; owned */
     bool even;         /* constant colour */
     double pole[2][3]; /* means of the first row and of the last */
     /* L_lm of real harmonics: 1; y, z, x; xy, yz, 3zz - 1, xz, xx - yy, each with its normalisation */
@@ -50,7 +50,7 @@ typedef struct WrEnvironmentMap {
 
 /* Changes made to a file's numbers. */
 typedef struct WrEnvironmentMapChanges {
-    /* numbers replaced: NaN by 0, negative ones by 0, larger ones and infinity by WR_ENVIRONMENT_MAP_MOST */
+    /* numbers replaced: NaN by 0, negative ones by 0, larger ones and infinity by WR_ENVIRONMENT_MAP_MAX */
     int64_t not_numbers, negative, too_large;
     int reduced; /* side in texels of the averaged blocks; 1: none */
 } WrEnvironmentMapChanges;

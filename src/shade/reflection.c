@@ -193,7 +193,7 @@ void wr_matter_init(WrMatter *m, const WrReflectance *of)
     const double rough = within(of->roughness, 0, 1);
     *m = (WrMatter){ .shininess = within(of->shininess, 0, 1e6),
                      .scale = 1,
-                     .alpha = fmax(rough * rough, WR_ALPHA_LEAST),
+                     .alpha = fmax(rough * rough, WR_ALPHA_MIN),
                      .ior = within(of->ior, 0.01, 1e4),
                      .metal = within(of->metalness, 0, 1),
                      .sigma = rough };

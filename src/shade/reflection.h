@@ -84,8 +84,7 @@ typedef struct WrMatter {
     double shininess;
     double scale; /* of the highlight: phong (s + 2) / 2, torrance-sparrow its normalisation; kept;
                   else 1 and alpha^2 */
-    double
-        alpha; /* width of the facets' slope distribution, roughness^2, at least WR_ALPHA_LEAST */
+    double alpha; /* width of the facets' slope distribution, roughness^2, at least WR_ALPHA_MIN */
     double ior, f0, metal;
     double sigma, a, b; /* oren-nayar */
     double mean;        /* fraction of light reflected at once, averaged over all directions */
@@ -93,7 +92,7 @@ typedef struct WrMatter {
     double albedo[WR_ALBEDO_TERMS]; /* ggx, kept: E = sum of albedo[i] x^i, x = sqrt(n.v) */
 } WrMatter;
 
-#define WR_ALPHA_LEAST 1e-3 /* minimum, since a lamp's mirror image would be a point (HC100) */
+#define WR_ALPHA_MIN 1e-3 /* minimum, since a lamp's mirror image would be a point (HC100) */
 
 /* The parameters of a material. */
 typedef struct WrReflectance {

@@ -10,7 +10,7 @@
      square    1 in even cells, -1 in odd ones; a checker's mean is 1/2 - 1/2 of their product along three axes
      ramp      t, within 0 and 1 */
 
-#define GRAIN_LEAST K_(1e-7) /* a smaller box is treated as a point */
+#define GRAIN_MIN K_(1e-7) /* a smaller box is treated as a point */
 
 R_INLINE REAL grain_clamp(REAL x)
 {
@@ -39,14 +39,14 @@ R_INLINE REAL grain_sum(REAL t, REAL d)
 R_INLINE REAL grain_pulse_mean(REAL t, REAL w, REAL d)
 {
     const REAL f = t - r_floor(t), half = K_(0.5) * w;
-    const REAL per = K_(1) / (w > GRAIN_LEAST ? w : GRAIN_LEAST);
+    const REAL per = K_(1) / (w > GRAIN_MIN ? w : GRAIN_MIN);
     /* up to one turn: the pulses that begin at -d, 1 - d and 2 - d */
     const REAL near = grain_step(f + d, per) - grain_step(f, per) +
                       grain_step(f - (K_(1) - d), per) - grain_step(f - K_(1), per) +
                       grain_step(f - (K_(2) - d), per);
     const REAL far = (grain_sum(f + half, d) - grain_sum(f - half, d)) * per;
     const REAL mean = w < K_(1) ? near : far;
-    return w > GRAIN_LEAST ? mean : grain_pulse(t, d);
+    return w > GRAIN_MIN ? mean : grain_pulse(t, d);
 }
 
 /* The remaining amplitude of an averaged sine: sin(pi w) / (pi w). */

@@ -16,7 +16,7 @@ R_INLINE void FN(capsule_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT
     const REAL pi = K_(WR_PI), a = K_(2) * pi;
     REAL R = shape->value[0], H = shape->value[1], L = pi * R + H;
     REAL up = v < K_(0.5) ? K_(-1) : K_(1), arc = (v < K_(0.5) ? v : K_(1) - v) * L;
-    REAL inv = R > K_(64) * R_LEAST ? K_(1) / (R > K_(64) * R_LEAST ? R : K_(1)) : K_(0);
+    REAL inv = R > K_(64) * R_MIN ? K_(1) / (R > K_(64) * R_MIN ? R : K_(1)) : K_(0);
     int ball = arc < K_(0.5) * pi * R;
     REAL turn = arc * inv * K_(0.15915494309189533577); /* 1 / (2 pi) */
     REAL s, c, S, C;

@@ -114,7 +114,7 @@ R_INLINE void FN(dual_mul)(int n, FN(Dual) * a, const FN(Dual) * b)
 /* The logarithm of x > 0; for other x that of the smallest number. */
 R_INLINE REAL FN(safe_log2)(REAL x)
 {
-    return r_log2(x > R_LEAST ? x : R_LEAST);
+    return r_log2(x > R_MIN ? x : R_MIN);
 }
 
 /* x to an integer power, by repeated squaring. */

@@ -20,7 +20,7 @@ R_INLINE REAL FN(max_norm)(VEC a)
 R_INLINE void FN(frame_from_n)(VEC n, VEC n_du, VEC n_dv, POINT *o)
 {
     REAL m = FN(max_norm)(n);
-    int good = m > R_LEAST;
+    int good = m > R_MIN;
     REAL inv = K_(1) / (good ? m : K_(1));
     REAL x = n.x * inv, y = n.y * inv, z = n.z * inv;
     REAL s = r_sqrt(x * x + y * y + z * z); /* 1 .. sqrt(3) where good */

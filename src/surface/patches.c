@@ -72,22 +72,22 @@ static EdgeRow edge_row(const float *points, int edge, WrPatchEdge *out)
 /* The first two equal edges become neighbours; further ones are crowded. kind: equal for edges with the
  * same points. */
 static void pair_edges(const int32_t *kind, int32_t kinds, int32_t count, WrPatchEdge *edges,
-                       WrPatchesTold *told)
+                       WrPatchesReport *report)
 {
     int32_t *first = wr_alloc((size_t)kinds, sizeof *first); /* 1 + the edge; -1: already shared */
     for (int32_t i = 0; i < count; i++) {
         int32_t *at = &first[kind[i]];
         if (edges[i].collapsed) {
-            told->collapsed++;
+            report->collapsed++;
         } else if (*at > 0) {
             const int32_t mate = *at - 1;
             const bool turned = edges[i].backward != edges[mate].backward;
             edges[i].other = mate, edges[mate].other = i;
             edges[i].turned = edges[mate].turned = turned;
-            told->shared++;
+            report->shared++;
             *at = -1;
         } else if (*at < 0) {
-            told->crowded++;
+            report->crowded++;
         } else {
             *at = i + 1;
         }
@@ -110,7 +110,7 @@ static bool is_against(const WrPatchEdge *edges, int32_t i)
 
 /* Counts connected groups of open edges. */
 static bool count_loops(const float (*points)[48], int32_t count, const WrPatchEdge *edges,
-                        WrPatchesTold *told, WrError *err)
+                        WrPatchesReport *report, WrError *err)
 {
     float(*ends)[3] = wr_try_alloc(2 * (size_t)count, sizeof *ends, "edges of patches", err);
     int32_t *place = wr_alloc(2 * (size_t)count, sizeof *place), places;
@@ -126,15 +126,15 @@ static bool count_loops(const float (*points)[48], int32_t count, const WrPatchE
     if (good && open > 0) {
         int32_t *up = wr_alloc((size_t)places, sizeof *up);
         for (int32_t i = 0; i < places; i++) up[i] = i;
-        told->loops = places;
+        report->loops = places;
         for (int32_t i = 0; i < open; i++) {
             const int32_t a = wr_root_of(up, place[2 * i]), b = wr_root_of(up, place[2 * i + 1]);
-            told->loops -= a != b;
+            report->loops -= a != b;
             up[a] = b;
         }
         wr_free(up);
     }
-    told->open = open;
+    report->open = open;
     wr_free(place);
     wr_free(ends);
     return good;
@@ -142,20 +142,20 @@ static bool count_loops(const float (*points)[48], int32_t count, const WrPatchE
 
 /* Finds the shared edges: edges [4 count]. */
 static bool patches_find_edges(const float (*points)[48], int32_t count, WrPatchEdge *edges,
-                               WrPatchesTold *told, WrError *err)
+                               WrPatchesReport *report, WrError *err)
 {
     const int32_t all = 4 * count;
     EdgeRow *rows = wr_try_alloc((size_t)all, sizeof *rows, "edges of patches", err);
     int32_t *kind = wr_alloc((size_t)all, sizeof *kind), kinds;
     for (int32_t i = 0; i < all && rows; i++) rows[i] = edge_row(points[i / 4], i % 4, &edges[i]);
     bool good = rows && wr_weld(rows, sizeof *rows, all, kind, &kinds, err);
-    if (good) pair_edges(kind, kinds, all, edges, told);
+    if (good) pair_edges(kind, kinds, all, edges, report);
     for (int32_t i = 0; i < all && good; i++) {
-        if (edges[i].other > i) told->against += is_against(edges, i);
+        if (edges[i].other > i) report->against += is_against(edges, i);
     }
     wr_free(kind);
     wr_free(rows);
-    return good && count_loops(points, all, edges, told, err);
+    return good && count_loops(points, all, edges, report, err);
 }
 
 /* ---- orientation ---- */
@@ -194,12 +194,12 @@ static int32_t face_island(const WrPatchEdge *edges, int32_t first, signed char 
 static bool patches_face(float (*points)[48], int32_t count, bool all, int32_t *turned,
                          WrError *err)
 {
-    WrPatchesTold told = { 0 };
+    WrPatchesReport report = { 0 };
     WrPatchEdge *edges = wr_try_alloc(4 * (size_t)count, sizeof *edges, "patches", err);
     signed char *side = wr_alloc((size_t)count, sizeof *side);
     int32_t *queue = wr_alloc((size_t)count, sizeof *queue);
     const bool good =
-        edges && patches_find_edges((const float(*)[48])points, count, edges, &told, err);
+        edges && patches_find_edges((const float(*)[48])points, count, edges, &report, err);
     *turned = 0;
     for (int32_t i = 0; i < count && good; i++) {
         if (side[i]) continue;
@@ -377,7 +377,7 @@ static void take_charts(const Layout *l, WrPatches *set, WrPatch *patch)
     for (int32_t i = 0; i < l->count; i++)
         for (int k = 0; k < 6; k++) patch[i].chart[k] = (float)l->chart[i].of[k];
     for (int32_t i = 0; i < 4 * l->count; i++)
-        if (l->edges[i].other > i) set->told.joined += runs_on(l, i);
+        if (l->edges[i].other > i) set->report.joined += runs_on(l, i);
     set->columns = l->columns, set->rows = l->rows;
     set->scale_u = 1.0 / l->columns, set->scale_v = 1.0 / l->rows;
 }
@@ -471,11 +471,11 @@ static bool read_whole(Reader *r, int32_t low, int32_t high, const char *what, i
     size_t length;
     double number;
     const char *word = next_word(r, &length);
-    char told[120];
-    snprintf(told, sizeof told, "%s, %d..%d", what, (int)low, (int)high);
+    char report[120];
+    snprintf(report, sizeof report, "%s, %d..%d", what, (int)low, (int)high);
     if (!wr_number_parse(word, length, &number) || !(number >= low && number <= high) ||
         number != floor(number))
-        return bad_word(r, word, length, told, err);
+        return bad_word(r, word, length, report, err);
     *out = (int32_t)number;
     return true;
 }
@@ -782,7 +782,7 @@ static WrVec3 normal_on_edge(const float *points, int edge, double t)
 #define CREASE 0.1      /* smallest angle of a crease, in degrees */
 #define CREASE_MEANT 45 /* larger angles are always intended */
 
-static void find_creases(Build *b, WrPatchesTold *told)
+static void find_creases(Build *b, WrPatchesReport *report)
 {
     for (int32_t i = 0; i < 4 * b->count; i++) {
         const WrPatchEdge *edge = &b->edges[i];
@@ -796,10 +796,10 @@ static void find_creases(Build *b, WrPatchesTold *told)
             const double angle = wr_angle(own, other) * (180 / WR_PI);
             worst = fmax(worst, angle > 90 ? 180 - angle : angle);
         }
-        told->creased += worst >= CREASE;
-        if (worst < CREASE || worst > CREASE_MEANT || worst <= told->crease_deg) continue;
-        told->crease_deg = worst;
-        told->crease_of[0] = i / 4, told->crease_of[1] = edge->other / 4;
+        report->creased += worst >= CREASE;
+        if (worst < CREASE || worst > CREASE_MEANT || worst <= report->crease_deg) continue;
+        report->crease_deg = worst;
+        report->crease_of[0] = i / 4, report->crease_of[1] = edge->other / 4;
     }
 }
 
@@ -827,13 +827,13 @@ static WrTriangles *finish(Build *b, WrError *err)
 {
     WrPatches *set = b->set;
     WrTriangles *made = NULL;
-    if (patches_find_edges(b->points, b->count, b->edges, &set->told, err) &&
+    if (patches_find_edges(b->points, b->count, b->edges, &set->report, err) &&
         patches_lay_out(set, b->patch, b->edges, err)) {
         choose_cuts(b);
         made = cut_all(b, err);
     }
     if (!made) return NULL;
-    find_creases(b, &set->told);
+    find_creases(b, &set->report);
     made->patches = set;
     if (!number_triangles(made, set, err)) {
         b->set = NULL; /* freed with the triangles */
@@ -878,13 +878,13 @@ static WrTriangles *face_and_build(float (*points)[48], int32_t count, WrPatchTa
     int32_t turned, inside;
     if (!patches_face(points, count, false, &turned, err)) return NULL;
     WrTriangles *made = build((const float(*)[48])points, count, table, err);
-    if (made && made->told.inside_out) {
+    if (made && made->report.inside_out) {
         wr_triangles_free(made);
         if (!patches_face(points, count, true, &inside, err)) return NULL;
         made = build((const float(*)[48])points, count, table, err);
         turned = count - turned;
     }
-    if (made) made->patches->told.turned = turned;
+    if (made) made->patches->report.turned = turned;
     return made;
 }
 

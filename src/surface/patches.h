@@ -45,7 +45,7 @@ typedef struct WrPatch {
 } WrPatch;
 
 /* Statistics and repairs, for reports. */
-typedef struct WrPatchesTold {
+typedef struct WrPatchesReport {
     int32_t shared;      /* edges shared by two patches */
     int32_t open, loops; /* edges of one patch, and the number of loops and lines they form */
     int32_t collapsed;   /* edges without length */
@@ -56,7 +56,7 @@ typedef struct WrPatchesTold {
     int32_t creased; /* shared edges where normals differ by 0.1 degrees or more */
     double crease_deg;    /* the largest of these angles under 45 degrees ... */
     int32_t crease_of[2]; /* ... and its patches, from 0 */
-} WrPatchesTold;
+} WrPatchesReport;
 
 struct WrPatches {
     const WrPatch *patch; /* [count], owned */
@@ -65,7 +65,7 @@ struct WrPatches {
     WrPatchTable table;
     double scale_u, scale_v;
     int32_t columns, rows; /* cells of the unfolded set; otherwise 1, 1 */
-    WrPatchesTold told;
+    WrPatchesReport report;
 };
 
 /* Creates a set cut into triangles; points: [count] patches of 48 numbers, finite and within 1e30.

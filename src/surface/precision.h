@@ -28,7 +28,7 @@
 #undef FN
 #undef K_
 #undef R_INLINE
-#undef R_LEAST
+#undef R_MIN
 #undef R_NOISE
 #undef r_sincos_turns
 #undef r_exp2
@@ -47,7 +47,7 @@
 #define PROFILE WrProfilef
 #define FN(name) name##_f
 #define K_(x) ((float)(x)) /* a constant */
-#define R_LEAST 0x1p-125f  /* above it a reciprocal is finite */
+#define R_MIN 0x1p-125f    /* above it a reciprocal is finite */
 #define R_NOISE 0x1p-23f   /* a cross product below this fraction of its factors is rounding */
 #define r_sincos_turns wr_sincos_turns_f
 #define r_exp2 wr_exp2_f
@@ -66,7 +66,7 @@
 #define PROFILE WrProfiled
 #define FN(name) name##_d
 #define K_(x) ((double)(x)) /* never an integer: K_(1) / K_(6) is a sixth */
-#define R_LEAST 0x1p-1021
+#define R_MIN 0x1p-1021
 #define R_NOISE 0x1p-47
 #define r_sincos_turns wr_sincos_turns
 #define r_exp2 wr_exp2

@@ -34,10 +34,10 @@ R_INLINE void FN(revolution_at)(const SHAPE *shape, int face, REAL u, REAL v, PO
     REAL zpp = six * inv * inv * (w * (zb - za) + t * (zc - zb));
     REAL turn = v < K_(0.5) ? one : -one;
     REAL big = r_abs(rp) > r_abs(zp) ? r_abs(rp) : r_abs(zp);
-    int goes = big > R_LEAST;
+    int goes = big > R_MIN;
     REAL dr = goes ? rp : turn * rpp, dz = goes ? zp : turn * zpp;
     REAL more = r_abs(dr) > r_abs(dz) ? r_abs(dr) : r_abs(dz);
-    int any = more > R_LEAST;
+    int any = more > R_MIN;
     dr = any ? dr / (any ? more : one) : zero;
     dz = any ? dz / (any ? more : one) : one;
     REAL unit = one / r_sqrt(dr * dr + dz * dz), x = dz * unit, y = -dr * unit;

@@ -6,8 +6,8 @@
 
 #include <math.h>
 
-#define MOST 1e29 /* largest height: patches are limited to 1e30 */
-#define KNOTS 67  /* for 64 cells and one beyond each end */
+#define MAX_MOST 1e29 /* largest height: patches are limited to 1e30 */
+#define KNOTS 67      /* for 64 cells and one beyond each end */
 
 /* The range of texels within [low, high) of the axis, in whole texels, at least the nearest. */
 static void span_of(double at, double half, int count, int *from, int *to)
@@ -65,7 +65,7 @@ static void spline_grid(const WrTerrain *t, const double *means, int columns, in
     double knots[KNOTS];
     for (int j = 0; j <= rows; j++) {
         for (int i = 0; i <= columns; i++)
-            knots[i] = fmin(fmax(t->height * means[j * (columns + 1) + i], -MOST), MOST);
+            knots[i] = fmin(fmax(t->height * means[j * (columns + 1) + i], -MAX_MOST), MAX_MOST);
         spline_points(knots, columns, grid + (size_t)j * (size_t)wide, 1);
     }
     for (int i = 0; i < wide; i++) {

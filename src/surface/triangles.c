@@ -170,7 +170,7 @@ static WrTriangles *triangles_finish(WrTrianglesBuild *b, WrError *err)
     made->refs = 1;
     made->triangle_count = b->count;
     made->closed = b->closed;
-    made->told = b->told;
+    made->report = b->report;
     Item *items = wr_try_alloc(count, sizeof *items, "a mesh's order", err);
     WrTriangleCorner *rows = items ? wr_try_alloc(count, 3 * sizeof *rows, "a mesh", err) : NULL;
     bool good = rows && sort_faces(b, items, err);
@@ -211,7 +211,7 @@ static void triangles_measure(WrTriangles *made)
         made->faceted = same_normals(made, i);
     made->mapped = false;
     for (int i = 0; i < made->part_count; i++) made->mapped |= made->parts[i].mapped;
-    made->told.near_uv = made->mapped ? count_near(made) : 0;
+    made->report.near_uv = made->mapped ? count_near(made) : 0;
 }
 
 /* ---- Serialisation of a mesh as numbers, for documents ---- */
@@ -220,21 +220,22 @@ static void triangles_measure(WrTriangles *made)
 
 /* version, corners, triangles, parts, closed, then the statistics; the bounding sphere as twice three
  * floats and so on */
-enum { HEAD = 5, TOLD_COUNT = 9, BALL = 12, PART = 3 + WR_TRIANGLE_NAME };
+enum { HEAD = 5, REPORT_COUNT = 9, BALL = 12, PART = 3 + WR_TRIANGLE_NAME };
 
-static void told_to_floats(const WrTrianglesTold *told, float *out)
+static void report_to_floats(const WrTrianglesReport *report, float *out)
 {
-    const int32_t numbers[TOLD_COUNT] = { told->no_area,     told->no_normal, told->bad_normal,
-                                          told->face_normal, told->bad_uv,    told->no_map,
-                                          told->collinear,   told->mirrored,  told->inside_out };
-    for (int i = 0; i < TOLD_COUNT; i++) out[i] = (float)numbers[i];
+    const int32_t numbers[REPORT_COUNT] = {
+        report->no_area, report->no_normal, report->bad_normal, report->face_normal, report->bad_uv,
+        report->no_map,  report->collinear, report->mirrored,   report->inside_out
+    };
+    for (int i = 0; i < REPORT_COUNT; i++) out[i] = (float)numbers[i];
 }
 
-static void told_from_floats(const float *in, WrTrianglesTold *told)
+static void report_from_floats(const float *in, WrTrianglesReport *report)
 {
-    int32_t n[TOLD_COUNT];
-    for (int i = 0; i < TOLD_COUNT; i++) n[i] = (int32_t)in[i];
-    *told = (WrTrianglesTold){ n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8] != 0, 0 };
+    int32_t n[REPORT_COUNT];
+    for (int i = 0; i < REPORT_COUNT; i++) n[i] = (int32_t)in[i];
+    *report = (WrTrianglesReport){ n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8] != 0, 0 };
 }
 
 /* A double as three floats whose sum it is. */
@@ -253,7 +254,7 @@ static double join(const float in[3])
 
 static size_t packed(int32_t corners, int32_t triangles, int32_t parts)
 {
-    return HEAD + TOLD_COUNT + BALL + (size_t)parts * PART + (size_t)corners * 8 +
+    return HEAD + REPORT_COUNT + BALL + (size_t)parts * PART + (size_t)corners * 8 +
            (size_t)triangles * 3;
 }
 
@@ -265,7 +266,7 @@ float *wr_triangles_pack(const WrTriangles *t, size_t *count)
     const float head[HEAD] = { PACK_VERSION, (float)t->corner_count, (float)t->triangle_count,
                                (float)t->part_count, t->closed };
     memcpy(at, head, sizeof head), at += HEAD;
-    told_to_floats(&t->told, at), at += TOLD_COUNT;
+    report_to_floats(&t->report, at), at += REPORT_COUNT;
     for (int k = 0; k < 3; k++) split(t->centre[k], at + 3 * k);
     split(t->radius, at + 9), at += BALL;
     for (int i = 0; i < t->part_count; i++, at += PART) {
@@ -288,16 +289,16 @@ static bool whole(float x, double low, double high)
 
 static bool check_head(const float *block, size_t count)
 {
-    return count >= HEAD + TOLD_COUNT + BALL && whole(block[0], PACK_VERSION, PACK_VERSION) &&
+    return count >= HEAD + REPORT_COUNT + BALL && whole(block[0], PACK_VERSION, PACK_VERSION) &&
            whole(block[1], 3, 1 << 24) && whole(block[2], 1, WR_TRIANGLES_MAX) &&
            whole(block[3], 1, WR_TRIANGLE_PARTS_MAX) && whole(block[4], 0, 1) &&
            count >= packed((int32_t)block[1], (int32_t)block[2], (int32_t)block[3]);
 }
 
-static bool check_numbers(const WrTriangles *t, const float *told)
+static bool check_numbers(const WrTriangles *t, const float *report)
 {
-    for (int i = 0; i < TOLD_COUNT; i++)
-        if (!whole(told[i], 0, 0x1p30)) return false;
+    for (int i = 0; i < REPORT_COUNT; i++)
+        if (!whole(report[i], 0, 0x1p30)) return false;
     for (int32_t i = 0; i < t->corner_count; i++) {
         const WrTriangleCorner *c = &t->corners[i];
         for (int k = 0; k < 3; k++)
@@ -354,7 +355,7 @@ WrTriangles *wr_triangles_unpack(const float *block, size_t count, WrError *err)
     WrTrianglePart *parts = wr_alloc((size_t)t->part_count, sizeof *parts);
     t->corners = corners, t->triangles = triangles, t->parts = parts;
     if (triangles) {
-        const float *at = block + HEAD + TOLD_COUNT;
+        const float *at = block + HEAD + REPORT_COUNT;
         for (int k = 0; k < 3; k++) t->centre[k] = join(at + 3 * k);
         t->radius = join(at + 9), at += BALL;
         const float *rows = at + (size_t)t->part_count * PART;
@@ -363,7 +364,7 @@ WrTriangles *wr_triangles_unpack(const float *block, size_t count, WrError *err)
             take_parts(at, t->part_count, t->triangle_count, parts) &&
             take_triangles(rows + 8 * (size_t)t->corner_count, t->corner_count, t->triangle_count,
                            triangles)) {
-            told_from_floats(block + HEAD, &t->told);
+            report_from_floats(block + HEAD, &t->report);
             triangles_measure(t);
             return t;
         }
@@ -536,7 +537,7 @@ static void keep_faces(WrTrianglesBuild *b)
         const WrVec3 n = face_of(p, &from);
         if (b->at[c[0]] == b->at[c[1]] || b->at[c[1]] == b->at[c[2]] ||
             b->at[c[2]] == b->at[c[0]] || !usable(n)) {
-            b->told.no_area++;
+            b->report.no_area++;
             continue;
         }
         for (int k = 0; k < 3; k++) b->face[kept].corner[k] = c[(from + k) % 3];
@@ -651,7 +652,7 @@ static double volume(const WrTrianglesBuild *b)
 
 static void turn_out(WrTrianglesBuild *b)
 {
-    b->told.inside_out = true;
+    b->report.inside_out = true;
     for (int32_t i = 0; i < b->count; i++) {
         int32_t *c = b->face[i].corner;
         const int32_t last = c[2];
@@ -678,8 +679,8 @@ static void take_normals(WrTrianglesBuild *b)
         const WrVec3 n =
             given ? (WrVec3){ (double)given[0], (double)given[1], (double)given[2] } : none;
         b->own[i] = usable(n) ? v3_unit(n, none) : none;
-        if (!given) b->told.no_normal++;
-        else if (!usable(n)) b->told.bad_normal++;
+        if (!given) b->report.no_normal++;
+        else if (!usable(n)) b->report.bad_normal++;
     }
 }
 
@@ -701,7 +702,7 @@ static void turn_normals(WrTrianglesBuild *b)
 static bool fill_normals(WrTrianglesBuild *b, WrError *err)
 {
     const WrVec3 none = { 0, 0, 0 };
-    if (b->told.no_normal + b->told.bad_normal == 0) return true;
+    if (b->report.no_normal + b->report.bad_normal == 0) return true;
     WrVec3 *sum = wr_try_alloc((size_t)b->places, sizeof *sum, "a mesh's normals", err);
     if (!sum) return false;
     for (int32_t i = 0; i < b->count; i++)
@@ -731,7 +732,7 @@ static bool make_corner(WrTrianglesBuild *b, int32_t i, int k, WrTriangleCorner 
     WrVec3 n = b->own[point];
     if (is_none(n)) {
         n = b->normal[i];
-        b->told.face_normal++;
+        b->report.face_normal++;
     }
     memcpy(out->p, b->points[point], sizeof out->p);
     out->n[0] = (float)n.x + 0.0f, out->n[1] = (float)n.y + 0.0f, out->n[2] = (float)n.z + 0.0f;
@@ -750,13 +751,13 @@ static void make_face(WrTrianglesBuild *b, int32_t i)
     for (int k = 0; k < 3; k++) with += make_corner(b, i, k, &out[k]);
     b->mapped[i] = with == 3;
     for (int k = 0; k < 3 && with < 3; k++) out[k].u = out[k].v = 0;
-    if (with < 3) b->told.no_map++;
+    if (with < 3) b->report.no_map++;
 }
 
 static void count_bad_uv(WrTrianglesBuild *b)
 {
     for (int32_t i = 0; i < b->source->point_count && b->source->uv; i++)
-        b->told.bad_uv += !good_uv(b->source->uv[i]);
+        b->report.bad_uv += !good_uv(b->source->uv[i]);
 }
 
 /* Counts the orientations of the (u,v) of mapped faces. */
@@ -768,8 +769,8 @@ static void count_maps(WrTrianglesBuild *b)
         const double u1 = (double)c[1].u - (double)c[0].u, v1 = (double)c[1].v - (double)c[0].v;
         const double u2 = (double)c[2].u - (double)c[0].u, v2 = (double)c[2].v - (double)c[0].v;
         const double a = u1 * v2, d = u2 * v1;
-        if (fabs(a - d) <= WR_COLLINEAR * (fabs(a) + fabs(d))) b->told.collinear++;
-        else b->told.mirrored += a < d;
+        if (fabs(a - d) <= WR_COLLINEAR * (fabs(a) + fabs(d))) b->report.collinear++;
+        else b->report.mirrored += a < d;
     }
 }
 

@@ -36,7 +36,7 @@ typedef struct WrTrianglePart {
 } WrTrianglePart;
 
 /* Statistics and repairs, for reports. */
-typedef struct WrTrianglesTold {
+typedef struct WrTrianglesReport {
     int32_t no_area;     /* removed triangles */
     int32_t no_normal;   /* corners whose normal was missing ... */
     int32_t bad_normal;  /* ... 0 or NaN ... */
@@ -48,7 +48,7 @@ typedef struct WrTrianglesTold {
     int32_t mirrored; /* mapped triangles whose (u,v) are mirrored */
     bool inside_out;  /* the body was reversed */
     int32_t near_uv;  /* corners distinguished from another only by a rounding of (u,v) (HC129) */
-} WrTrianglesTold;
+} WrTrianglesReport;
 
 typedef struct WrTriangle {
     int32_t corner[3];
@@ -71,7 +71,7 @@ typedef struct WrTriangles {
     bool mapped;              /* some triangle has texture coordinates */
     double centre[3], radius; /* bounding sphere; radius > 0 */
     uint64_t key;             /* hash of its content */
-    WrTrianglesTold told;
+    WrTrianglesReport report;
     WrPatches *
         patches; /* source patches (patches.h), whose (u,v) the corners have; owned; NULL: a mesh */
 } WrTriangles;

@@ -25,7 +25,7 @@ typedef struct WrTrianglesBuild {
     int32_t count;
     bool closed;
     double centre[3], radius;
-    WrTrianglesTold told;
+    WrTrianglesReport report;
 } WrTrianglesBuild;
 
 /* Rows of `size` bytes, a multiple of 4, with equal bits get the same index, 0 .. kinds - 1 in the

@@ -83,7 +83,7 @@ bool wr_stream_seek(FILE *stream, int64_t at)
     return fseeko(stream, (off_t)at, SEEK_SET) == 0;
 }
 
-int64_t wr_stream_tell(FILE *stream)
+int64_t wr_stream_position(FILE *stream)
 {
     return (int64_t)ftello(stream);
 }
@@ -180,7 +180,7 @@ int64_t wr_fd_seek(int fd, int64_t at)
     return (int64_t)lseek(fd, (off_t)at, SEEK_SET);
 }
 
-int64_t wr_fd_tell(int fd)
+int64_t wr_fd_position(int fd)
 {
     return (int64_t)lseek(fd, 0, SEEK_CUR);
 }

@@ -56,7 +56,7 @@ int wr_fd_copy(int fd); /* duplicate that shares the position; -1 */
 /* A C stream for it, which closes it; on failure NULL, and fd is unchanged. */
 FILE *wr_fd_stream(int fd, const char *mode);
 bool wr_stream_seek(FILE *stream, int64_t at);
-int64_t wr_stream_tell(FILE *stream);
+int64_t wr_stream_position(FILE *stream);
 int wr_stream_byte(FILE *stream); /* getc for streams used by one thread only */
 bool wr_stream_info(FILE *stream, WrFileInfo *info);
 
@@ -90,7 +90,7 @@ bool wr_fd_write(int fd, const void *bytes, size_t length);
 bool wr_fd_write_at(int fd, const void *bytes, size_t length, int64_t at);
 /* Position of the next byte read or written; -1. */
 int64_t wr_fd_seek(int fd, int64_t at);
-int64_t wr_fd_tell(int fd);
+int64_t wr_fd_position(int fd);
 bool wr_fd_cut(int fd, int64_t length);
 /* Copies from both present positions to the end of `from` in the file system, which may share blocks.
    1: done; 0: unsupported, nothing was copied; -1: failed midway. */

@@ -11,7 +11,7 @@
 #include "image/caption.h"
 #include "image/image.h"
 
-#define MOST 60
+#define MAX_MOST 60
 #define WIDER 1.12 /* other fonts' text, compared with Inter's */
 #define LINE 1.25  /* height of a line, of the font size */
 
@@ -130,7 +130,7 @@ static const WrPlotBox frame = { 100, 0, 985, 590 };
 /* Points as in ladders: many at one height, the front falling from left to right. */
 static int draw_points(TestRandom *random, WrPlotSpot *out, int numbers, double crowd)
 {
-    const int count = numbers + (int)(test_random(random) * (MOST - numbers));
+    const int count = numbers + (int)(test_random(random) * (MAX_MOST - numbers));
     for (int i = 0; i < count; i++) {
         const bool front = i < numbers;
         const double along = front ? (i + test_random(random)) / numbers : test_random(random);
@@ -182,7 +182,7 @@ static void numbers_stand_free_and_near_their_points(void **state)
 {
     (void)state;
     TestRandom random = { 7 };
-    WrPlotSpot points[MOST], places[MOST];
+    WrPlotSpot points[MAX_MOST], places[MAX_MOST];
     const WrPlotBox taken = { 110, 100, 290, 18 };
     int strayed = 0, all = 0;
     for (int round = 0; round < 200; round++) {

@@ -625,7 +625,7 @@ static void what_a_folder_passes_on_a_new_file_has(void **state)
 
 /* ---- checksums of written data ---- */
 
-#define MOST 3000000 /* file size limit in bytes */
+#define MAX_MOST 3000000 /* file size limit in bytes */
 
 /* Writes of any length at any position, as encoders and archives make them: the file equals a copy in memory. */
 static void bytes_written_in_any_order_are_checked(void **state)
@@ -637,11 +637,11 @@ static void bytes_written_in_any_order_are_checked(void **state)
     assert_non_null(mkdtemp(folder));
     char *path = wr_path_join(folder, "a.bin");
     TestRandom random = { 11 };
-    uint8_t *model = calloc(MOST, 1), *piece = malloc(MOST);
+    uint8_t *model = calloc(MAX_MOST, 1), *piece = malloc(MAX_MOST);
     for (int run = 0; run < 30; run++) {
         WrFileTarget target;
         int64_t end = 0;
-        memset(model, 0, MOST);
+        memset(model, 0, MAX_MOST);
         assert_true(wr_file_begin(&target, path, &err));
         for (int k = 0; k < 60; k++) {
             const int64_t most = run % 3 == 0 ? 700000 : run % 3 == 1 ? 40 : 5000;
@@ -649,14 +649,14 @@ static void bytes_written_in_any_order_are_checked(void **state)
             int64_t at = test_random(&random) < 0.5
                              ? end /* or over existing bytes, or after them */
                              : (int64_t)(test_random(&random) * 1.2 * (double)end);
-            if (at + many > MOST) at = MOST - many;
+            if (at + many > MAX_MOST) at = MAX_MOST - many;
             for (int64_t i = 0; i < many; i++) piece[i] = (uint8_t)test_random_u64(&random);
             memcpy(model + at, piece, (size_t)many);
             assert_true(wr_file_write_at(&target, piece, (size_t)many, at));
             if (at + many > end) end = at + many;
         }
         if (!wr_file_commit(&target, &err)) fail_msg("run %d: %s", run, err.text);
-        assert_true(wr_file_read(path, MOST, &bytes, &length, &err));
+        assert_true(wr_file_read(path, MAX_MOST, &bytes, &length, &err));
         assert_int_equal(length, end);
         assert_memory_equal(bytes, model, length);
         wr_free(bytes);

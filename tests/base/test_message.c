@@ -9,7 +9,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-/* Each text is what the C library's printf writes, and the message reads as that text. */
+/* Each text equals the output of the C library's printf, and the message reads as that text. */
 static void same(const char *format, ...) __attribute__((format(printf, 1, 2)));
 static void same(const char *format, ...)
 {

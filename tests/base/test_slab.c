@@ -36,10 +36,10 @@ static void blocks_of_which_nothing_is_out_go_back_but_for_ten(void **state)
     const uint64_t before = wr_process_space();
     for (int i = 0; i < MANY; i++) piece[i] = wr_slab_take(&slabs);
     const uint64_t most = wr_process_space();
-    for (int i = 0; i < MANY; i += 2) wr_slab_give(&slabs, piece[i]);
+    for (int i = 0; i < MANY; i += 2) wr_slab_free(&slabs, piece[i]);
     for (int i = 0; i < MANY; i += 2) piece[i] = wr_slab_take(&slabs);
     assert_true(wr_process_space() <= most + BLOCK); /* returned pieces are reused first */
-    for (int i = 0; i < MANY; i++) wr_slab_give(&slabs, piece[i * 7 % MANY]);
+    for (int i = 0; i < MANY; i++) wr_slab_free(&slabs, piece[i * 7 % MANY]);
     if (before == 0) skip(); /* unknown on this system */
     assert_true(most >= before + (uint64_t)MANY * BYTES);
     assert_true(wr_process_space() <= before + 11 * BLOCK); /* of 18 */
@@ -57,7 +57,7 @@ static void pieces_are_kept_while_they_are_out(void **state)
         const unsigned i = (unsigned)(test_random_u64(&random) % MANY);
         if (piece[i]) {
             assert_true(is_marked(piece[i], i));
-            wr_slab_give(&slabs, piece[i]);
+            wr_slab_free(&slabs, piece[i]);
             piece[i] = NULL;
         } else {
             piece[i] = wr_slab_take(&slabs);
@@ -67,7 +67,7 @@ static void pieces_are_kept_while_they_are_out(void **state)
     }
     for (unsigned i = 0; i < MANY; i++) {
         if (piece[i]) assert_true(is_marked(piece[i], i));
-        wr_slab_give(&slabs, piece[i]); /* NULL does nothing */
+        wr_slab_free(&slabs, piece[i]); /* NULL does nothing */
     }
 }
 
@@ -80,7 +80,7 @@ static void take_and_give(int index, int worker, void *ctx)
     for (unsigned i = 0; i < 60; i++) {
         if (!is_marked(piece[i], (unsigned)index << 8 | i))
             __atomic_fetch_add((int *)ctx, 1, __ATOMIC_RELAXED);
-        wr_slab_give(&slabs, piece[i]);
+        wr_slab_free(&slabs, piece[i]);
     }
 }
 

@@ -1,4 +1,4 @@
-/* The words of `wrinkle bench`, and what each of them measures. */
+/* The words of `wrinkle bench`, and the measurements behind each. */
 #include "base/error.h"
 #include "base/suggest.h"
 #include "base/text.h"

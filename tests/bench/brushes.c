@@ -260,7 +260,7 @@ static bool measure(const WrCli *cli, Rates *brush, int dabs, int rounds, WrErro
          k++) { /* the first run warms the memory and is not counted */
         double seconds[] = { time_peer(race), time_engine(race), time_round(race) };
         for (int n = 0; n < 3 && k >= 0; n++) times[n][k] = seconds[n];
-        if (wr_cancel_asked(cli->cancel)) good = wr_fail(err, "interrupted");
+        if (wr_cancel_requested(cli->cancel)) good = wr_fail(err, "interrupted");
     }
     race_free(race);
     if (!good) return false;

@@ -55,7 +55,7 @@ static bool time_stroke(const WrCli *cli, Stroke *stroke, int samples, WrError *
         apply[i] = 1e3 * (applied - start);
         preview[i] = 1e3 * (wr_clock_seconds() - applied);
         stroke->apply_worst_ms = fmax(stroke->apply_worst_ms, apply[i]);
-        if (wr_cancel_asked(cli->cancel)) good = wr_fail(err, "interrupted");
+        if (wr_cancel_requested(cli->cancel)) good = wr_fail(err, "interrupted");
     }
     if (good) {
         stroke->apply_ms = wr_bench_median(apply, samples);
@@ -144,7 +144,7 @@ static bool time_edit(const WrCli *cli, Edit *edit, int rounds, WrError *err)
         start = wr_clock_seconds();
         wr_document_composite(wr_session_document(session), cli->pool);
         times[3][i] = since(start);
-        if (good && wr_cancel_asked(cli->cancel)) good = wr_fail(err, "interrupted");
+        if (good && wr_cancel_requested(cli->cancel)) good = wr_fail(err, "interrupted");
     }
     edit->dab_ms = wr_bench_median(times[0], rounds);
     edit->composite_ms = wr_bench_median(times[1], rounds);

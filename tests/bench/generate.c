@@ -111,7 +111,7 @@ static bool shell(const Bench *b, const char *command, double *ms, WrError *err)
     bool good = system(wr_text_get(&line)) == 0;
     *ms = 1e3 * (wr_clock_seconds() - start);
     wr_text_fini(&line);
-    if (!good && wr_cancel_asked(b->cli->cancel)) return wr_fail(err, "interrupted");
+    if (!good && wr_cancel_requested(b->cli->cancel)) return wr_fail(err, "interrupted");
     return good || wr_fail(err, "bench: this failed: %.180s", command);
 }
 
@@ -320,7 +320,7 @@ static bool round_of(Bench *b, int round, WrError *err)
         if (b->oiiotool && row->oiiotool &&
             !time_file(b, row, &b->peer[kind][round], &b->bare[kind][round], err))
             return false;
-        if (wr_cancel_asked(b->cli->cancel)) return wr_fail(err, "interrupted");
+        if (wr_cancel_requested(b->cli->cancel)) return wr_fail(err, "interrupted");
     }
     return true;
 }

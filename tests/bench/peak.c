@@ -11,7 +11,7 @@
 #include <string.h>
 
 #define DRAM_BYTES (256 << 20) /* all threads together: more than caches hold */
-#define DRAM_LEAST (8 << 20)   /* per thread */
+#define DRAM_MIN (8 << 20)     /* per thread */
 
 const char *const wr_peak_builds[WR_PEAK_BUILDS] = { "v1", "v3", "v4" };
 const char *const wr_peak_levels[WR_PEAK_LEVELS] = { "L1", "L2", "DRAM" };
@@ -125,7 +125,7 @@ bool wr_peaks_measure(WrPool *pool, bool quick, WrPeaks *peaks, WrError *err)
 {
     const int count = wr_pool_threads(pool);
     const size_t most =
-        DRAM_BYTES / (size_t)count > DRAM_LEAST ? DRAM_BYTES / (size_t)count : (size_t)DRAM_LEAST;
+        DRAM_BYTES / (size_t)count > DRAM_MIN ? DRAM_BYTES / (size_t)count : (size_t)DRAM_MIN;
     *peaks = (WrPeaks){ .bytes = { 16 << 10, 512 << 10, (double)most } };
     Piece *pieces = wr_alloc((size_t)count, sizeof *pieces);
     char *memory = wr_try_alloc((size_t)count, most, "the copies of a measurement", err);

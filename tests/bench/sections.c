@@ -369,7 +369,7 @@ static bool measure(WrBenchSections *all, const WrBenchSection *section, WrError
     for (int round = -1; round < all->rounds && good; round++) /* the first round fills caches */
         for (int i = 0; i < all->count && good; i++) {
             good = draw(all, &all->picture[i], &lanes[i], round, err);
-            if (good && wr_cancel_asked(all->cli->cancel)) good = wr_fail(err, "interrupted");
+            if (good && wr_cancel_requested(all->cli->cancel)) good = wr_fail(err, "interrupted");
         }
     for (int i = 0; i < all->count; i++) {
         if (good) all->picture[i].ms = wr_bench_median(lanes[i].ms, all->rounds); /* sorts them */
@@ -380,7 +380,7 @@ static bool measure(WrBenchSections *all, const WrBenchSection *section, WrError
     return good;
 }
 
-/* ---- the sections asked for ---- */
+/* ---- the requested sections ---- */
 
 bool wr_bench_sections(const WrCli *cli, uint64_t chosen, bool quick, bool exact, WrText *text,
                        WrError *err)

@@ -119,7 +119,7 @@ static double peak_of(WrSession *s, const char *line)
    more than these. */
 #define FACTOR 2.0
 #define MORE 5e6
-#define TABLES_MOST 9.1 /* the guide's bound for all of them, in tables of floats */
+#define TABLES_MAX 9.1 /* the guide's bound for all of them, in tables of floats */
 
 /* Each estimate is a bound, and not far above the peak. Lines after a + prepare the following ones; those without an
    estimate only show that the guide's bound holds. */
@@ -231,7 +231,7 @@ static void memory_stays_within_the_estimate(void **state)
         if (getenv("WR_TELL"))
             print_message("%-50.50s said %5.1f, took %5.1f bytes a texel, %.2f\n", lines[i],
                           e.bytes / texels, peak / texels, e.bytes / peak);
-        if (peak > TABLES_MOST * 4.0 * texels)
+        if (peak > TABLES_MAX * 4.0 * texels)
             fail_msg("%s: took %.1f tables", lines[i], peak / texels / 4.0);
         if (!e.unknown &&
             (peak > e.bytes + (e.bytes > 0.0 ? 0.0 : MORE) || e.bytes > peak * FACTOR + MORE))

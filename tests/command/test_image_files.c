@@ -385,7 +385,7 @@ static void expect_channels(const char *path, const char *channel, const char *p
 {
     WrError err = { "" };
     const WrImageRequest wish = { .channel = channel, .part = part };
-    WrImage *image = wr_image_read_wish(path, &wish, &err);
+    WrImage *image = wr_image_read_request(path, &wish, &err);
     if (!image != !*answer)
         fail_msg("%s, channel %s: %s", path, channel ? channel : "-", image ? "read" : err.text);
     if (!image) return;

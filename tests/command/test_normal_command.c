@@ -139,7 +139,7 @@ static void the_space_changes_without_the_file(void **state)
     expect_told(&said, "1 texels that look away");
     const float *made = map_of(s)->image->data;
     assert_near(made[0], 1, 1e-5);
-    assert_near(made[2], WR_NORMAL_LEAST / hypot(0.6, WR_NORMAL_LEAST), 1e-6);
+    assert_near(made[2], WR_NORMAL_MIN / hypot(0.6, WR_NORMAL_MIN), 1e-6);
     for (int c = 0; c < 3; c++) assert_near(made[3 + c], n[3 + c], 1e-6);
     assert_false(map_of(s)->object);
     const WrHash tangent = wr_session_hash(s);

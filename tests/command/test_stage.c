@@ -270,7 +270,7 @@ static void narrower_pictures_see_the_whole(void **state)
         const WrCamera before = scene_of(session)->camera;
         must_run(
             session,
-            "camera pan 0,0 aspect=0.61"); /* what a narrow window does widens nothing for good */
+            "camera pan 0,0 aspect=0.61"); /* a narrow window does not change the stored angle */
         assert_near(scene_of(session)->camera.size, before.size, 1e-12);
         assert_near(scene_of(session)->camera.frame, 1.5, 0);
         const Box again = covered(session, 330, 517, 0);

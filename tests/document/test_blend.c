@@ -192,11 +192,11 @@ static void neutral_heights_leave_every_bit_below(void **state)
 static void runs_of_any_length_give_what_each_texel_gives_alone(void **state)
 {
     (void)state;
-    enum { MOST = 300 };
+    enum { MAX_MOST = 300 };
     TestRandom random = { 4 };
-    float h[MOST], c[MOST], m[MOST], b[MOST], r[MOST + 2];
+    float h[MAX_MOST], c[MAX_MOST], m[MAX_MOST], b[MAX_MOST], r[MAX_MOST + 2];
     for (int mode = 0; mode < WR_BLEND_COUNT; mode++)
-        for (size_t count = 0; count < MOST; count += count < 67 ? 1 : 29) {
+        for (size_t count = 0; count < MAX_MOST; count += count < 67 ? 1 : 29) {
             for (size_t i = 0; i < count; i++) {
                 h[i] = random_float(&random, -1, 1);
                 c[i] = random_float(&random, -0.5, 1.5);

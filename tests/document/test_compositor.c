@@ -9,7 +9,7 @@
 #include "document/composite.h"
 #include "field/field.h"
 
-enum { MOST = 8 };
+enum { MAX_MOST = 8 };
 
 static WrField *new_field(int width, int height, float level)
 {
@@ -25,8 +25,8 @@ typedef struct Own {
 } Own;
 
 typedef struct Stack {
-    Own own[MOST];
-    WrBlendLayer layers[MOST];
+    Own own[MAX_MOST];
+    WrBlendLayer layers[MAX_MOST];
     int count, width, height;
 } Stack;
 
@@ -163,7 +163,7 @@ static void random_edit(Stack *s, TestRandom *random)
     case 3: l->radius = (float)test_random(random); break;
     case 4: swap_layers(s, i, (i + 1) % s->count); break;
     case 5:
-        if (s->count < MOST) insert_random_layer(s, random);
+        if (s->count < MAX_MOST) insert_random_layer(s, random);
         break;
     case 6:
         if (s->count > 1) remove_layer(s, i);

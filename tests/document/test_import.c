@@ -49,7 +49,7 @@ static void expect_same(const char *path, const WrImageRequest *wish, int width,
                         WrWrap wrap)
 {
     WrError err = { "" };
-    WrImage *image = wr_image_read_wish(path, wish, &err);
+    WrImage *image = wr_image_read_request(path, wish, &err);
     WrImageRows *rows = wr_image_rows_open(path, wish, &err);
     if (!image || !rows) fail_msg("%s", err.text);
     const WrImage *head = wr_image_rows_head(rows);

@@ -266,9 +266,9 @@ static void hostile_files_and_names_are_refused(void **state)
 {
     (void)state;
     WrError err = { "" };
-    char *large = malloc(WR_SET_FILE_MOST + 2);
-    memset(large, '#', WR_SET_FILE_MOST + 1);
-    large[WR_SET_FILE_MOST + 1] = '\0';
+    char *large = malloc(WR_SET_FILE_MAX + 2);
+    memset(large, '#', WR_SET_FILE_MAX + 1);
+    large[WR_SET_FILE_MAX + 1] = '\0';
     own_set("bad", large);
     free(large);
     assert_null(wr_set_find("bad", &err));

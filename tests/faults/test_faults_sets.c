@@ -17,11 +17,11 @@
 #include <errno.h>
 
 #define OLD "what was there before"
-#define FILES_MOST 3
+#define MAX_FILES 3
 
 /* A line, and its files. */
 typedef struct Together {
-    const char *line, *files[FILES_MOST + 1];
+    const char *line, *files[MAX_FILES + 1];
 } Together;
 
 static const Together groups[] = {
@@ -33,10 +33,10 @@ static const Together groups[] = {
 };
 #define GROUPS (int)(sizeof groups / sizeof *groups)
 
-static const Together *now;     /* current one */
-static int count;               /* number of its files */
-static char *fresh[FILES_MOST]; /* the bytes of an undisturbed run */
-static size_t fresh_length[FILES_MOST];
+static const Together *now;    /* current one */
+static int count;              /* number of its files */
+static char *fresh[MAX_FILES]; /* the bytes of an undisturbed run */
+static size_t fresh_length[MAX_FILES];
 
 static WrSession *session;
 static char (*said)[256];

@@ -185,8 +185,8 @@ static void small_tables_are_not_measured(void **state)
     for (int w = 1; w <= 12; w++) {
         WrField *field = table_of(w, 13 - w, smooth, 0, 0.7);
         const WrSeam seam = wr_seam_measure(field, NULL);
-        assert_int_equal(seam.u.measured, w >= WR_SEAM_LEAST);
-        assert_int_equal(seam.v.measured, 13 - w >= WR_SEAM_LEAST);
+        assert_int_equal(seam.u.measured, w >= WR_SEAM_MIN);
+        assert_int_equal(seam.v.measured, 13 - w >= WR_SEAM_MIN);
         assert_true(seam.u.measured || seam.u.order == 2);
         wr_field_free(field);
     }

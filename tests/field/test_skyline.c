@@ -11,7 +11,7 @@
 #include <math.h>
 
 #define PI 3.14159265358979323846
-#define MOST 200
+#define MAX_MOST 200
 
 static double random_of(int i, int j)
 {
@@ -28,8 +28,8 @@ static double brute(const double *heights, int n, int i)
 
 static void a_line_has_the_slopes_of_brute_force(void **state)
 {
-    double heights[MOST], slope[MOST];
-    int hull[2 * MOST];
+    double heights[MAX_MOST], slope[MAX_MOST];
+    int hull[2 * MAX_MOST];
     (void)state;
     for (int n = 1; n <= 100; n++)
         for (int kind = 0; kind < 4; kind++) {

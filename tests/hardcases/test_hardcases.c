@@ -120,13 +120,13 @@ static void every_measured_row_can_fail_in_every_precision(void **state)
     }
 }
 
-static bool measures_nothing(WrHardGauge *gauge, WrError *err)
+static bool measures_nothing(WrHardMeasurement *gauge, WrError *err)
 {
     (void)gauge, (void)err;
     return true;
 }
 
-static bool lacks_a_font(WrHardGauge *gauge, WrError *err)
+static bool lacks_a_font(WrHardMeasurement *gauge, WrError *err)
 {
     (void)gauge;
     return wr_fail(err, "no font");

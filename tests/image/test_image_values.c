@@ -155,7 +155,7 @@ static void narrow_elevations_are_numbers(void **state)
         WrError err;
         const Tiff tiff = { .bits = depths[d], .channels = 1, .no_data = true };
         write_tiff("narrow.tif", &tiff);
-        WrImage *image = wr_image_read_wish("narrow.tif", &wish, &err);
+        WrImage *image = wr_image_read_request("narrow.tif", &wish, &err);
         if (!image) fail_msg("%d bits: %s", tiff.bits, err.text);
         for (int k = 0; k < WIDTH * HEIGHT; k++) {
             const double number = (double)code_of(&tiff, k % WIDTH, k / WIDTH, 0);
@@ -179,7 +179,7 @@ static void elevations_have_the_scale_of_their_header(void **state)
                                     "role=\"scale\">0.25</Item></GDALMetadata>" };
     WrError err;
     write_tiff("scaled.tif", &tiff);
-    WrImage *image = wr_image_read_wish("scaled.tif", &wish, &err);
+    WrImage *image = wr_image_read_request("scaled.tif", &wish, &err);
     if (!image) fail_msg("%s", err.text);
     for (int k = 0; k < WIDTH * HEIGHT; k++)
         assert_float_equal((double)image->data[k],
@@ -196,7 +196,7 @@ static WrImage *read_case(const char *name, const WrImageRequest *wish)
     char path[512];
     WrError err;
     snprintf(path, sizeof path, "%s/tests/image/cases/%s", WR_SOURCE_DIR, name);
-    WrImage *image = wr_image_read_wish(path, wish, &err);
+    WrImage *image = wr_image_read_request(path, wish, &err);
     if (!image) fail_msg("%s", err.text);
     return image;
 }

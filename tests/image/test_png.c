@@ -41,7 +41,7 @@ static const Kind kinds[] = {
 };
 
 /* Colours of the palette, and a transparency chunk. */
-static void say_colours(png_structp png, png_infop info, const Kind *kind, TestRandom *random)
+static void print_colours(png_structp png, png_infop info, const Kind *kind, TestRandom *random)
 {
     png_color colours[256];
     png_byte alphas[200];
@@ -76,7 +76,7 @@ static void write_kind(const char *path, const Kind *kind, TestRandom *random)
     png_set_IHDR(png, info, WIDTH, HEIGHT, kind->depth, kind->colour,
                  kind->interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_BASE, PNG_FILTER_TYPE_BASE);
-    say_colours(png, info, kind, random);
+    print_colours(png, info, kind, random);
     png_set_text(png, info, &words, 1);
     if (kind->interlaced) png_set_eXIf_1(png, info, sizeof exif, exif);
     png_write_info(png, info);

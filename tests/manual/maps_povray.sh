@@ -34,7 +34,7 @@ camera { orthographic location <0.5, 3, 0.5> sky z right x up y look_at <0.5, 0,
 light_source { <-600, 1000, 500> color rgb 1 parallel point_at 0 shadowless }
 height_field { png "cell_hf.png" smooth scale <1, $(awk -v r="$range" 'BEGIN { print 0.02 * r }'), 1> $look }
 X
-# beside NAME MOST RMS
+# beside NAME MAX_MOST RMS
 beside() {
     povray "+I$1.pov" "+O$1.exr" +FE +W256 +H256 -D -A +WL0 >said 2>&1 || { tail -n 5 said; exit 1; }
     oiiotool "$1.exr" --ch R,G,B ours.exr --ch R,G,B --diff >difference 2>&1

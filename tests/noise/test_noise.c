@@ -416,7 +416,7 @@ static void what_does_not_fit_together_is_refused_with_a_reason(void **state)
     assert_refused(bad, "lattice source 7");
     bad = value, bad.lattice.period[1] = -1;
     assert_refused(bad, "period -1 along y");
-    bad = value, bad.lattice.period[0] = WR_LATTICE_MOST + 1;
+    bad = value, bad.lattice.period[0] = WR_LATTICE_MAX + 1;
     assert_refused(bad, "period 1073741825 along x");
     bad = value, bad.dim = 3, bad.lattice.source = WR_LATTICE_LECTURE;
     assert_refused(bad, "1D or 2D");
@@ -452,7 +452,7 @@ static void data_that_cannot_be_a_lattice_is_refused(void **state)
     bad = good, bad.kind = WR_NOISE_PERLIN;
     assert_refused(bad, "perlin noise from data");
     bad = good, bad.dim = 3;
-    for (int a = 0; a < 3; a++) bad.lattice.period[a] = WR_LATTICE_MOST;
+    for (int a = 0; a < 3; a++) bad.lattice.period[a] = WR_LATTICE_MAX;
     assert_refused(bad, "the lattice is too large");
     data_slopes[39] = NAN;
     assert_refused(good, "slope 39 is not a finite number");

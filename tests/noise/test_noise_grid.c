@@ -5,8 +5,9 @@
 #include "base/pool.h"
 #include "noise/grid.h"
 
-#define MOST (640 * 300)
-static float f[MOST], fu[MOST], fv[MOST], again[MOST], again_u[MOST], again_v[MOST];
+#define MAX_MOST (640 * 300)
+static float f[MAX_MOST], fu[MAX_MOST], fv[MAX_MOST], again[MAX_MOST], again_u[MAX_MOST],
+    again_v[MAX_MOST];
 
 static WrOctavesPlan plan_of(const WrOctaves *octaves)
 {
@@ -31,7 +32,7 @@ static void tolerances(const WrOctavesPlan *plan, double *height, double slope[2
 
 static void assert_grid_is_points(const WrOctavesPlan *plan, int width, int height)
 {
-    assert_true(width * height <= MOST);
+    assert_true(width * height <= MAX_MOST);
     WrNoiseGrid grid = { width, height, 0, 0, width, height };
     wr_octaves_grid(plan, &grid, f, fu, fv, (size_t)width);
     wr_octaves_grid(plan, &grid, again, NULL, NULL, (size_t)width);

@@ -408,7 +408,7 @@ static bool run_vary(const WrKernels *k, Bench *b, int member, int count)
     for (int i = 0; i < 2; i++)
         fill_shares(vary.own[i], 0.2f + 0.3f * (float)i), fill_shares(vary.white[i], 0.37f);
     for (int i = 0; i < WR_TEXTURED_REFLECTION_RUNGS; i++)
-        vary.rung[i] = (WrKernRung){ texels[i % 2] + 4 * 9, 8, 6 - i % 2, 4 };
+        vary.rung[i] = (WrKernMipLevel){ texels[i % 2] + 4 * 9, 8, 6 - i % 2, 4 };
     if (member < 18)
         k->reflect_vary(&b->light[0], &matter, &vary, models[member / 6], member % 2,
                         (WrReflectSpread)(member % 6 / 2), s);

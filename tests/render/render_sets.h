@@ -7,14 +7,14 @@
 
 #define W 90
 #define H 61
-#define MOST 5
+#define MAX_MOST 5
 
 /* Objects as separate scenes, and all of them in one. */
 typedef struct Set {
-    WrScene *alone[MOST]; /* with the camera and lights of the whole */
-    WrField *field[MOST];
+    WrScene *alone[MAX_MOST]; /* with the camera and lights of the whole */
+    WrField *field[MAX_MOST];
     WrScene *together;
-    const WrField *fields[MOST];
+    const WrField *fields[MAX_MOST];
     int count;
 } Set;
 

@@ -37,7 +37,7 @@ static WrImage *map_of(const WrField *field, double height, int bits, bool down)
 
 static void take_map(WrScene *scene, WrImage *file, bool down, bool found)
 {
-    WrNormalTold told;
+    WrNormalMapReport told;
     wr_image_free(scene->normals.image);
     scene->normals.image = wr_normal_map_read(file,
                                               found  ? WR_GREEN_AUTO

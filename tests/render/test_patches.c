@@ -52,14 +52,14 @@ static void the_teapot_is_told_of(void **state)
 {
     (void)state;
     WrTriangles *pot = teapot(false, WR_PATCH_EACH), *slipped = teapot(true, WR_PATCH_EACH);
-    const WrPatchesTold *told = &pot->patches->told, *slip = &slipped->patches->told;
+    const WrPatchesReport *report = &pot->patches->report, *slip = &slipped->patches->report;
     assert_int_equal(pot->patches->count, 32);
-    assert_int_equal(told->shared, 52);
-    assert_int_equal(told->open, 16);
-    assert_int_equal(told->loops, 6);
-    assert_int_equal(told->collapsed, 8);
-    assert_int_equal(told->crowded + told->against + told->turned, 0);
-    assert_int_equal(told->creased, 0);
+    assert_int_equal(report->shared, 52);
+    assert_int_equal(report->open, 16);
+    assert_int_equal(report->loops, 6);
+    assert_int_equal(report->collapsed, 8);
+    assert_int_equal(report->crowded + report->against + report->turned, 0);
+    assert_int_equal(report->creased, 0);
     assert_int_equal(slip->creased, 1);
     assert_near(slip->crease_deg, 2.70, 0.01);
     assert_int_equal(slip->crease_of[0], 7);
@@ -180,9 +180,9 @@ static void the_table_runs_on(void **state)
         }
         WrTriangles *made = make((const float(*)[48])points, 4, table);
         const WrPatches *set = made->patches;
-        assert_int_equal(set->told.shared, 4);
-        assert_int_equal(set->told.joined, 4);
-        assert_int_equal(set->told.against, 0);
+        assert_int_equal(set->report.shared, 4);
+        assert_int_equal(set->report.joined, 4);
+        assert_int_equal(set->report.against, 0);
         int met = 0;
         for (int32_t a = 0; a < 16; a++)
             for (int32_t b = a + 1; b < 16; b++) {
@@ -252,11 +252,11 @@ static void terrains_are_smooth(void **state)
         assert_int_equal(columns, 12);
         assert_int_equal(rows, 8);
         WrTriangles *made = make((const float(*)[48])points, 96, WR_PATCH_SPLIT);
-        const WrPatchesTold *told = &made->patches->told;
-        assert_int_equal(told->shared, 11 * 8 + 12 * 7);
-        assert_int_equal(told->joined, told->shared);
-        assert_int_equal(told->loops, 1);
-        assert_int_equal(told->creased + told->turned, 0);
+        const WrPatchesReport *report = &made->patches->report;
+        assert_int_equal(report->shared, 11 * 8 + 12 * 7);
+        assert_int_equal(report->joined, report->shared);
+        assert_int_equal(report->loops, 1);
+        assert_int_equal(report->creased + report->turned, 0);
         assert_int_equal(made->patches->columns, 12);
         for (int i = 0; i < 40;
              i++) { /* its point by its own u and v: derivatives are differences */
@@ -323,7 +323,7 @@ static void texts_are_read_or_told(void **state)
     wr_free(a);
     wr_free(b);
     static const struct {
-        const char *text, *told;
+        const char *text, *report;
     } bad[] = {
         { "", "line 1: the file ends" },
         { "0\n", "\"0\" is not the count of patches, 1..4096" },
@@ -341,7 +341,7 @@ static void texts_are_read_or_told(void **state)
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         assert_false(parse(bad[i].text, &err));
-        if (!strstr(err.text, bad[i].told)) fail_msg("%s: %s", bad[i].told, err.text);
+        if (!strstr(err.text, bad[i].report)) fail_msg("%s: %s", bad[i].report, err.text);
     }
     strcat(text, "1\n");
     assert_false(parse(text, &err));

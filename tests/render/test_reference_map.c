@@ -33,7 +33,7 @@ static WrImage *random_map(int w, int h, int bits, int channels, uint64_t seed)
 
 static void put_map(WrScene *scene, WrImage *file, WrGreen green, int channels)
 {
-    WrNormalTold told;
+    WrNormalMapReport told;
     scene->normals.image = wr_normal_map_read(file, green, channels, WR_CODING_AUTO, &told, NULL);
     assert_non_null(scene->normals.image);
     scene->normals.strength = 1;
@@ -95,7 +95,7 @@ static double worst_angle(const WrScene *scene, const WrField *field, int *count
 static void turn_by(WrScene *scene, int k)
 {
     static const WrNormalFrame frames[] = { WR_FRAME_MIKK, WR_FRAME_LECTURE, WR_FRAME_AUTO };
-    WrNormalTold told;
+    WrNormalMapReport told;
     scene->normals.frame = frames[k % 3];
     if (k % 4 != 1) return;
     WrImage *file = random_map(19, 23, 16, 3, 9);
@@ -215,7 +215,7 @@ static void one_triangle_turns_the_map_as_by_hand(void **state)
         Corner corner[3];
         WrScene *scene = scene_of("mesh");
         WrImage *file = wr_image_new(2, 2, 3, NULL);
-        WrNormalTold told;
+        WrNormalMapReport told;
         memcpy(corner, sheared, sizeof corner);
         for (int i = 0; i < 3 && mirrored; i++) corner[i].uv[0] = 1 - corner[i].uv[0];
         wr_scene_set_triangles(scene, triangle_of(corner), "a.obj", NULL);

@@ -66,7 +66,7 @@ static const WrFrameCodes ways[] = {
 #define WAYS ((int)(sizeof ways / sizeof *ways))
 
 /* An environment for the modes that show it. */
-static void bring_sky(WrScene *scene)
+static void update_sky(WrScene *scene)
 {
     WrError err = { "" };
     wr_environment_set(&scene->environment, WR_ENVIRONMENT_MAP_SKY,
@@ -115,7 +115,7 @@ static void try_case(const Case *c, const WrField *field, WrField *edited, TestR
                                .width = 41 + (int)(300 * test_random(random)),
                                .height = 37 + (int)(60 * test_random(random)),
                                .turn_deg = 25 };
-    if (test_random(random) < 0.5) bring_sky(scene);
+    if (test_random(random) < 0.5) update_sky(scene);
     const WrFrameCodes way = way_for((int)(WAYS * test_random(random)), scene);
     WrPool *pool = wr_pool_new(threads[(int)(3 * test_random(random))]);
     WrRenderer *floats = wr_renderer_new(pool, isa, &err),
@@ -171,7 +171,7 @@ static void codes_and_floats_leave_each_other_alone(void **state)
     WrField *field = bumpy_field(61, 37);
     WrScene *scene = scene_of("sphere");
     WrRenderer *renderer = wr_renderer_new(NULL, NULL, &err);
-    bring_sky(scene);
+    update_sky(scene);
     Shot fresh = shoot(scene, field, 301, 50, 1, "auto", false);
     for (int step = 0; step < 4 * WAYS; step++) {
         WrFrameCodes way = way_for(step / 2 % WAYS, scene);
@@ -205,7 +205,7 @@ static void what_lies_behind_is_what_each_ray_meets(void **state)
     WrPool *pool = wr_pool_new(3);
     WrRenderer *renderer = wr_renderer_new(pool, NULL, &err);
     enum { W = 67, H = 45 };
-    bring_sky(scene);
+    update_sky(scene);
     scene->environment.strength = 0.83;
     scene->camera.fit = false;
     scene->camera.eye = (WrVec3){ 2.5, 0.4, 3.1 };

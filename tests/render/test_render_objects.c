@@ -43,10 +43,10 @@ static void each_sample_is_the_nearest_objects(void **state)
     TestRandom random = { 4071 };
     int sure = 0, unsure = 0, several = 0, off = 0;
     for (int k = 0; k < (getenv("WR_FULL") ? 60 : 8); k++) {
-        Set set = some_set(&random, 2 + k % (MOST - 1));
+        Set set = some_set(&random, 2 + k % (MAX_MOST - 1));
         const WrFrameRequest request = request_of(&set);
         Shot all = shoot_set(&request, 2, "auto");
-        Shot own[MOST];
+        Shot own[MAX_MOST];
         for (int i = 0; i < set.count; i++)
             own[i] = shoot(set.alone[i], set.field[i], W, H, 1, "auto", false);
         for (int y = 0; y < H; y++)
@@ -91,7 +91,7 @@ static void nothing_depends_on_threads_kernels_or_the_plan(void **state)
     static const char *const isas[] = { "ref", "v1", "v2", "v3", "v4" };
     TestRandom random = { 22 };
     for (int k = 0; k < 10; k++) {
-        Set set = some_set(&random, 2 + k % (MOST - 1));
+        Set set = some_set(&random, 2 + k % (MAX_MOST - 1));
         WrDials dials = set.together->dials;
         dials.aa = k % 2 ? WR_AA_SUPERSAMPLE : k % 4 ? WR_AA_ADAPTIVE : WR_AA_FILTER;
         dials.samples = 2 + k % 3;

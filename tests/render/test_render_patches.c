@@ -121,7 +121,7 @@ static void a_cut_patch_is_the_patch(void **state)
         quarter(wavy_patch, points);
         for (int k = 1; k < 4; k++) turn_points(points[k], k + i, (k + i) % 2);
         WrScene *cut = scene_with(set_of((const float(*)[48])points, 4, WR_PATCH_SPLIT), &ways[i]);
-        assert_int_equal(cut->triangles->patches->told.joined, 4);
+        assert_int_equal(cut->triangles->patches->report.joined, 4);
         WrScene *own = scene_with(NULL, &ways[i]);
         wr_scene_set_shape(own, &whole->shape);
         /* the same camera, for any bounding sphere */

@@ -66,7 +66,7 @@ static void maps_of_all_formats_are_read_within_their_bound(void **state)
     for (int k = 0; k < 4 * 2 * 2 * 2; k++) {
         const int f = k % 4, channels = 2 + (k / 4) % 2;
         const bool down = k / 8 % 2, found = k / 16;
-        WrNormalTold told;
+        WrNormalMapReport told;
         WrImage *file = map_of(0, formats[f].bits, down, channels);
         WrImage *map = wr_normal_map_read(file,
                                           found  ? WR_GREEN_AUTO
@@ -98,7 +98,7 @@ static void of_a_sum_of_profiles_the_sign_is_undecided(void **state)
     const int bits[] = { 8, 16, 32, -32 };
     (void)state;
     for (int k = 0; k < 8; k++) {
-        WrNormalTold told;
+        WrNormalMapReport told;
         WrImage *file = map_of(1, bits[k % 4], k / 4, 3);
         WrImage *map = wr_normal_map_read(file, WR_GREEN_AUTO, 0, WR_CODING_AUTO, &told, NULL);
         if (!(told.undecided && !told.green_down)) fail_msg("%d bits", bits[k % 4]);
@@ -112,7 +112,7 @@ static void codes_that_are_flat_at_the_middle_are_centred(void **state)
 {
     (void)state;
     for (int k = 0; k < 2; k++) {
-        WrNormalTold told;
+        WrNormalMapReport told;
         WrImage *file = wr_image_new(4, 4, 3, NULL);
         const double last = k ? 65535 : 255, middle = k ? 32768 : 128;
         file->type = k ? WR_PIXEL_U16 : WR_PIXEL_U8;
@@ -169,7 +169,7 @@ static void floats_are_read_by_their_distribution(void **state)
     for (int k = 0; k < 16; k++) {
         const bool coded = k % 2, stray = k / 2 % 2;
         const double lean = leans[k / 4];
-        WrNormalTold told;
+        WrNormalMapReport told;
         WrImage *file = ring_of_floats(coded, lean);
         if (stray) { /* of one texel in forty */
             for (int i = 0; i < 400; i += 40)
@@ -194,7 +194,7 @@ static void floats_are_read_by_their_distribution(void **state)
 static void a_coding_that_is_told_is_taken(void **state)
 {
     (void)state;
-    WrNormalTold told;
+    WrNormalMapReport told;
     WrError err = { "" };
     WrImage *file = ring_of_floats(true, 0.2);
     WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_SIGNED, &told, NULL);
@@ -227,7 +227,7 @@ static void what_looks_away_is_clamped_and_counted(void **state)
     };
     (void)state;
     for (int channels = 2; channels <= 3; channels++) {
-        WrNormalTold told;
+        WrNormalMapReport told;
         WrImage *file = wr_image_new(5, 1, 3, NULL);
         file->type = WR_PIXEL_U16;
         memcpy(file->data, texels, sizeof texels);
@@ -246,7 +246,7 @@ static void what_looks_away_is_clamped_and_counted(void **state)
         wr_image_free(file);
     }
     WrError err = { "" };
-    WrNormalTold told;
+    WrNormalMapReport told;
     WrImage *grey = wr_image_new(2, 2, 1, NULL);
     assert_null(wr_normal_map_read(grey, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, &err));
     assert_non_null(strstr(err.text, "channels"));
@@ -258,7 +258,7 @@ static void a_colour_conversion_is_told(void **state)
 {
     (void)state;
     for (int k = 0; k < 3; k++) {
-        WrNormalTold told;
+        WrNormalMapReport told;
         WrImage *file = map_of(0, 8, false, 3);
         for (int i = 0; i < 3 * TEXELS && k; i++) {
             const double x = (double)file->data[i];

@@ -53,7 +53,7 @@ static void a_cube_is_a_body(void **state)
     const WrTrianglesSource source = cube_source();
     WrTriangles *t = make(&source);
     assert_true(t->closed);
-    assert_false(t->told.inside_out);
+    assert_false(t->report.inside_out);
     assert_int_equal(t->triangle_count, 12);
     assert_int_equal(t->corner_count, 8);
     assert_near(volume(t), 1, 1e-12);
@@ -82,7 +82,7 @@ static void bodies_are_told(void **state)
     WrTrianglesSource source = cube_source();
     source.corners = (const int32_t(*)[3])turned;
     WrTriangles *t = make(&source);
-    assert_true(t->closed && t->told.inside_out);
+    assert_true(t->closed && t->report.inside_out);
     assert_near(volume(t), 1, 1e-12);
     assert_true(t->corners[0].n[0] * (t->corners[0].p[0] - 0.5f) > 0);
     wr_triangles_free(t);
@@ -151,14 +151,14 @@ static void bad_normals_are_mended(void **state)
                                  .point_count = 6,
                                  .triangle_count = 2 };
     WrTriangles *t = make(&source);
-    assert_int_equal(t->told.bad_normal, 2);
+    assert_int_equal(t->report.bad_normal, 2);
     /* the adjacent faces are opposite and add up to 0: each corner uses its face's normal */
-    assert_int_equal(t->told.face_normal, 2);
+    assert_int_equal(t->report.face_normal, 2);
     for (int i = 0; i < t->corner_count; i++) assert_near(fabs((double)t->corners[i].n[2]), 1, 0);
     wr_triangles_free(t);
     source.triangle_count = 1;
     t = make(&source);
-    assert_int_equal(t->told.face_normal, 0);
+    assert_int_equal(t->report.face_normal, 0);
     assert_near((double)t->corners[1].n[2], 1, 0);
     wr_triangles_free(t);
 }
@@ -175,8 +175,8 @@ static void empty_triangles_are_left_out(void **state)
     };
     WrTriangles *t = make(&source);
     assert_int_equal(t->triangle_count, 1);
-    assert_int_equal(t->told.no_area, 3);
-    assert_int_equal(t->told.no_map, 1);
+    assert_int_equal(t->report.no_area, 3);
+    assert_int_equal(t->report.no_map, 1);
     assert_false(t->mapped);
     wr_triangles_free(t);
     WrError err = { "" };
@@ -278,7 +278,7 @@ static void documents_bring_it_back(void **state)
     assert_memory_equal(back->triangles, t->triangles,
                         (size_t)t->triangle_count * sizeof *t->triangles);
     assert_memory_equal(back->parts, t->parts, (size_t)t->part_count * sizeof *t->parts);
-    assert_memory_equal(&back->told, &t->told, sizeof t->told);
+    assert_memory_equal(&back->report, &t->report, sizeof t->report);
     assert_memory_equal(back->centre, t->centre, sizeof t->centre);
     assert_near(back->radius, t->radius, 0);
     wr_triangles_free(back);

@@ -47,7 +47,7 @@ static void try_then_run(const WrEditPreviewRequest *ask, const char *line)
     WrSession *session = session_of(painted, 5);
     WrEditPreview *trial = wr_edit_preview_new(1, SDL_USEREVENT);
     WrHash before = wr_session_hash(session);
-    wr_edit_preview_ask(trial, wr_session_document(session), ask);
+    wr_edit_preview_request(trial, wr_session_document(session), ask);
     wait_until_done(trial);
     WrHash after = wr_session_hash(session);
     assert_memory_equal(&before, &after, sizeof before);
@@ -121,8 +121,8 @@ static void what_a_generator_notes_is_told_with_what_it_shows(void **state)
     static const char line[] = "noise perlin cells=64 octaves=10";
     WrSession *session = wr_session_new(&(WrSessionOptions){ .note = take_note, .note_ctx = said });
     WrEditPreview *trial = wr_edit_preview_new(1, SDL_USEREVENT);
-    wr_edit_preview_ask(trial, wr_session_document(session),
-                        &(WrEditPreviewRequest){ .line = line });
+    wr_edit_preview_request(trial, wr_session_document(session),
+                            &(WrEditPreviewRequest){ .line = line });
     wait_until_done(trial);
     assert_true(wr_session_run(session, line, &err));
     assert_true(said[0]);
@@ -159,7 +159,7 @@ static void a_rough_trial_is_near_and_then_the_exact_one_comes(void **state)
     WrSession *session = session_of((const char *const[]){ "table 1024x1024" }, 1);
     WrEditPreview *trial = wr_edit_preview_new(1, SDL_USEREVENT);
     WrEditPreviewRequest ask = { .line = line, .rough = true };
-    wr_edit_preview_ask(trial, wr_session_document(session), &ask);
+    wr_edit_preview_request(trial, wr_session_document(session), &ask);
     wait_until_done(trial);
     assert_true(wr_edit_preview_rough(trial)); /* the exact one starts when this is fetched */
     WrField *rough = wr_field_share(wr_edit_preview_field(trial));
@@ -190,8 +190,8 @@ static void a_line_that_is_wrong_is_said_to_be(void **state)
     WrEditPreview *trial = wr_edit_preview_new(1, SDL_USEREVENT);
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         WrError err = { "" };
-        wr_edit_preview_ask(trial, wr_session_document(session),
-                            &(WrEditPreviewRequest){ .line = wrong[i].line });
+        wr_edit_preview_request(trial, wr_session_document(session),
+                                &(WrEditPreviewRequest){ .line = wrong[i].line });
         wait_until_done(trial);
         assert_null(wr_edit_preview_field(trial));
         assert_true(wr_edit_preview_error(trial, &err));
@@ -207,8 +207,8 @@ static void a_trial_that_fails_says_why_once(void **state)
     WrError err = { "" };
     WrSession *session = session_of(painted, 5);
     WrEditPreview *trial = wr_edit_preview_new(1, SDL_USEREVENT);
-    wr_edit_preview_ask(trial, wr_session_document(session),
-                        &(WrEditPreviewRequest){ .op = wr_op_find("blur"), .param = { -1 } });
+    wr_edit_preview_request(trial, wr_session_document(session),
+                            &(WrEditPreviewRequest){ .op = wr_op_find("blur"), .param = { -1 } });
     wait_until_done(trial);
     assert_null(wr_edit_preview_field(trial));
     assert_true(wr_edit_preview_error(trial, &err));
@@ -224,7 +224,7 @@ static const WrOutline *outline_of(WrOutliner *outliner, const WrSession *sessio
                                    const WrOutlineRequest *ask)
 {
     uint64_t serial;
-    wr_outliner_ask(outliner, wr_session_document(session), ask);
+    wr_outliner_request(outliner, wr_session_document(session), ask);
     double began = wr_clock_seconds();
     while (wr_outliner_busy(outliner, NULL, NULL) && wr_clock_seconds() - began < 20) usleep(500);
     return wr_outliner_get(outliner, &serial);

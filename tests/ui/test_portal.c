@@ -31,7 +31,7 @@ static volatile int never;
 static WrPortalEnd answer(const Act *act, const WrPortalRequest *ask, char path[4096])
 {
     const pid_t portal = start_portal(act);
-    const WrPortalEnd end = wr_portal_ask(ask, &never, path, 4096);
+    const WrPortalEnd end = wr_portal_request(ask, &never, path, 4096);
     end_portal(portal);
     return end;
 }
@@ -119,16 +119,16 @@ static void who_does_not_answer_is_given_up_and_told(void **state)
     const Act silent = { .replies = false };
     assert_int_equal(answer(&silent, &ask, path), WR_PORTAL_NONE);
     /* no portal */
-    assert_int_equal(wr_portal_ask(&ask, &never, path, sizeof path), WR_PORTAL_NONE);
+    assert_int_equal(wr_portal_request(&ask, &never, path, sizeof path), WR_PORTAL_NONE);
     char *bus = strdup(getenv("DBUS_SESSION_BUS_ADDRESS"));
     setenv("DBUS_SESSION_BUS_ADDRESS", "unix:path=/nowhere/bus", 1);
-    assert_int_equal(wr_portal_ask(&ask, &never, path, sizeof path), WR_PORTAL_NONE);
+    assert_int_equal(wr_portal_request(&ask, &never, path, sizeof path), WR_PORTAL_NONE);
     setenv("DBUS_SESSION_BUS_ADDRESS", "no address", 1);
-    assert_int_equal(wr_portal_ask(&ask, &never, path, sizeof path), WR_PORTAL_NONE);
+    assert_int_equal(wr_portal_request(&ask, &never, path, sizeof path), WR_PORTAL_NONE);
     unsetenv("DBUS_SESSION_BUS_ADDRESS");
     setenv("XDG_RUNTIME_DIR", "/nowhere", 1);
     assert_false(wr_portal_may_be());
-    assert_int_equal(wr_portal_ask(&ask, &never, path, sizeof path), WR_PORTAL_NONE);
+    assert_int_equal(wr_portal_request(&ask, &never, path, sizeof path), WR_PORTAL_NONE);
     setenv("DBUS_SESSION_BUS_ADDRESS", bus, 1);
     free(bus);
     assert_true(wr_portal_may_be());
@@ -154,7 +154,7 @@ static void a_dialog_that_is_stopped_is_closed(void **state)
     const pid_t portal = start_portal(&act);
     stop = 0;
     assert_int_equal(pthread_create(&thread, NULL, stop_soon, NULL), 0);
-    assert_int_equal(wr_portal_ask(&plain, &stop, path, sizeof path), WR_PORTAL_CANCELLED);
+    assert_int_equal(wr_portal_request(&plain, &stop, path, sizeof path), WR_PORTAL_CANCELLED);
     pthread_join(thread, NULL);
     for (int i = 0; i < 20000 && access("closed", F_OK) != 0; i++) usleep(1000);
     assert_int_equal(access("closed", F_OK), 0);

@@ -95,7 +95,7 @@ static void special_strokes(Soak *soak)
 static void try_blur(Soak *soak)
 {
     WrEditPreviewRequest ask = { .op = wr_op_find("blur"), .param = { 2.0 } };
-    wr_edit_preview_ask(soak->trial, doc(soak->session), &ask);
+    wr_edit_preview_request(soak->trial, doc(soak->session), &ask);
     while (wr_edit_preview_busy(soak->trial, NULL, NULL)) SDL_Delay(1);
     (void)wr_edit_preview_field(soak->trial);
     wr_edit_preview_end(soak->trial);

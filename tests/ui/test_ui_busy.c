@@ -184,7 +184,7 @@ static void a_chosen_file_is_taken_afterwards(void **state)
     const pid_t portal = start_portal(&act);
     begin(&bench);
     wr_files_choose_way(bench.app->files, WR_FILE_WAY_DESKTOP);
-    assert_true(wr_files_ask(bench.app->files, WR_FILE_OPEN, NULL, ""));
+    assert_true(wr_files_request_path(bench.app->files, WR_FILE_OPEN, NULL, ""));
     double end = wr_clock_seconds() + PATIENCE;
     while (!SDL_HasEvent(bench.app->file_event) && wr_clock_seconds() < end) usleep(1000);
     Long work = { .app = bench.app, .events = { { .type = SDL_USEREVENT + 100 } }, .count = 1 };

@@ -8,7 +8,7 @@
 #include "ui/state/action.h"
 #include "ui/toolkit/focus.h"
 
-#define STOPS_MOST 1500
+#define STOPS_MAX 1500
 
 static int complaints;
 
@@ -39,8 +39,8 @@ static void point_at(Walk *walk, int x, int y)
 /* ---- one place ---- */
 
 typedef struct Place {
-    WrKeyStop stops[STOPS_MOST];
-    bool reached[STOPS_MOST];
+    WrKeyStop stops[STOPS_MAX];
+    bool reached[STOPS_MAX];
     int count;
 } Place;
 
@@ -58,7 +58,7 @@ static void gather(Walk *walk, Place *place)
     const WrKeyStop *stops = wr_gui_stops(walk->app->gui, &count);
     for (int i = 0; i < count; i++) {
         int at = index_of(place, stops[i].id);
-        if (at < 0 && place->count == STOPS_MOST) fail_msg("%s: too many stops", walk->where);
+        if (at < 0 && place->count == STOPS_MAX) fail_msg("%s: too many stops", walk->where);
         if (at < 0) place->reached[at = place->count++] = false;
         place->stops[at] = stops[i];
     }
@@ -86,7 +86,7 @@ static void go_round(Walk *walk, Place *place, Uint16 mod)
     else tap(walk, SDL_SCANCODE_TAB, mod);
     walk_frame(walk);
     const unsigned first = wr_gui_focus_now(walk->app->gui);
-    for (int n = 0; n < STOPS_MOST; n++) {
+    for (int n = 0; n < STOPS_MAX; n++) {
         gather(walk, place);
         note_focus(walk, place);
         tap(walk, SDL_SCANCODE_TAB, mod);

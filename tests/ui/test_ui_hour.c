@@ -24,7 +24,7 @@
 /* Allowed growth in the second half, random: 2 MB in practice. A 16 KB tile leaked by each stroke would be 16 MB. */
 #define SLACK (8 << 20)
 #define FILLING (24 << 20) /* the limit for less than an hour: the undo budget is still filling */
-#define LAYERS_MOST 6
+#define LAYERS_MAX 6
 
 typedef struct Hour {
     Bench bench;
@@ -99,7 +99,7 @@ static void layers(Hour *hour)
     const int count = wr_session_document(hour->bench.session)->layer_count;
     const int which = 1 + (int)some(hour, 0, count);
     static const char *const blends[] = { "add", "max", "smooth-max", "mix", "multiply" };
-    switch ((int)some(hour, 0, count < LAYERS_MOST ? 7 : 5)) {
+    switch ((int)some(hour, 0, count < LAYERS_MAX ? 7 : 5)) {
     case 0: line(hour, "layer use %d", which); break;
     case 1: line(hour, "layer set %d opacity=%.2f", which, some(hour, 0.2, 1)); break;
     case 2: line(hour, "layer set %d blend=%s", which, blends[(int)some(hour, 0, 5)]); break;
@@ -119,7 +119,7 @@ static void change(Hour *hour)
         line(hour, "adjust offset du=%d dv=%d", (int)some(hour, -99, 99), (int)some(hour, -99, 99));
         break;
     case 2:
-        if (wr_session_document(hour->bench.session)->layer_count < LAYERS_MOST)
+        if (wr_session_document(hour->bench.session)->layer_count < LAYERS_MAX)
             line(hour, "filter blur radius=%.2f", some(hour, 0.5, 4));
         break;
     case 3:

@@ -21,7 +21,7 @@
 
 #define PICTURE_MS 330
 #define GAP_MS 120 /* between events: several of them arrive within a frame */
-#define MOST 64
+#define MAX_MOST 64
 
 static void slow(WrApp *app)
 {
@@ -32,8 +32,8 @@ static void slow(WrApp *app)
 /* ---- events, pushed by a thread of their own while the window draws ---- */
 
 typedef struct Feed {
-    SDL_Event events[MOST];
-    int gap[MOST]; /* ms after it */
+    SDL_Event events[MAX_MOST];
+    int gap[MAX_MOST]; /* ms after it */
     int count;
     Uint32 end; /* event type that marks the end */
     volatile int done;
@@ -41,7 +41,7 @@ typedef struct Feed {
 
 static void add(Feed *feed, const SDL_Event *event, int gap)
 {
-    assert_true(feed->count < MOST);
+    assert_true(feed->count < MAX_MOST);
     feed->gap[feed->count] = gap;
     feed->events[feed->count++] = *event;
 }

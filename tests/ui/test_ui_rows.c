@@ -17,8 +17,8 @@
 
 #include <time.h>
 
-#define ROWS_MOST 2000
-#define STEPS_MOST 40 /* steps through a list by keys */
+#define MAX_ROWS 2000
+#define MAX_STEPS 40 /* steps through a list by keys */
 
 static int rows_changed, rows_of_document, complaints;
 static bool dialogs_seen[WR_DIALOG_COUNT];
@@ -239,7 +239,7 @@ static void by_keys(Walk *walk, const WrKeyStop *stop)
         tap(walk, SDL_SCANCODE_DELETE);
         break;
     case WR_STOP_CHOICE:
-        for (int i = 0; i < STEPS_MOST; i++) {
+        for (int i = 0; i < MAX_STEPS; i++) {
             const uint64_t before = wr_session_revision(walk->session);
             tap(walk, SDL_SCANCODE_DOWN);
             see_messages(walk, stop, "a step down the list");
@@ -289,14 +289,14 @@ static void by_pointer(Walk *walk, const WrKeyStop *stop)
 }
 
 /* Menus, tool strip and status line are the same at every place: they are tested only at the first. */
-static unsigned known[4 * ROWS_MOST];
+static unsigned known[4 * MAX_ROWS];
 static int known_count;
 
 static bool is_new(unsigned id)
 {
     for (int i = 0; i < known_count; i++)
         if (known[i] == id) return false;
-    if (known_count < 4 * ROWS_MOST) known[known_count++] = id;
+    if (known_count < 4 * MAX_ROWS) known[known_count++] = id;
     return true;
 }
 
@@ -319,22 +319,22 @@ static int list_added(Walk *walk, const WrKeyStop *old, int old_count, WrKeyStop
     return n;
 }
 
-#define POPUP_MOST 60 /* tried entries of a popup */
+#define POPUP_MAX 60 /* tried entries of a popup */
 
 static int popups_opened;
 
 /* If a press of the button opens a list or a menu: each of its entries once, by the pointer. */
 static void change_popup(Walk *walk, unsigned id, Uint8 which, const Base *base)
 {
-    static WrKeyStop before[ROWS_MOST];
-    WrKeyStop items[POPUP_MOST], stop;
+    static WrKeyStop before[MAX_ROWS];
+    WrKeyStop items[POPUP_MAX], stop;
     int old;
     if (!come_to(walk, id, &stop)) return;
     const WrKeyStop *stops = wr_gui_stops(walk->app->gui, &old);
     memcpy(before, stops, (size_t)old * sizeof *before);
     click_stop(walk, which, &stop);
     const bool opened = wr_gui_popup_open_now(walk->app->gui);
-    const int count = opened ? list_added(walk, before, old, items, POPUP_MOST) : 0;
+    const int count = opened ? list_added(walk, before, old, items, POPUP_MAX) : 0;
     see_messages(walk, &stop, "a press that may open a list");
     back_to(walk, base);
     for (int i = 0; i < count; i++) {
@@ -373,7 +373,7 @@ static int list_rows(Walk *walk, WrKeyStop *out)
     settle(walk);
     settle(walk);
     const WrKeyStop *now = wr_gui_stops(walk->app->gui, &count);
-    if (count > ROWS_MOST) fail_msg("%s: too many rows", walk->where);
+    if (count > MAX_ROWS) fail_msg("%s: too many rows", walk->where);
     for (int i = 0; i < count; i++)
         if (now[i].kind != WR_STOP_MENU && now[i].kind != WR_STOP_TAB) out[n++] = now[i];
     return n;
@@ -382,7 +382,7 @@ static int list_rows(Walk *walk, WrKeyStop *out)
 /* The rows not seen at an earlier place. */
 static int list_new(Walk *walk, WrKeyStop *out)
 {
-    static WrKeyStop all[ROWS_MOST];
+    static WrKeyStop all[MAX_ROWS];
     const int count = list_rows(walk, all);
     int n = 0;
     for (int i = 0; i < count; i++)
@@ -410,14 +410,14 @@ static void change_again(Walk *walk, const WrKeyStop *rows, int count, int choic
    names, so the panel's other rows are changed again. */
 static void change_kinds(Walk *walk, const WrKeyStop *rows, int count)
 {
-    static WrKeyStop fresh[ROWS_MOST];
+    static WrKeyStop fresh[MAX_ROWS];
     WrKeyStop stop;
     const Base base = base_of(walk);
     char place[sizeof walk->where];
     snprintf(place, sizeof place, "%s", walk->where);
     for (int i = 0; i < count; i++) {
         if (rows[i].kind != WR_STOP_CHOICE) continue;
-        for (int step = 1; step < STEPS_MOST; step++) {
+        for (int step = 1; step < MAX_STEPS; step++) {
             uint64_t before = 0;
             bool there = come_to(walk, rows[i].id, &stop);
             for (int k = 0; k < step && there; k++) {
@@ -439,7 +439,7 @@ static void change_kinds(Walk *walk, const WrKeyStop *rows, int count)
 static void examine(Walk *walk)
 {
     dialogs_seen[walk->app->dialog->now] = true;
-    static WrKeyStop rows[ROWS_MOST];
+    static WrKeyStop rows[MAX_ROWS];
     const double began = (double)clock() / CLOCKS_PER_SEC;
     const int before = rows_changed;
     const bool scene =
@@ -563,7 +563,7 @@ static int items_pressed;
 /* Click through the menus of the path; out: the entries of the last one. */
 static int open_menus(Walk *walk, const unsigned *path, int levels, WrKeyStop *out)
 {
-    static WrKeyStop before[ROWS_MOST];
+    static WrKeyStop before[MAX_ROWS];
     int known_before = 0;
     WrKeyStop stop;
     for (int i = 0; i < levels; i++) {
@@ -572,7 +572,7 @@ static int open_menus(Walk *walk, const unsigned *path, int levels, WrKeyStop *o
         if (!find(walk, path[i], &stop)) return 0;
         click_stop(walk, SDL_BUTTON_LEFT, &stop);
     }
-    return list_added(walk, before, known_before, out, ROWS_MOST);
+    return list_added(walk, before, known_before, out, MAX_ROWS);
 }
 
 static void after_item(Walk *walk, const WrKeyStop *item, const char *act)
@@ -587,7 +587,7 @@ static void after_item(Walk *walk, const WrKeyStop *item, const char *act)
 static void press_item(Walk *walk, const unsigned *path, int levels, const WrKeyStop *item,
                        const Base *base, bool by_key)
 {
-    static WrKeyStop items[ROWS_MOST];
+    static WrKeyStop items[MAX_ROWS];
     WrKeyStop stop;
     Base now = *base;
     open_menus(walk, path, levels, items);
@@ -608,7 +608,7 @@ static void press_item(Walk *walk, const unsigned *path, int levels, const WrKey
 static void walk_menu(Walk *walk, unsigned *path, int levels, const Base *base)
 {
     WrKeyStop items[200];
-    static WrKeyStop all[ROWS_MOST];
+    static WrKeyStop all[MAX_ROWS];
     int count = open_menus(walk, path, levels, all);
     if (count > 200) count = 200;
     memcpy(items, all, (size_t)count * sizeof *items);
@@ -775,7 +775,7 @@ static int rows_now(Walk *walk, WrKeyStop *out)
     int count;
     for (int i = 0; i < 3; i++) walk_frame(walk);
     const WrKeyStop *stops = wr_gui_stops(walk->app->gui, &count);
-    assert_true(count <= ROWS_MOST);
+    assert_true(count <= MAX_ROWS);
     memcpy(out, stops, (size_t)count * sizeof *out);
     return count;
 }
@@ -786,7 +786,7 @@ static const char long_reason[] = "the view cannot be measured: the eye is insid
 
 static void notes_of_generators_move_no_row(Walk *walk)
 {
-    static WrKeyStop rows[ROWS_MOST], after[ROWS_MOST];
+    static WrKeyStop rows[MAX_ROWS], after[MAX_ROWS];
     WrApp *app = walk->app;
     wr_action_run(app, "generate_pattern_bricks");
     settle(walk);
@@ -800,7 +800,7 @@ static void notes_of_generators_move_no_row(Walk *walk)
 
 static void notes_of_accuracy_move_no_row(Walk *walk)
 {
-    static WrKeyStop rows[ROWS_MOST], after[ROWS_MOST];
+    static WrKeyStop rows[MAX_ROWS], after[MAX_ROWS];
     WrApp *app = walk->app;
     WrAccuracy *a = app->accuracy;
     walk_run(walk, "tolerance rms=0.004");
@@ -824,7 +824,7 @@ static void notes_of_accuracy_move_no_row(Walk *walk)
 /* Rows of a dialog with a picture that needs no note, and with one that does. */
 static void estimates_move_no_row(Walk *walk)
 {
-    static WrKeyStop rows[ROWS_MOST], after[ROWS_MOST];
+    static WrKeyStop rows[MAX_ROWS], after[MAX_ROWS];
     WrApp *app = walk->app;
     wr_action_run(app, "render");
     settle(walk);

@@ -14,13 +14,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#define MISSED_MOST 4000
+#define MISSED_MAX 4000
 
 /* True for texts of the program itself: not composed ones, and not the user's. */
 extern const char __executable_start[], _end[];
 
 static struct {
-    const char *text[MISSED_MOST];
+    const char *text[MISSED_MAX];
     int count, asked;
 } missed;
 
@@ -38,7 +38,7 @@ static void note(const char *english)
     if (english < __executable_start || english >= _end || !has_words(english)) return;
     for (int i = 0; i < missed.count; i++)
         if (strcmp(missed.text[i], english) == 0) return;
-    if (missed.count < MISSED_MOST) missed.text[missed.count++] = english;
+    if (missed.count < MISSED_MAX) missed.text[missed.count++] = english;
 }
 
 static void print_text(const char *text)

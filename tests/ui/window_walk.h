@@ -239,7 +239,7 @@ static inline bool walk_open_file(Walk *walk, int which)
 {
     char title[64];
     if (which >= WR_FILE_PRESET) return false;
-    wr_files_ask(walk->app->files, (WrFilePurpose)which, NULL, "");
+    wr_files_request_path(walk->app->files, (WrFilePurpose)which, NULL, "");
     wr_dialog_open(walk->app, WR_DIALOG_FILE);
     snprintf(title, sizeof title, "%d", which);
     return walk_name(walk, "file dialog of purpose %s", title);
@@ -254,7 +254,7 @@ static inline bool walk_open_replace(Walk *walk, int which)
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     fclose(file);
-    wr_replace_ask(walk->app, (WrReplaceKind)which, WR_FILE_HISTORY, path);
+    wr_replace_confirm(walk->app, (WrReplaceKind)which, WR_FILE_HISTORY, path);
     return walk_name(walk, "question before %s is replaced", path + strlen(path) - 18);
 }
 

@@ -362,7 +362,7 @@ static char *reference_key(const WrWork *work, const WrReferenceRequest *wanted)
 
 /* The reference picture: the cached one if its inputs are unchanged, as when dials are varied on a static scene. With
    several objects there is no cache, since its key would be incomplete. */
-static bool bring_reference(WrWork *work, const WrReferenceRequest *wanted, WrPool *pool)
+static bool update_reference(WrWork *work, const WrReferenceRequest *wanted, WrPool *pool)
 {
     WrWorkTools *tools = work->tools;
     char *key = wr_scene_object_count(work->scene) == 1 ? reference_key(work, wanted) : NULL;
@@ -393,7 +393,7 @@ static bool compare(WrWork *work, WrPool *pool, const WrFrameRequest *request, c
                                   .first = REFERENCE_SAMPLES / 2,
                                   .most = REFERENCE_SAMPLES,
                                   .cancel = request->cancel };
-    bool good = bring_reference(work, &wanted, pool) && render(work, 0, pool, request, &frame);
+    bool good = update_reference(work, &wanted, pool) && render(work, 0, pool, request, &frame);
     if (good) {
         wr_errors_measure(frame.rgba, normals, reference, NULL, &work->errors);
         work->samples = reference->samples;

@@ -277,7 +277,7 @@ static void tolerance_value(WrApp *app, const WrTolerance *t)
         run_tolerance(app, (int)t->kind, timed ? 1e-3 * value : value);
 }
 
-static void tell_chosen(const WrApp *app, const WrChosen *c)
+static void report_chosen(const WrApp *app, const WrChosen *c)
 {
     if (!c->any) {
         wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
@@ -297,7 +297,7 @@ static void chosen(WrApp *app)
 {
     const WrChosen *c = &app->accuracy->full_times.chosen;
     wr_gui_list_begin("chosen", wr_gui_px(CHOSEN_UNITS));
-    tell_chosen(app, c);
+    report_chosen(app, c);
     wr_gui_list_end();
     wr_gui_disable(!c->any);
     if (wr_gui_button("Keep these dials", false)) wr_accuracy_keep(app);
@@ -536,7 +536,7 @@ static void draw_plot(const WrAccuracy *a, const WrPad *pad, const WrPlot *plot,
 
 /* ---- texts ---- */
 
-static void tell_rung(const WrLadder *ladder, int index, bool present)
+static void report_rung(const WrLadder *ladder, int index, bool present)
 {
     WrText text = { 0 };
     char time[16], rms[16], max[16];
@@ -554,13 +554,13 @@ static void tell_rung(const WrLadder *ladder, int index, bool present)
 /* Always two lines high, so that nothing below moves when the pointer enters. */
 static void tell(const WrAccuracy *a, int present, bool old)
 {
-    if (a->plot_hot >= 0) tell_rung(&a->plot->ladder, a->plot_hot, a->plot_hot == present);
+    if (a->plot_hot >= 0) report_rung(&a->plot->ladder, a->plot_hot, a->plot_hot == present);
     else if (old)
         wr_gui_text_wrapped(
             WR_FONT_SMALL, WR_COLOUR_CELL,
             "Of another state of table or scene.\nMeasured anew when the view rests.");
     else if (present >= 0 && wr_plot_has_point(&a->plot->ladder.rungs[present]))
-        tell_rung(&a->plot->ladder, present, true);
+        report_rung(&a->plot->ladder, present, true);
     else
         wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
                             "The present setting has no point here.\nClick one to use it.");

@@ -385,7 +385,7 @@ const WrAction wr_actions[] = {
     PAINT(fill, "Fill...", fill, NULL, NULL),
     PAINT(grid, "Grid...", grid, NULL, NULL),
     EDIT(import, "Import heights...", import, NULL, NULL),
-    EDIT(gltf, "Materials of a glTF...", wr_app_ask_gltf, NULL, NULL),
+    EDIT(gltf, "Materials of a glTF...", wr_app_choose_gltf, NULL, NULL),
     ROW(zoom_in, "Zoom in", zoom_in, NULL, NULL),
     ROW(zoom_out, "Zoom out", zoom_out, NULL, NULL),
     ROW(zoom_100, "100 %", zoom_100, NULL, NULL),

@@ -278,5 +278,6 @@ bool wr_is_keys_sculpt(const WrApp *app)
 void wr_act_stamp_open(WrApp *app)
 {
     wr_input_router_let_go(app);
-    if (!wr_files_ask(app->files, WR_FILE_STAMP, NULL, "")) wr_dialog_open(app, WR_DIALOG_FILE);
+    if (!wr_files_request_path(app->files, WR_FILE_STAMP, NULL, ""))
+        wr_dialog_open(app, WR_DIALOG_FILE);
 }

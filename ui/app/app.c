@@ -209,7 +209,7 @@ static void handle(WrApp *app, const SDL_Event *event)
     if (is_hand(event)) app->fitted = true;
     if (event->type == app->ready_event) return; /* wr_patch_update fetches the picture */
     if (event->type == app->rest_event) {
-        wr_idle_probe_asked(app);
+        wr_idle_probe_requested(app);
         return;
     }
     while (wr_pen_next_before(app->pen, event, &pen)) wr_input_router_pen(app, &pen);
@@ -397,7 +397,7 @@ static bool take_pens(WrApp *app)
 }
 
 /* Report once that the system refused threads; the work is done without them. */
-static void tell_refused(WrApp *app)
+static void report_refused(WrApp *app)
 {
     if (wr_thread_refused())
         wr_app_say(app, "The system refuses more threads: long work blocks the window until it is "
@@ -440,8 +440,8 @@ void wr_app_step(WrApp *app)
     wr_busy_update(app);
     if (wr_busy_is_young(app)) SDL_Delay(YOUNG_MS);
     else take_events(app);
-    tell_refused(app);
-    if (!app->busy) wr_app_tend(app);
+    report_refused(app);
+    if (!app->busy) wr_app_compact_journal(app);
     wr_strokes_work(app);
     wr_deferred_run(app);
     for (const WrPart *const *p = app->roster->parts; *p; p++)
@@ -452,7 +452,7 @@ void wr_app_step(WrApp *app)
         draw(app, now);
         wr_timing_note(app, wr_clock_seconds() - now);
     }
-    wr_settings_tend(app);
+    wr_settings_autosave(app);
     wr_idle_probe_step(app, app->busy || works(app));
 }
 

@@ -70,7 +70,7 @@ void wr_idle_probe_free(WrIdleProbe *rest)
     wr_free(rest);
 }
 
-void wr_idle_probe_asked(WrApp *app)
+void wr_idle_probe_requested(WrApp *app)
 {
     WrIdleProbe *rest = app->rest;
     if (!rest) return;

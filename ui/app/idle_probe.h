@@ -12,7 +12,7 @@
 WrIdleProbe *wr_idle_probe_new(Uint32 ask_event);
 void wr_idle_probe_free(WrIdleProbe *rest);
 /* Handle the request event. */
-void wr_idle_probe_asked(WrApp *app);
+void wr_idle_probe_requested(WrApp *app);
 /* Called at the end of each step. busy: work is running that the main loop's timers do not include. */
 void wr_idle_probe_step(WrApp *app, bool busy);
 

@@ -32,7 +32,7 @@
 #define STROKE_EVENTS 500 /* events per stroke; then the button is released briefly */
 #define PAUSE_EVENTS 25
 #define SETTLE_SECONDS 1.5 /* before the first event: first frames, caches */
-#define MOST_SECONDS 60.0  /* limit for the start with a large table */
+#define MAX_SECONDS 60.0   /* limit for the start with a large table */
 #define BUSY 0.10          /* processor load above which the window is not idle */
 #define LAST_SECONDS 5.0   /* time after the last event for its display */
 
@@ -159,7 +159,7 @@ static void step_for(WrApp *app, double seconds)
 
 static bool stopped(const WrApp *app)
 {
-    return app->quit || wr_cancel_asked(app->options->cancel);
+    return app->quit || wr_cancel_requested(app->options->cancel);
 }
 
 /* ---- idle load ---- */
@@ -212,7 +212,7 @@ static double measure_idle(WrApp *app, double seconds)
 /* Draw the first frames and fill caches, however long that lasts with a large table. */
 static void settle(WrApp *app)
 {
-    const double end = wr_clock_seconds() + MOST_SECONDS;
+    const double end = wr_clock_seconds() + MAX_SECONDS;
     while (share_of(app, wr_app_step, 1.0) > BUSY && wr_clock_seconds() < end && !stopped(app))
         continue;
 }
@@ -294,7 +294,7 @@ bool wr_app_latency(const WrAppOptions *options, WrAppLatency *out, WrError *err
 
 /* WRINKLE_TIMING: print milliseconds to the first frame at once, the rest at the end. A value above 1 is the clock at
    the start command: times are counted from it, and the window closes. */
-static void tell_first(WrApp *app)
+static void report_first(WrApp *app)
 {
     const char *asked = getenv("WRINKLE_TIMING");
     double from;
@@ -308,7 +308,7 @@ static void tell_first(WrApp *app)
 void wr_timing_note(WrApp *app, double seconds)
 {
     WrTiming *t = app->timing;
-    if (t->pictures++ == 0) tell_first(app);
+    if (t->pictures++ == 0) report_first(app);
     /* Start the reader process after the first frames, so that the first picture file loads fast and the start is not
        delayed. */
     if (t->pictures == 2 && !app->latency) wr_image_warm();

@@ -46,7 +46,7 @@ double wr_settings_next_time(const WrApp *app)
     return due && !busy && !app->latency ? app->settings_at + CHECK_SECONDS : 0.0;
 }
 
-void wr_settings_tend(WrApp *app)
+void wr_settings_autosave(WrApp *app)
 {
     double due = wr_settings_next_time(app), now = wr_clock_seconds();
     if (due == 0.0 || now < due) return;

@@ -103,7 +103,7 @@ static bool has_display(void)
     return false;
 }
 
-static void tell_display(WrApp *app)
+static void report_display(WrApp *app)
 {
     const WrDisplayEnv env = wr_display_env();
     app->display_word = wr_display_driver_note(&env, SDL_GetCurrentVideoDriver());
@@ -120,7 +120,7 @@ bool wr_window_open(WrApp *app)
     wr_process_drop_interrupts();
     choose_display();
     if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0 || !has_display() || !open_screen(app)) return false;
-    tell_display(app);
+    report_display(app);
     SDL_SetWindowMinimumSize(app->window, 640, 420);
     SDL_SetRenderDrawBlendMode(app->renderer, SDL_BLENDMODE_BLEND);
     SDL_EventState(SDL_DROPFILE, SDL_ENABLE);

@@ -158,9 +158,9 @@ void wr_canvas_ink_slopes(const WrCanvasInk *ink, const float *p, const float *q
 
 /* ----  ---- */
 
-#define LEVEL_REACH 0.5  /* least range on each side of zero for a level table */
-#define ROOM 0.25        /* margin, as a fraction of the range */
-#define USED_LEAST 0.125 /* least used fraction of the range */
+#define LEVEL_REACH 0.5 /* least range on each side of zero for a level table */
+#define ROOM 0.25       /* margin, as a fraction of the range */
+#define USED_MIN 0.125  /* least used fraction of the range */
 #define SLIGHT                                                                                     \
     0.25 /* if dents are much shallower than bumps are high, they must not take half of the greys */
 
@@ -176,7 +176,7 @@ static void own_range(double range[2], double low, double high)
 void wr_range_follow(double range[2], double low, double high, WrRangeHold hold)
 {
     const double span = range[1] - range[0];
-    const bool spare = high > low && high - low < USED_LEAST * span;
+    const bool spare = high > low && high - low < USED_MIN * span;
     if (!(span > 0.0) || (spare && hold == WR_RANGE_RESTS)) {
         own_range(range, low, high);
         return;

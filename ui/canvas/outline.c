@@ -98,7 +98,8 @@ void wr_outliner_free(WrOutliner *outliner)
     wr_free(outliner);
 }
 
-void wr_outliner_ask(WrOutliner *outliner, const WrDocument *document, const WrOutlineRequest *ask)
+void wr_outliner_request(WrOutliner *outliner, const WrDocument *document,
+                         const WrOutlineRequest *ask)
 {
     Work *work = wr_alloc(1, sizeof *work);
     work->document = wr_document_share(document);

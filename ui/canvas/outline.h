@@ -32,7 +32,8 @@ typedef struct WrOutlineRequest {
 } WrOutlineRequest;
 
 /* Request an outline from a snapshot; replaces an earlier request. */
-void wr_outliner_ask(WrOutliner *outliner, const WrDocument *document, const WrOutlineRequest *ask);
+void wr_outliner_request(WrOutliner *outliner, const WrDocument *document,
+                         const WrOutlineRequest *ask);
 /* Remove the outline. */
 void wr_outliner_clear(WrOutliner *outliner);
 /* The newest outline; NULL: none. serial changes with it. Valid until the next call. */

@@ -148,7 +148,7 @@ static bool file(WrApp *app, int i, const WrParam *p, WrGenerateValue *value)
     wr_gui_same_line(4);
     if (wr_gui_glyph("choose", WR_ICON_FOLDER, 24, WR_COLOUR_LABEL)) {
         app->generate->asking_file = i;
-        if (!wr_files_ask(app->files, WR_FILE_GENERATE, NULL, ""))
+        if (!wr_files_request_path(app->files, WR_FILE_GENERATE, NULL, ""))
             wr_dialog_open(app, WR_DIALOG_FILE);
     }
     wr_gui_tip("Choose a file");

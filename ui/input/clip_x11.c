@@ -12,7 +12,7 @@
 #include <string.h>
 
 #define WAIT_SECONDS 2.0
-#define BYTES_MOST (256 << 20)
+#define BYTES_MAX (256 << 20)
 
 typedef WR_ARRAY(char) Bytes;
 
@@ -48,10 +48,10 @@ static bool take(Asking *ask, Atom *type, unsigned long *count)
     int format = 0;
     unsigned long rest = 0;
     *count = 0;
-    if (XGetWindowProperty(ask->display, ask->window, ask->property, 0, BYTES_MOST / 4, True,
+    if (XGetWindowProperty(ask->display, ask->window, ask->property, 0, BYTES_MAX / 4, True,
                            AnyPropertyType, type, &format, count, &rest, &data) != Success)
         return false;
-    bool fits = format == 8 && (size_t)ask->got.count + *count <= BYTES_MOST;
+    bool fits = format == 8 && (size_t)ask->got.count + *count <= BYTES_MAX;
     for (unsigned long i = 0; fits && *type == ask->type && i < *count; i++)
         wr_array_push(&ask->got, (char)data[i]);
     if (data) XFree(data);

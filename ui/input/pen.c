@@ -15,7 +15,7 @@
 
 #define ECHO_SECONDS 0.1  /* mouse events within this time after a pen event are its duplicates */
 #define RANGE_SECONDS 1.0 /* a pen with an event this recent is near the surface */
-#define MARKS_MOST 512    /* limit of unread keys and buttons */
+#define MARKS_MAX 512     /* limit of unread keys and buttons */
 /* events with the tip down and constant pressure: pressure does not work */
 #define STILL_EVENTS 8
 
@@ -307,7 +307,7 @@ static void drop_marks(WrPen *pen, int count)
 void wr_pen_mark(WrPen *pen, const SDL_Event *event)
 {
     WrPenMark mark = { event->type, event->common.timestamp, wr_pen_total(pen) };
-    if (pen->marks.count >= MARKS_MOST) drop_marks(pen, MARKS_MOST / 2); /* unread */
+    if (pen->marks.count >= MARKS_MAX) drop_marks(pen, MARKS_MAX / 2); /* unread */
     wr_array_push(&pen->marks, mark);
 }
 

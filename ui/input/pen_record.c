@@ -18,10 +18,10 @@
 #include <string.h>
 
 #define FIRST_LINE "wrinkle-pen 1"
-#define FILE_MOST ((size_t)256 << 20) /* bytes */
-#define DEVICES_MOST 64
-#define FIELDS_MOST 11
-#define PLACE_MOST 1e6 /* pixels */
+#define MAX_FILE ((size_t)256 << 20) /* bytes */
+#define DEVICES_MAX 64
+#define FIELDS_MAX 11
+#define PLACE_MAX 1e6 /* pixels */
 
 WR_ROWS(event_names);
 static const char *const event_names[WR_PEN_KINDS] = { [WR_ROW(WR_PEN_MOTION)] = "motion",
@@ -108,7 +108,7 @@ typedef struct FileDevice {
 typedef WR_ARRAY(WrPenEvent) Events;
 
 typedef struct Reader {
-    FileDevice devices[DEVICES_MOST];
+    FileDevice devices[DEVICES_MAX];
     Events events; /* `device` is the file's index */
 } Reader;
 
@@ -168,7 +168,7 @@ static bool read_device(Reader *reader, const char *at, const char *end, WrError
     for (int i = 0; i < 6; i++)
         if (!next_field(&at, end, &f[i]))
             return wr_fail(err, "a device is: device INDEX KIND PRESSURE TILT LOW HIGH NAME");
-    if (!whole_of(&f[0], "device", DEVICES_MOST - 1, &index, err)) return false;
+    if (!whole_of(&f[0], "device", DEVICES_MAX - 1, &index, err)) return false;
     int kind = word_of(&f[1], device_names, WR_LENGTH(device_names));
     if (kind < 0)
         return wr_fail(err, "device of kind '%.*s': pen, eraser or finger",
@@ -220,7 +220,7 @@ static bool follows(FileDevice *d, const WrPenEvent *e, WrError *err)
 static bool read_event(Reader *reader, const Field *name, const char *at, const char *end,
                        WrError *err)
 {
-    Field f[FIELDS_MOST];
+    Field f[FIELDS_MAX];
     int held, kind = word_of(name, event_names, WR_PEN_KINDS);
     WrPenEvent e = { 0 };
     if (kind < 0)
@@ -231,11 +231,11 @@ static bool read_event(Reader *reader, const Field *name, const char *at, const 
     if (next_field(&at, end, &f[10])) return wr_fail(err, "an event has 10 numbers, not more");
     e.kind = (WrPenKind)kind;
     if (!number_of(&f[0], "seconds", 0, 1e12, &e.seconds, err) ||
-        !whole_of(&f[1], "device", DEVICES_MOST - 1, &e.device, err) ||
+        !whole_of(&f[1], "device", DEVICES_MAX - 1, &e.device, err) ||
         !whole_of(&f[2], "button", WR_PEN_BUTTONS, &e.button, err) ||
         !whole_of(&f[3], "held", (1 << (WR_PEN_BUTTONS + 1)) - 1, &held, err) ||
-        !number_of(&f[4], "x", -PLACE_MOST, PLACE_MOST, &e.x, err) ||
-        !number_of(&f[5], "y", -PLACE_MOST, PLACE_MOST, &e.y, err) ||
+        !number_of(&f[4], "x", -PLACE_MAX, PLACE_MAX, &e.x, err) ||
+        !number_of(&f[5], "y", -PLACE_MAX, PLACE_MAX, &e.y, err) ||
         !number_of(&f[6], "raw pressure", 0, 1, &e.raw, err) ||
         !number_of(&f[7], "pressure", 0, 1, &e.pressure, err) ||
         !number_of(&f[8], "tilt x", -1, 1, &e.tilt_x, err) ||
@@ -287,8 +287,8 @@ static bool read_all(Reader *reader, const char *bytes, size_t length, const cha
 /* Map devices of the file to devices of the pen. */
 static void take_devices(WrPen *pen, Reader *reader)
 {
-    int index[DEVICES_MOST] = { 0 };
-    for (int i = 0; i < DEVICES_MOST; i++) {
+    int index[DEVICES_MAX] = { 0 };
+    for (int i = 0; i < DEVICES_MAX; i++) {
         const FileDevice *d = &reader->devices[i];
         if (!d->declared) continue;
         int known = pen->units.count;
@@ -321,7 +321,7 @@ bool wr_pen_replay(WrPen *pen, const char *path, double speed, WrError *err)
     bool ok = true;
     if (path[0]) {
         reader = wr_alloc(1, sizeof *reader);
-        ok = wr_file_read(path, FILE_MOST, &bytes, &length, err) &&
+        ok = wr_file_read(path, MAX_FILE, &bytes, &length, err) &&
              read_all(reader, bytes, length, path, err);
     }
     if (ok) {

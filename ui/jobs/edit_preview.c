@@ -26,7 +26,7 @@
 /* ----  ---- */
 
 #define ROUGH_TEXELS 262144.0 /* approximate size of a rough table */
-#define ROUGH_LEAST 16        /* least texels along a side */
+#define ROUGH_MIN 16          /* least texels along a side */
 
 static void note(void *ctx, const char *text)
 {
@@ -45,7 +45,7 @@ static int rough_step(const WrGenerator *generator, const WrField *like)
             return 1;
     /* Reduction by step on both axes divides the number of texels by its square. */
     int step = (int)ceil(sqrt(texels / ROUGH_TEXELS));
-    return step < 1 || least / step < ROUGH_LEAST ? 1 : step;
+    return step < 1 || least / step < ROUGH_MIN ? 1 : step;
 }
 
 /* Convert lengths in texels to a table that is `step` times smaller. */
@@ -333,8 +333,8 @@ static void forget_made(WrEditPreview *trial)
     trial->made = NULL;
 }
 
-void wr_edit_preview_ask(WrEditPreview *trial, const WrDocument *document,
-                         const WrEditPreviewRequest *ask)
+void wr_edit_preview_request(WrEditPreview *trial, const WrDocument *document,
+                             const WrEditPreviewRequest *ask)
 {
     Work *work = wr_alloc(1, sizeof *work);
     work->document = wr_document_share(document);
@@ -373,7 +373,7 @@ static void go_on(WrEditPreview *trial, const Work *rough)
 {
     WrEditPreviewRequest ask = rough->ask;
     ask.rough = false;
-    wr_edit_preview_ask(trial, rough->again, &ask);
+    wr_edit_preview_request(trial, rough->again, &ask);
 }
 
 static void take(WrEditPreview *trial)

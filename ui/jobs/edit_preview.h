@@ -42,8 +42,8 @@ typedef struct WrEditPreviewRequest {
 /* Request the document's composite after an edit. Cancels an earlier request; its result, if any, stays until the new
  * one is ready. Copies a snapshot of the document. (An operation that changes the table's size is previewed on the
  * composite itself.) */
-void wr_edit_preview_ask(WrEditPreview *trial, const WrDocument *document,
-                         const WrEditPreviewRequest *ask);
+void wr_edit_preview_request(WrEditPreview *trial, const WrDocument *document,
+                             const WrEditPreviewRequest *ask);
 /* Discard the preview and its results. */
 void wr_edit_preview_end(WrEditPreview *trial);
 /* The whole document after the last requested edit, exact; NULL: not ready, or of another size. Borrowed like the

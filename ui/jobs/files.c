@@ -143,7 +143,7 @@ static void free_ask(WrPortalRequest *ask)
 static void *wait_for_portal(void *arg)
 {
     WrFiles *files = arg;
-    files->end = wr_portal_ask(&files->ask, &files->stop, files->answer, sizeof files->answer);
+    files->end = wr_portal_request(&files->ask, &files->stop, files->answer, sizeof files->answer);
     SDL_Event event = { .type = files->done_event };
     SDL_PushEvent(&event);
     return NULL;
@@ -271,7 +271,8 @@ static bool accept(WrFiles *files)
     return done;
 }
 
-bool wr_files_ask(WrFiles *files, WrFilePurpose purpose, const char *folder, const char *name)
+bool wr_files_request_path(WrFiles *files, WrFilePurpose purpose, const char *folder,
+                           const char *name)
 {
     if (files->running) return true; /* one at a time: the first is still open */
     files->purpose = purpose;

@@ -50,7 +50,8 @@ void wr_files_set_window(WrFiles *files, SDL_Window *window);
 
 /* Open a dialog. name: initial file name. True: a native dialog is open and the event will follow; false: there is
  * none, and the caller must draw the panel (wr_files_panel). */
-bool wr_files_ask(WrFiles *files, WrFilePurpose purpose, const char *folder, const char *name);
+bool wr_files_request_path(WrFiles *files, WrFilePurpose purpose, const char *folder,
+                           const char *name);
 /* To be called first after the event. True: answered or cancelled; false: the native dialog failed, and the caller must
  * draw the panel. */
 bool wr_files_hear(WrFiles *files);

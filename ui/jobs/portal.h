@@ -29,8 +29,8 @@ bool wr_portal_may_be(void);
  * stop     non-zero, set by any thread, closes the dialog: CANCELLED
  * path     [size]: the chosen file; the first of several
  * Threads  any; blocks the calling one */
-WrPortalEnd wr_portal_ask(const WrPortalRequest *ask, const volatile int *stop, char *path,
-                          size_t size);
+WrPortalEnd wr_portal_request(const WrPortalRequest *ask, const volatile int *stop, char *path,
+                              size_t size);
 
 /* ---- portal_path.c ---- */
 

@@ -193,7 +193,8 @@ static DBusMessage *next(Bus *bus, double deadline)
 {
     for (;;) {
         DBusMessage *message = bus->dbus.connection_pop_message(bus->connection);
-        if (message || wr_cancel_asked(bus->stop) || wr_clock_seconds() >= deadline) return message;
+        if (message || wr_cancel_requested(bus->stop) || wr_clock_seconds() >= deadline)
+            return message;
         if (!bus->dbus.connection_read_write(bus->connection, SLICE_MS)) {
             bus->gone = true;
             return NULL;
@@ -387,21 +388,21 @@ static WrPortalEnd ask_bus(Bus *bus, const WrPortalRequest *ask)
     /* Use the portal's name of the request, which differs from ours only in old portals. */
     if (!told(bus, question(bus, ask, token), deadline, bus->handle, sizeof bus->handle)) {
         if (!bus->gone) close_request(bus); /* a late portal must not open a second dialog */
-        return wr_cancel_asked(bus->stop) ? WR_PORTAL_CANCELLED : WR_PORTAL_NONE;
+        return wr_cancel_requested(bus->stop) ? WR_PORTAL_CANCELLED : WR_PORTAL_NONE;
     }
-    while (!bus->answered && !bus->gone && !wr_cancel_asked(bus->stop)) {
+    while (!bus->answered && !bus->gone && !wr_cancel_requested(bus->stop)) {
         DBusMessage *heard = next(bus, wr_clock_seconds() + 3600.0);
         if (!heard) continue;
         hear(bus, heard);
         bus->dbus.message_unref(heard);
     }
     if (bus->answered) return bus->end;
-    if (wr_cancel_asked(bus->stop)) close_request(bus);
-    return wr_cancel_asked(bus->stop) ? WR_PORTAL_CANCELLED : WR_PORTAL_NONE;
+    if (wr_cancel_requested(bus->stop)) close_request(bus);
+    return wr_cancel_requested(bus->stop) ? WR_PORTAL_CANCELLED : WR_PORTAL_NONE;
 }
 
-WrPortalEnd wr_portal_ask(const WrPortalRequest *ask, const volatile int *stop, char *path,
-                          size_t size)
+WrPortalEnd wr_portal_request(const WrPortalRequest *ask, const volatile int *stop, char *path,
+                              size_t size)
 {
     Bus bus = { .stop = stop, .path = path, .size = size };
     path[0] = '\0';

@@ -319,7 +319,7 @@ bool wr_adjust_by_name(WrApp *app, const char *name)
     return op != NULL;
 }
 
-static void tell_of_lack(WrApp *app)
+static void report_of_lack(WrApp *app)
 {
     WrError err;
     const bool lacked = app->adjust->lacks;
@@ -329,7 +329,7 @@ static void tell_of_lack(WrApp *app)
     if (app->adjust->lacks && !lacked) wr_app_fail(app, &err);
 }
 
-const WrPart wr_part_adjust = { .update = tell_of_lack, .another = forget_below };
+const WrPart wr_part_adjust = { .update = report_of_lack, .another = forget_below };
 
 bool wr_filter_by_name(WrApp *app, const char *name)
 {

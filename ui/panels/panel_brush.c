@@ -269,6 +269,6 @@ void wr_dialog_preset(WrApp *app)
         answer = 1;
         wr_dialog_close(app);
     }
-    if (answer > 0) wr_preset_browser_ask_save(app, name);
+    if (answer > 0) wr_preset_browser_open_save(app, name);
     wr_gui_dialog_end();
 }

@@ -60,7 +60,7 @@ static WrEdit rows(WrCellSize *cell)
     return edit > height ? edit : height;
 }
 
-static void tell_texel(const WrCellSize *cell, const WrField *field)
+static void report_texel(const WrCellSize *cell, const WrField *field)
 {
     WrText text = { 0 };
     wr_text_addf(&text, wr_words("%.4g x %.4g %s a texel"), cell->w / wr_field_width(field),
@@ -75,7 +75,7 @@ void wr_panel_cell(WrApp *app)
     wr_gui_space(8);
     wr_gui_heading("REAL SIZE OF THE CELL");
     const WrEdit edit = rows(&cell);
-    tell_texel(&cell, wr_app_document(app)->layers[0].heights);
+    report_texel(&cell, wr_app_document(app)->layers[0].heights);
     if (edit == WR_EDIT_LIVE) wr_app_live(app)->cell = cell;
     if (edit == WR_EDIT_DONE) run_cell(app, &cell);
 }

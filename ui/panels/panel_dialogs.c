@@ -143,7 +143,7 @@ void wr_dialog_import(WrApp *app)
     wr_gui_label("Picture");
     if (wr_gui_choice("fit", 0, fits, 2, &fit)) app->forms->fit = fit == 1;
     if (wr_dialog_buttons(app, "Choose a file...", true) > 0 &&
-        !wr_files_ask(app->files, WR_FILE_IMPORT, NULL, ""))
+        !wr_files_request_path(app->files, WR_FILE_IMPORT, NULL, ""))
         wr_dialog_open(app, WR_DIALOG_FILE);
     wr_gui_dialog_end();
 }
@@ -181,7 +181,8 @@ static void ask_export_file(WrApp *app, const char *ending)
 {
     char name[24];
     snprintf(name, sizeof name, "%s.%s", ending ? "relief" : "height", ending ? ending : "png");
-    if (!wr_files_ask(app->files, WR_FILE_EXPORT, NULL, name)) wr_dialog_open(app, WR_DIALOG_FILE);
+    if (!wr_files_request_path(app->files, WR_FILE_EXPORT, NULL, name))
+        wr_dialog_open(app, WR_DIALOG_FILE);
 }
 
 static void solid_numbers(WrForms *f)
@@ -262,7 +263,7 @@ void wr_dialog_render(WrApp *app)
     const bool agreed = wr_dialog_buttons(app, "Choose a file...", true) > 0;
     wr_panel_estimate(app, wr_text_get(&line));
     wr_text_fini(&line);
-    if (agreed && !wr_files_ask(app->files, WR_FILE_RENDER, NULL, "picture.png"))
+    if (agreed && !wr_files_request_path(app->files, WR_FILE_RENDER, NULL, "picture.png"))
         wr_dialog_open(app, WR_DIALOG_FILE);
     wr_gui_dialog_end();
 }
@@ -323,7 +324,7 @@ void wr_dialog_film(WrApp *app)
     wr_panel_estimate(app, wr_text_get(&line));
     wr_text_fini(&line);
     snprintf(name, sizeof name, "turn.%s", wr_film_kinds[f->film_kind].ending);
-    if (agreed && !wr_files_ask(app->files, WR_FILE_FILM, NULL, name))
+    if (agreed && !wr_files_request_path(app->files, WR_FILE_FILM, NULL, name))
         wr_dialog_open(app, WR_DIALOG_FILE);
     wr_gui_dialog_end();
 }

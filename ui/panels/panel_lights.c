@@ -134,7 +134,7 @@ static void choose_surround(WrApp *app, WrEnvironmentMapKind kind)
 {
     if (kind != WR_ENVIRONMENT_MAP_FILE)
         wr_light_take_surround(app, wr_environment_map_names[kind]);
-    else if (!wr_files_ask(app->files, WR_FILE_SURROUND, NULL, ""))
+    else if (!wr_files_request_path(app->files, WR_FILE_SURROUND, NULL, ""))
         wr_dialog_open(app, WR_DIALOG_FILE);
 }
 

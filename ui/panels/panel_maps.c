@@ -122,7 +122,7 @@ static void file_row(WrApp *app, const Map *map, const WrImage *image, const WrT
     wr_gui_same_line(4);
     wr_gui_move_to(end - buttons);
     if (wr_gui_glyph("choose", WR_ICON_FOLDER, GLYPH, WR_COLOUR_LABEL) &&
-        !wr_files_ask(app->files, map->purpose, NULL, ""))
+        !wr_files_request_path(app->files, map->purpose, NULL, ""))
         wr_dialog_open(app, WR_DIALOG_FILE);
     wr_gui_tip(map->choose);
     if (!image) return;

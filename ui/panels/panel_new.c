@@ -88,7 +88,8 @@ void wr_dialog_new(WrApp *app)
     wr_gui_space(4);
     if (wr_gui_button("From a picture...", false)) {
         wr_dialog_close(app);
-        if (!wr_files_ask(app->files, WR_FILE_OPEN, NULL, "")) wr_dialog_open(app, WR_DIALOG_FILE);
+        if (!wr_files_request_path(app->files, WR_FILE_OPEN, NULL, ""))
+            wr_dialog_open(app, WR_DIALOG_FILE);
         wr_gui_dialog_end();
         return;
     }

@@ -241,7 +241,7 @@ static void table(WrApp *app)
     const bool changed = wr_gui_choice("table", 0, labels, file + 1, &now);
     wr_gui_as_it_is(false);
     if (changed && now != before) {
-        if (now == file) wr_files_ask(app->files, WR_FILE_TABLE, NULL, "");
+        if (now == file) wr_files_request_path(app->files, WR_FILE_TABLE, NULL, "");
         else if (now > 0) wr_app_run_linef(app, "object set layer=%d", now);
         else wr_app_run_linef(app, "object set layer=all");
     }

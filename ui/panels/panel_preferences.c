@@ -23,7 +23,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define FILE_MOST (1 << 16)
+#define MAX_FILE (1 << 16)
 #define ROW 26.0
 #define ROWS 11.0
 
@@ -97,7 +97,7 @@ static bool write_keys(WrApp *app, const char *action, const char *also, WrError
     size_t length;
     if (!path) return wr_fail(err, "there is no folder for settings: HOME is not set");
     wr_settings_make_folder();
-    bool good = !wr_path_is_there(path) || wr_file_read(path, FILE_MOST, &text, &length, err);
+    bool good = !wr_path_is_there(path) || wr_file_read(path, MAX_FILE, &text, &length, err);
     if (good) {
         wr_keys_edit(app->keys, action, text ? text : "", &once);
         if (also) wr_keys_edit(app->keys, also, wr_text_get(&once), &twice);

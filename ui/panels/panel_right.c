@@ -16,7 +16,7 @@
 #include <SDL.h>
 
 #define LONG_UNITS 400 /* least height of a long tab above the layers */
-#define MOST_TABS 16
+#define MAX_TABS 16
 
 static SDL_Rect below_head(SDL_Rect room, const char *const *labels, int count, SDL_Rect *head)
 {
@@ -50,7 +50,7 @@ void wr_panel_right(WrApp *app)
 {
     const WrTab *tabs = app->roster->tabs;
     const int own = app->roster->tab_count;
-    const char *labels[MOST_TABS + 1];
+    const char *labels[MAX_TABS + 1];
     app->accuracy->error_open = app->accuracy->plot_open = false;
     if (app->layout->panel.w <= 0) return;
     bool split = app->layout->lower.w > 0;

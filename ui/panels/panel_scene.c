@@ -155,7 +155,8 @@ static void browse(WrApp *app, const char *file)
     if (!from && kind == WR_SURFACE_patches && wr_data_find("samples/teapot.bpt", &shipped))
         from = wr_text_get(&shipped);
     char *folder = from ? wr_path_folder(from) : NULL;
-    if (!wr_files_ask(app->files, purpose, folder, "")) wr_dialog_open(app, WR_DIALOG_FILE);
+    if (!wr_files_request_path(app->files, purpose, folder, ""))
+        wr_dialog_open(app, WR_DIALOG_FILE);
     wr_free(folder);
     wr_text_fini(&shipped);
 }

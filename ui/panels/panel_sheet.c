@@ -329,7 +329,7 @@ const WrPart wr_part_sheet = {
 #define PICTURE_UNITS 72
 #define OTHERS_UNITS 372 /* height of everything except the list of maps */
 #define GREEN_SIDE 48    /* texels of the pictures for the green direction */
-#define CHOICES_MOST (WR_SET_ROWS + WR_SETS_MOST + WR_EXPORT_KIND_COUNT)
+#define MAX_CHOICES (WR_SET_ROWS + WR_SETS_MAX + WR_EXPORT_KIND_COUNT)
 
 /* ---- choice of maps ---- */
 
@@ -337,7 +337,7 @@ const WrPart wr_part_sheet = {
 static int list_choices(const WrSheetState *sheet, const char **labels, const char **words)
 {
     int count = 0;
-    for (int i = 0; i < sheet->names.names.count && count < WR_SET_ROWS + WR_SETS_MOST; i++) {
+    for (int i = 0; i < sheet->names.names.count && count < WR_SET_ROWS + WR_SETS_MAX; i++) {
         words[count] = sheet->names.names.data[i];
         labels[count++] = sheet->names.names.data[i];
     }
@@ -359,7 +359,7 @@ static void label(const char *text)
 
 static void choose_what(WrSheetState *sheet)
 {
-    const char *labels[CHOICES_MOST], *words[CHOICES_MOST];
+    const char *labels[MAX_CHOICES], *words[MAX_CHOICES];
     int chosen = 0, count = list_choices(sheet, labels, words);
     for (int i = 0; i < count; i++)
         if (strcmp(words[i], sheet->ask.as) == 0) chosen = i;

@@ -22,7 +22,7 @@
 
 /* Scribble, newest values, curve. */
 
-#define POINTS_MOST 3000
+#define MAX_POINTS 3000
 #define POINT_STEP 1.5    /* pixels between points of the scribble */
 #define RATE_SECONDS 0.5  /* interval of the event rate */
 #define THICKEST 16.0     /* units, at full pressure */
@@ -46,8 +46,8 @@ static void add_point(WrTester *t, const WrPenEvent *e)
         double dx = x - last->x, dy = y - last->y;
         if (dx * dx + dy * dy < POINT_STEP * POINT_STEP) return;
     }
-    if (t->points.count >= POINTS_MOST) {
-        int gone = POINTS_MOST / 3;
+    if (t->points.count >= MAX_POINTS) {
+        int gone = MAX_POINTS / 3;
         t->points.count -= gone;
         memmove(t->points.data, t->points.data + gone,
                 (size_t)t->points.count * sizeof *t->points.data);

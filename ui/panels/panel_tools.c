@@ -29,7 +29,7 @@ typedef struct Button {
 static double pitch_of(const WrApp *app)
 {
     const double room = app->layout->strip.h / wr_gui_scale() - 12;
-    return fmin(WR_TOOL_MOST, floor(room / (app->roster->tool_count + WR_STRIP_MORE)));
+    return fmin(WR_TOOL_MAX, floor(room / (app->roster->tool_count + WR_STRIP_MORE)));
 }
 
 /* Generator families with a button of their own. */
@@ -97,17 +97,17 @@ static void tip(const WrApp *app, const Button *button)
     wr_text_fini(&keys);
 }
 
-#define BUTTONS_MOST 64
+#define BUTTONS_MAX 64
 
 void wr_panel_tools(WrApp *app)
 {
     if (app->layout->strip.w <= 0) return;
-    Button buttons[BUTTONS_MOST];
-    WR_ASSERT(app->roster->tool_count + WR_STRIP_MORE <= BUTTONS_MOST);
+    Button buttons[BUTTONS_MAX];
+    WR_ASSERT(app->roster->tool_count + WR_STRIP_MORE <= BUTTONS_MAX);
     const int count = list(app, buttons);
     wr_gui_area_begin("##tools", WR_AREA_BAR, app->layout->strip, WR_COLOUR_BAR);
     int columns = app->layout->strip.w > wr_gui_px(60) ? 2 : 1;
-    const double pitch = columns == 1 ? pitch_of(app) : WR_TOOL_MOST, side = pitch - 2;
+    const double pitch = columns == 1 ? pitch_of(app) : WR_TOOL_MAX, side = pitch - 2;
     for (int i = 0; i < count; i++) {
         const Button *button = &buttons[i];
         if (i % columns) wr_gui_same_line(0);

@@ -13,7 +13,7 @@
 #define WOBBLE 0.15 /* tolerated variation of the scale */
 /* Pictures before a mode that was too slow is tried again: doubled each time, until one try has lasted this long. */
 #define PATIENCE 40
-#define PATIENCE_MOST 1200
+#define PATIENCE_MAX 1200
 #define LASTED 300
 
 WR_ROWS(wr_moving_names);
@@ -58,7 +58,7 @@ static void go_down(WrMoving *moving)
 {
     moving->way--;
     moving->patience = moving->patience > 0 ? 2 * moving->patience : PATIENCE;
-    if (moving->patience > PATIENCE_MOST) moving->patience = PATIENCE_MOST;
+    if (moving->patience > PATIENCE_MAX) moving->patience = PATIENCE_MAX;
     moving->wait = moving->patience;
     moving->lasted = LASTED; /* it failed */
 }

@@ -80,7 +80,7 @@ struct WrPreview {
     int last_width, last_height; /* of the last picture */
 };
 
-static void wish_clear(Wish *wish)
+static void request_clear(Wish *wish)
 {
     wr_field_free(wish->field);
     wr_tables_free(wish->tables);
@@ -118,8 +118,8 @@ void wr_preview_free(WrPreview *preview)
     wr_choice_fini(&preview->choice);
     wr_renderer_free(preview->renderer);
     wr_pool_free(preview->pool);
-    wish_clear(&preview->next);
-    wish_clear(&preview->now);
+    request_clear(&preview->next);
+    request_clear(&preview->now);
     wr_picture_free(preview->done);
     wr_picture_free(preview->shown);
     wr_picture_free(preview->work);
@@ -290,7 +290,7 @@ static bool choose(WrPreview *preview, WrPreviewLevel *level)
 {
     if (preview->next.field) {
         bool edited = only_edited(preview);
-        wish_clear(&preview->now);
+        request_clear(&preview->now);
         preview->now = preview->next;
         preview->next = (Wish){ 0 };
         __atomic_store_n(&preview->cancel, 0, __ATOMIC_RELAXED);
@@ -406,7 +406,7 @@ static void work_in_place(WrPreview *preview)
 void wr_preview_want(WrPreview *preview, const WrPreviewRequest *wish)
 {
     wr_mutex_lock(&preview->lock);
-    wish_clear(&preview->next);
+    request_clear(&preview->next);
     preview->next = (Wish){ .field = wr_field_share(wish->field),
                             .tables = wr_tables_share(wish->tables),
                             .scene = wr_scene_share(wish->scene),
@@ -508,7 +508,7 @@ static int grid(const WrScene *scene)
 }
 
 /* "6.3 %: exact bspline-fit 8x8, edges", one line per part; listing all dials would be too long for a panel. */
-static void say_parts(const WrChoice *choice, WrText *text)
+static void print_parts(const WrChoice *choice, WrText *text)
 {
     int64_t all = 0;
     for (int i = 0; i < choice->count; i++) all += choice->parts[i].blocks;
@@ -541,7 +541,7 @@ void wr_choice_summary(const WrChoice *choice, WrChosen *out)
     out->finest[WR_DIAL_SCHEME] = slopes->scheme;
     out->finest[WR_DIAL_NORMAL] = normal->bump;
     WrText lines = { 0 };
-    say_parts(choice, &lines);
+    print_parts(choice, &lines);
     snprintf(out->reason, sizeof out->reason, "%s", choice->reason);
     snprintf(out->lines, sizeof out->lines, "%s", wr_text_get(&lines));
     wr_text_fini(&lines);

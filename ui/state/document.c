@@ -121,15 +121,15 @@ static bool tend_work(WrSession *session, void *ctx, WrError *err)
 {
     (void)ctx;
     (void)err;
-    wr_session_journal_tend(session);
+    wr_session_journal_compact(session);
     return true;
 }
 
-void wr_app_tend(WrApp *app)
+void wr_app_compact_journal(WrApp *app)
 {
     bool idle = app->hand->grab == WR_GRAB_NONE && !wr_session_in_stroke(app->session);
-    if (idle && wr_session_journal_wants(app->session))
-        wr_busy_aside(app, "Keeping the journal short", tend_work, NULL);
+    if (idle && wr_session_journal_needs_compacting(app->session))
+        wr_busy_run_background(app, "Keeping the journal short", tend_work, NULL);
 }
 
 /* Name the document after the picture. */
@@ -349,7 +349,8 @@ void wr_app_go_on(WrApp *app)
     case WR_AFTER_NOTHING: break;
     case WR_AFTER_NEW: wr_dialog_open(app, WR_DIALOG_NEW); break;
     case WR_AFTER_OPEN:
-        if (!wr_files_ask(app->files, WR_FILE_OPEN, NULL, "")) wr_dialog_open(app, WR_DIALOG_FILE);
+        if (!wr_files_request_path(app->files, WR_FILE_OPEN, NULL, ""))
+            wr_dialog_open(app, WR_DIALOG_FILE);
         break;
     case WR_AFTER_PATH: open_now(app, path); break;
     case WR_AFTER_LINES: wr_app_new_of(app, path); break;
@@ -424,7 +425,7 @@ bool wr_app_save(WrApp *app)
 {
     const char *path = wr_session_path(app->session);
     if (path[0] && wr_session_file_changed(app->session) &&
-        wr_replace_ask(app, WR_REPLACE_CHANGED, WR_FILE_SAVE, path))
+        wr_replace_confirm(app, WR_REPLACE_CHANGED, WR_FILE_SAVE, path))
         return false;
     if (path[0]) {
         char *copy = wr_strdup(path); /* saving may replace the string */
@@ -446,7 +447,8 @@ static char *folder_of(const WrApp *app)
 static void ask_file(WrApp *app, WrFilePurpose purpose, const char *name)
 {
     char *folder = folder_of(app);
-    if (!wr_files_ask(app->files, purpose, folder, name)) wr_dialog_open(app, WR_DIALOG_FILE);
+    if (!wr_files_request_path(app->files, purpose, folder, name))
+        wr_dialog_open(app, WR_DIALOG_FILE);
     wr_free(folder);
 }
 
@@ -490,7 +492,7 @@ void wr_file_take_import(WrApp *app, const char *path)
 void wr_app_file_chosen(WrApp *app, WrFilePurpose purpose, const char *path)
 {
     bool asks = wr_files_writes(purpose) && !wr_files_agreed(app->files) &&
-                wr_replace_ask(app, WR_REPLACE_CHOSEN, purpose, path);
+                wr_replace_confirm(app, WR_REPLACE_CHOSEN, purpose, path);
     if (!asks) wr_deferred(app, app->roster->takes[purpose], path); /* may take long */
 }
 
@@ -513,7 +515,8 @@ void wr_file_take_gltf(WrApp *app, const char *path)
     wr_text_fini(&line);
 }
 
-void wr_app_ask_gltf(WrApp *app)
+void wr_app_choose_gltf(WrApp *app)
 {
-    if (!wr_files_ask(app->files, WR_FILE_GLTF, NULL, "")) wr_dialog_open(app, WR_DIALOG_FILE);
+    if (!wr_files_request_path(app->files, WR_FILE_GLTF, NULL, ""))
+        wr_dialog_open(app, WR_DIALOG_FILE);
 }

@@ -45,7 +45,7 @@ typedef struct WrDocumentState {
     struct WrAhead *ahead; /* starter being loaded; owned */
 } WrDocumentState;
 
-void wr_app_tend(WrApp *app); /* idle-time upkeep of the journal */
+void wr_app_compact_journal(WrApp *app); /* idle-time upkeep of the journal */
 /* Load the starter document, if nothing else was requested, on a separate thread while the window opens. No other
    code may use the session until wr_app_start or wr_app_start_end. */
 void wr_app_start_ahead(WrApp *app);
@@ -73,6 +73,6 @@ void wr_file_take_open(WrApp *app, const char *path);
 void wr_file_take_save(WrApp *app, const char *path);
 void wr_file_take_import(WrApp *app, const char *path);
 void wr_file_take_gltf(WrApp *app, const char *path);
-void wr_app_ask_gltf(WrApp *app); /* choose a file whose material the active object gets */
+void wr_app_choose_gltf(WrApp *app); /* choose a file whose material the active object gets */
 void wr_file_take_export(WrApp *app, const char *path);
 void wr_file_take_history(WrApp *app, const char *path);

@@ -43,7 +43,7 @@ WrLayout wr_layout_make(const WrLayoutInput *in)
     if (in->panels) {
         int options = (int)lround(44 * s), status = (int)lround(28 * s),
             strip = (int)lround(48 * s);
-        if (in->tools * WR_TOOL_LEAST * s > room.h - options - status - 12 * s)
+        if (in->tools * WR_TOOL_MIN * s > room.h - options - status - 12 * s)
             strip = (int)lround(90 * s);
         int panel = clamp_int((int)lround(w * 0.208), (int)lround(250 * s), (int)lround(340 * s));
         panel = panel < w / 2 ? panel : w / 2;

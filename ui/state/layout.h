@@ -6,8 +6,8 @@
 typedef enum WrShownViews { WR_VIEWS_BOTH, WR_VIEWS_CANVAS, WR_VIEWS_PATCH } WrShownViews;
 
 /* Tool strip spacing in pixels at scale 1: normal, and the smallest for one column. */
-#define WR_TOOL_MOST 38
-#define WR_TOOL_LEAST 30
+#define WR_TOOL_MAX 38
+#define WR_TOOL_MIN 30
 #define WR_STRIP_MORE 3 /* extra buttons among the tools (panels/panel_tools.c) */
 
 typedef struct WrLayoutInput {

@@ -23,7 +23,7 @@
 #include <string.h>
 #include <time.h>
 
-bool wr_replace_ask(WrApp *app, WrReplaceKind kind, WrFilePurpose purpose, const char *path)
+bool wr_replace_confirm(WrApp *app, WrReplaceKind kind, WrFilePurpose purpose, const char *path)
 {
     if (!wr_file_identity(path).there) return false;
     char *kept = wr_strdup(path); /* `path` may be the old string */
@@ -64,7 +64,7 @@ static void go_back(WrApp *app)
         wr_dialog_open(app, WR_DIALOG_PRESET);
     } else {
         char *folder = wr_path_folder(replace->path);
-        if (!wr_files_ask(app->files, replace->purpose, folder, name_of(replace->path)))
+        if (!wr_files_request_path(app->files, replace->purpose, folder, name_of(replace->path)))
             wr_dialog_open(app, WR_DIALOG_FILE);
         wr_free(folder);
     }

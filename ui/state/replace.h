@@ -19,5 +19,5 @@ typedef struct WrReplace { /* state of the open question */
 } WrReplace;
 
 /* If the file exists, open the question and do the action after a yes; returns true. False: there is no such file. */
-bool wr_replace_ask(WrApp *app, WrReplaceKind kind, WrFilePurpose purpose, const char *path);
+bool wr_replace_confirm(WrApp *app, WrReplaceKind kind, WrFilePurpose purpose, const char *path);
 void wr_dialog_replace(WrApp *app);

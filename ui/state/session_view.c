@@ -49,7 +49,7 @@ const WrField *wr_app_canvas_field(const WrApp *app)
 void wr_app_try(WrApp *app, const WrEditPreviewRequest *ask)
 {
     app->trying = true;
-    wr_edit_preview_ask(app->trial, wr_app_document(app), ask);
+    wr_edit_preview_request(app->trial, wr_app_document(app), ask);
     wr_app_redraw(app);
 }
 

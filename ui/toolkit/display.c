@@ -99,13 +99,13 @@ const char *wr_screen_words(WrScreenWay way)
 /* ---- parsers for the desktop's scale ---- */
 
 #define LEAST_DPI 48.0
-#define MOST_DPI 768.0
+#define MAX_DPI 768.0
 #define SETTING "Xft/DPI"
 #define RESOURCE "Xft.dpi:"
 
 static double meant(double dpi)
 {
-    return dpi >= LEAST_DPI && dpi <= MOST_DPI ? dpi : 0;
+    return dpi >= LEAST_DPI && dpi <= MAX_DPI ? dpi : 0;
 }
 
 /* ---- XSETTINGS: byte order, 3 bytes, serial, count; each setting: type, a byte, length of the name, the name up to

@@ -96,13 +96,13 @@ static void say(Words *words, uint32_t word)
     words->word[words->count++] = word;
 }
 
-static void say_rect(Words *words, const SDL_Rect *rect)
+static void print_rect(Words *words, const SDL_Rect *rect)
 {
     memcpy(words->word + words->count, rect, sizeof *rect);
     words->count += 4;
 }
 
-static void say_texture(Words *words, const SDL_Texture *texture, uintptr_t revision)
+static void print_texture(Words *words, const SDL_Texture *texture, uintptr_t revision)
 {
     const uint64_t both[2] = { (uint64_t)(uintptr_t)texture, revision };
     memcpy(words->word + words->count, both, sizeof both);
@@ -143,7 +143,7 @@ void wr_retained_frame_fill(WrRetainedFrame *kept, const SDL_Rect *place, uint32
     Words words = { .count = 0 };
     say(&words, FILL);
     say(&words, argb);
-    say_rect(&words, place);
+    print_rect(&words, place);
     note(kept, &item, &words);
 }
 
@@ -163,9 +163,9 @@ static void note_copy(WrRetainedFrame *kept, SDL_Texture *texture, const SDL_Rec
     Words words = { .count = 0 };
     say(&words, COPY);
     say(&words, (uint32_t)a << 24 | (uint32_t)r << 16 | (uint32_t)g << 8 | b);
-    say_texture(&words, texture, told && !scaled ? 0 : wr_gui_sdl_revision(texture));
-    say_rect(&words, &item.piece.of);
-    say_rect(&words, to);
+    print_texture(&words, texture, told && !scaled ? 0 : wr_gui_sdl_revision(texture));
+    print_rect(&words, &item.piece.of);
+    print_rect(&words, to);
     if (scaled) wr_array_push(&kept->whole, *to);
     note(kept, &item, &words);
 }
@@ -216,8 +216,8 @@ static void note_piece(WrRetainedFrame *kept, const WrGuiCommand *command, const
     if (piece->kind == WR_GUI_SCALED) wr_array_push(&kept->whole, piece->box);
     if (kept->damage) {
         say(&words, (uint32_t)PIECE << 8 | (uint32_t)piece->kind);
-        say_rect(&words, &piece->box);
-        if (!plain) say_texture(&words, command->texture, wr_gui_sdl_revision(command->texture));
+        print_rect(&words, &piece->box);
+        if (!plain) print_texture(&words, command->texture, wr_gui_sdl_revision(command->texture));
         for (int k = 0; k < 3; k++) {
             const WrGuiVertex *at = &command->vertices[command->indices[piece->first + k]];
             memcpy(words.word + words.count, at, sizeof *at);

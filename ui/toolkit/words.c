@@ -15,7 +15,7 @@
 #include <string.h>
 
 #define MAGIC 0x950412deu
-#define MOST (8u << 20) /* size limit of a file */
+#define MAX_MOST (8u << 20) /* size limit of a file */
 
 const WrLanguage wr_languages[] = { { "", "As the system" },
                                     { "en", "English" },
@@ -145,7 +145,7 @@ static WrCatalogue *read_file(const char *code)
         char *bytes;
         size_t size;
         wr_text_addf(&path, "%s/%s/%s/LC_MESSAGES/wrinkle.mo", folder, places[i], code);
-        if (wr_file_read(wr_text_get(&path), MOST, &bytes, &size, &ignored)) {
+        if (wr_file_read(wr_text_get(&path), MAX_MOST, &bytes, &size, &ignored)) {
             catalogue = wr_catalogue_new(bytes, size);
             wr_free(bytes);
         }
@@ -183,14 +183,14 @@ static const char *find(const char *english)
     return spoken.now ? wr_catalogue_find(spoken.read[spoken.now], english) : NULL;
 }
 
-static const char *say_format(const char *english)
+static const char *print_format(const char *english)
 {
     const char *found = find(english);
     return found ? found : english;
 }
 
 /* In gettext's files, a context and the byte 4 are before the text. */
-static const char *say_value(const char *english)
+static const char *print_value(const char *english)
 {
     char key[WR_WORDS_MESSAGE];
     snprintf(key, sizeof key, "value\4%s", english);
@@ -200,7 +200,7 @@ static const char *say_value(const char *english)
 
 const char *wr_words_message(const char *message, char *out, size_t size)
 {
-    static const WrMessageWords words = { say_format, say_value };
+    static const WrMessageWords words = { print_format, print_value };
     const char *whole = find(message); /* a text that no format wrote */
     return wr_message_print(whole ? whole : message, &words, out, size);
 }

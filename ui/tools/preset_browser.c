@@ -273,11 +273,11 @@ static bool write_preset(WrApp *app, const char *folder, const char *name, WrErr
     return ok;
 }
 
-void wr_preset_browser_ask_save(WrApp *app, const char *name)
+void wr_preset_browser_open_save(WrApp *app, const char *name)
 {
     char *folder = is_name(name) ? wr_library_user_folder(NULL) : NULL;
     char *path = folder ? preset_path(folder, name) : NULL;
-    bool asks = path && wr_replace_ask(app, WR_REPLACE_PRESET, WR_FILE_PRESET, path);
+    bool asks = path && wr_replace_confirm(app, WR_REPLACE_PRESET, WR_FILE_PRESET, path);
     if (!asks) wr_preset_browser_save(app, name);
     wr_free(path);
     wr_free(folder);

@@ -63,7 +63,7 @@ bool wr_preset_browser_tip(WrApp *app, const char *path);
 /* Save the brush as a user preset, and choose it. */
 bool wr_preset_browser_save(WrApp *app, const char *name);
 /* the same, with a question if the name exists */
-void wr_preset_browser_ask_save(WrApp *app, const char *name);
+void wr_preset_browser_open_save(WrApp *app, const char *name);
 void wr_preset_browser_take(WrApp *app, const char *path); /* after a yes: save the typed name */
 /* Delete a user preset. */
 bool wr_preset_browser_delete(WrApp *app, const char *id);

@@ -32,7 +32,8 @@ static void marks_update(WrApp *app)
     uint64_t key = selection ? wr_field_key(selection) : 0;
     if (marks->trying || key == marks->asked_key) return;
     marks->asked_key = key;
-    if (selection) wr_outliner_ask(marks->outliner, wr_app_document(app), &(WrOutlineRequest){ 0 });
+    if (selection)
+        wr_outliner_request(marks->outliner, wr_app_document(app), &(WrOutlineRequest){ 0 });
     else wr_outliner_clear(marks->outliner);
     wr_app_redraw(app);
 }
@@ -42,7 +43,7 @@ void wr_marks_try(WrApp *app, const WrOutlineRequest *ask)
     WrMarks *marks = app->marks;
     marks->trying = ask != NULL;
     marks->asked_key = 0;
-    if (ask) wr_outliner_ask(marks->outliner, wr_app_document(app), ask);
+    if (ask) wr_outliner_request(marks->outliner, wr_app_document(app), ask);
     else wr_outliner_clear(marks->outliner);
     wr_app_redraw(app);
 }

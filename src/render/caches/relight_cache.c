@@ -27,19 +27,19 @@ static int each_of(unsigned groups)
     return each;
 }
 
-static void drop_numbers(WrRelight *steady)
+static void drop_numbers(WrRelight *relight)
 {
-    wr_free(steady->numbers);
-    wr_free(steady->owner);
-    for (int i = 0; i < steady->share_count; i++) wr_free(steady->shares[i].of);
-    wr_free(steady->shares);
-    wr_free(steady->lamps);
-    steady->numbers = NULL;
-    steady->owner = NULL;
-    steady->shares = NULL;
-    steady->lamps = NULL;
-    steady->share_count = 0;
-    steady->whole = false;
+    wr_free(relight->numbers);
+    wr_free(relight->owner);
+    for (int i = 0; i < relight->share_count; i++) wr_free(relight->shares[i].of);
+    wr_free(relight->shares);
+    wr_free(relight->lamps);
+    relight->numbers = NULL;
+    relight->owner = NULL;
+    relight->shares = NULL;
+    relight->lamps = NULL;
+    relight->share_count = 0;
+    relight->whole = false;
 }
 
 static void free_parts(WrRelightPart *parts, int count)
@@ -51,11 +51,11 @@ static void free_parts(WrRelightPart *parts, int count)
     wr_free(parts);
 }
 
-void wr_relight_fini(WrRelight *steady)
+void wr_relight_fini(WrRelight *relight)
 {
-    drop_numbers(steady);
-    free_parts(steady->parts, steady->view.count);
-    *steady = (WrRelight){ .parts = NULL };
+    drop_numbers(relight);
+    free_parts(relight->parts, relight->view.count);
+    *relight = (WrRelight){ .parts = NULL };
 }
 
 /* ---- supported scenes ---- */
@@ -156,7 +156,7 @@ static bool same(const WrRelightView *a, const WrRelightView *b)
 }
 
 /* Makes this view the one that later frames are compared with. */
-static void take(WrRelight *steady, const WrRelightView *view)
+static void take(WrRelight *relight, const WrRelightView *view)
 {
     WrRelightPart *parts = wr_alloc((size_t)view->count, sizeof *parts);
     for (int i = 0; i < view->count; i++) {
@@ -167,11 +167,11 @@ static void take(WrRelight *steady, const WrRelightView *view)
         parts[i].scene =
             wr_scene_share(parts[i].scene); /* before the old one is released: it may be the same */
     }
-    drop_numbers(steady);
-    free_parts(steady->parts, steady->view.count);
-    steady->parts = parts;
-    steady->view = *view;
-    steady->view.parts = parts;
+    drop_numbers(relight);
+    free_parts(relight->parts, relight->view.count);
+    relight->parts = parts;
+    relight->view = *view;
+    relight->view.parts = parts;
 }
 
 /* ---- lamps ---- */
@@ -209,31 +209,31 @@ static size_t number_bytes(const WrRelightView *view)
 }
 
 /* A share that no lamp of the current frame uses, or a new one without data; NULL: out of memory. */
-static WrRelightShare *empty_share(WrRelight *steady)
+static WrRelightShare *empty_share(WrRelight *relight)
 {
-    const size_t count = samples_of(&steady->view);
+    const size_t count = samples_of(&relight->view);
     WrRelightShare *share = NULL;
-    for (int i = 0; i < steady->share_count && !share; i++)
-        if (!steady->shares[i].used) share = &steady->shares[i];
+    for (int i = 0; i < relight->share_count && !share; i++)
+        if (!relight->shares[i].used) share = &relight->shares[i];
     if (!share) {
-        const size_t more = ((size_t)steady->share_count + 1) * share_bytes(&steady->view);
-        if (more + number_bytes(&steady->view) > WR_RELIGHT_MOST) return NULL;
+        const size_t more = ((size_t)relight->share_count + 1) * share_bytes(&relight->view);
+        if (more + number_bytes(&relight->view) > WR_RELIGHT_MAX) return NULL;
         float *of = wr_try_alloc(count, sizeof *of, "shadows", NULL);
         if (!of) return NULL;
-        const size_t shares = (size_t)steady->share_count;
-        steady->shares = wr_realloc(steady->shares, shares, shares + 1, sizeof *steady->shares);
-        share = &steady->shares[steady->share_count++];
+        const size_t shares = (size_t)relight->share_count;
+        relight->shares = wr_realloc(relight->shares, shares, shares + 1, sizeof *relight->shares);
+        share = &relight->shares[relight->share_count++];
         share->of = of;
     }
     for (size_t i = 0; i < count; i++) share->of[i] = -1;
     return share;
 }
 
-static WrRelightShare *known_share(const WrRelight *steady, const WrLight *lamp, bool cast,
+static WrRelightShare *known_share(const WrRelight *relight, const WrLight *lamp, bool cast,
                                    int fine)
 {
-    for (int i = 0; i < steady->share_count; i++) {
-        WrRelightShare *share = &steady->shares[i];
+    for (int i = 0; i < relight->share_count; i++) {
+        WrRelightShare *share = &relight->shares[i];
         if (share->cast == cast && share->fine == fine && same_lamp(&share->lamp, lamp))
             return share;
     }
@@ -242,17 +242,17 @@ static WrRelightShare *known_share(const WrRelight *steady, const WrLight *lamp,
 
 /* Assigns a share to each lamp. Lamps with known shares come first, so that no known share is reused for another
    lamp. */
-static void bring_shares(WrRelight *steady, const WrScene *scene, bool cast, int fine)
+static void update_shares(WrRelight *relight, const WrScene *scene, bool cast, int fine)
 {
     for (int round = 0; round < 2; round++)
         for (int k = 0, i = 0; k < scene->light_count && fine > 0; k++) {
             const WrLight *lamp = &scene->lights[k];
             if (!wr_view_shows_light(scene, k)) continue;
-            float **of = cast ? &steady->lamps[i].cast : &steady->lamps[i].relief;
+            float **of = cast ? &relight->lamps[i].cast : &relight->lamps[i].relief;
             i++;
             if (*of || (cast && !lamp->shadow)) continue;
-            WrRelightShare *share = known_share(steady, lamp, cast, fine);
-            if (!share && round == 1 && (share = empty_share(steady))) {
+            WrRelightShare *share = known_share(relight, lamp, cast, fine);
+            if (!share && round == 1 && (share = empty_share(relight))) {
                 share->lamp = *lamp;
                 share->cast = cast;
                 share->fine = fine;
@@ -264,17 +264,17 @@ static void bring_shares(WrRelight *steady, const WrScene *scene, bool cast, int
 }
 
 /* Updates the shares of the current view's lamps. */
-static void bring_lamps(WrRelight *steady, const WrRelightView *view)
+static void update_lamps(WrRelight *relight, const WrRelightView *view)
 {
     const WrScene *scene = view->parts[0].scene;
     const int rays = fine_of(view, true), directions = fine_of(view, false);
-    wr_free(steady->lamps);
-    steady->lamps = NULL;
-    for (int i = 0; i < steady->share_count; i++) steady->shares[i].used = false;
+    wr_free(relight->lamps);
+    relight->lamps = NULL;
+    for (int i = 0; i < relight->share_count; i++) relight->shares[i].used = false;
     if (rays == 0 && directions == 0) return;
-    steady->lamps = wr_alloc((size_t)scene->light_count + 1, sizeof *steady->lamps);
-    bring_shares(steady, scene, true, rays);
-    bring_shares(steady, scene, false, directions);
+    relight->lamps = wr_alloc((size_t)scene->light_count + 1, sizeof *relight->lamps);
+    update_shares(relight, scene, true, rays);
+    update_shares(relight, scene, false, directions);
 }
 
 /* ---- whole view ---- */
@@ -289,30 +289,30 @@ size_t wr_relight_bytes(const WrRelightView *view)
     return number_bytes(view) + shares * share_bytes(view);
 }
 
-static bool make_room(WrRelight *steady, const WrRelightView *view)
+static bool make_room(WrRelight *relight, const WrRelightView *view)
 {
     const size_t bytes = number_bytes(view), samples = samples_of(view);
-    drop_numbers(steady);
-    steady->groups = all_groups(view);
-    steady->each = each_of(steady->groups);
-    if (bytes > WR_RELIGHT_MOST) return false;
-    steady->numbers = wr_try_alloc(bytes - samples, 1, "normals", NULL);
-    steady->owner = wr_try_alloc(samples, 1, "samples", NULL);
-    return steady->numbers && steady->owner;
+    drop_numbers(relight);
+    relight->groups = all_groups(view);
+    relight->each = each_of(relight->groups);
+    if (bytes > WR_RELIGHT_MAX) return false;
+    relight->numbers = wr_try_alloc(bytes - samples, 1, "normals", NULL);
+    relight->owner = wr_try_alloc(samples, 1, "samples", NULL);
+    return relight->numbers && relight->owner;
 }
 
-WrRelightUse wr_relight_update(WrRelight *steady, const WrRelightView *view)
+WrRelightUse wr_relight_update(WrRelight *relight, const WrRelightView *view)
 {
-    const bool known = steady->whole;
-    const bool lacks = known && (all_groups(view) & ~steady->groups) != 0;
-    if (lacks || !same(&steady->view, view)) {
-        take(steady, view);
+    const bool known = relight->whole;
+    const bool lacks = known && (all_groups(view) & ~relight->groups) != 0;
+    if (lacks || !same(&relight->view, view)) {
+        take(relight, view);
         return WR_RELIGHT_NONE;
     }
-    if (!known && !make_room(steady, view)) {
-        drop_numbers(steady);
+    if (!known && !make_room(relight, view)) {
+        drop_numbers(relight);
         return WR_RELIGHT_NONE;
     }
-    bring_lamps(steady, view);
+    update_lamps(relight, view);
     return known ? WR_RELIGHT_KNOWN : WR_RELIGHT_NOTE;
 }

@@ -56,8 +56,8 @@ typedef struct WrRelightView {
 
 #define WR_RELIGHT_BLOCK 64 /* samples in one block of a row */
 /* Memory limit: a view of up to 2048 x 2048 pixels with one shadow fits; larger ones are not cached. */
-#define WR_RELIGHT_MOST ((size_t)384000000)
-#define WR_RELIGHT_MOST_TEXT "384 MB"
+#define WR_RELIGHT_MAX ((size_t)384000000)
+#define WR_RELIGHT_MAX_TEXT "384 MB"
 
 /* Visibility of one lamp at each sample. */
 typedef struct WrRelightShare {
@@ -93,26 +93,26 @@ typedef struct WrRelight {
     WrRelightLamp *lamps;
     bool whole;       /* every sample is stored */
     WrRelightUse use; /* by the current frame */
-    char told[120];   /* status text for the plan's row */
+    char status[120]; /* status text for the plan's row */
 } WrRelight;
 
 _Static_assert(WR_OBJECTS_MAX < 255, "an owner is a byte");
 
-static inline size_t wr_relight_place(const WrRelight *steady, int x, int y)
+static inline size_t wr_relight_place(const WrRelight *relight, int x, int y)
 {
-    return (size_t)y * (size_t)steady->view.width + (size_t)x;
+    return (size_t)y * (size_t)relight->view.width + (size_t)x;
 }
 
 /* Index of the numbers of sample x, y. They are WR_RELIGHT_BLOCK apart; samples to the right follow, up to the
    next multiple of that. */
-static inline size_t wr_relight_at(const WrRelight *steady, int x, int y)
+static inline size_t wr_relight_at(const WrRelight *relight, int x, int y)
 {
-    const int blocks = (steady->view.width + WR_RELIGHT_BLOCK - 1) / WR_RELIGHT_BLOCK;
+    const int blocks = (relight->view.width + WR_RELIGHT_BLOCK - 1) / WR_RELIGHT_BLOCK;
     const size_t block = (size_t)y * (size_t)blocks + (size_t)(x / WR_RELIGHT_BLOCK);
-    return block * (size_t)steady->each * WR_RELIGHT_BLOCK + (size_t)(x % WR_RELIGHT_BLOCK);
+    return block * (size_t)relight->each * WR_RELIGHT_BLOCK + (size_t)(x % WR_RELIGHT_BLOCK);
 }
 
-void wr_relight_fini(WrRelight *steady);
+void wr_relight_fini(WrRelight *relight);
 /* Reason why the scene cannot be relit from stored numbers, or NULL. */
 const char *wr_relight_hinders(const WrScene *scene, const WrPlan *plan);
 /* The groups that shading reads under that plan. */
@@ -123,4 +123,4 @@ size_t wr_relight_bytes(const WrRelightView *view);
    from the last one only in light, NOTE if it does so for the first time. Without memory the cache is not used.
    The caller sets `whole` once every tile is stored; until then it is filled again. view: borrowed for the call;
    scenes are shared, plans copied. */
-WrRelightUse wr_relight_update(WrRelight *steady, const WrRelightView *view);
+WrRelightUse wr_relight_update(WrRelight *relight, const WrRelightView *view);

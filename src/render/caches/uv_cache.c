@@ -4,18 +4,18 @@
 
 #include <string.h>
 
-void wr_uv_cache_fini(WrUvCache *sight)
+void wr_uv_cache_fini(WrUvCache *cache)
 {
-    wr_free(sight->u);
-    wr_free(sight->v);
-    *sight = (WrUvCache){ .u = NULL };
+    wr_free(cache->u);
+    wr_free(cache->v);
+    *cache = (WrUvCache){ .u = NULL };
 }
 
 void wr_uv_cache_key(WrUvCacheKey *key, const WrViewMesh *mesh, const WrView *view, bool exact,
                      const WrKernels *kernels)
 {
     memset(key, 0, sizeof *key); /* clears padding as well: keys are compared as bytes */
-    memcpy(&key->sight, &mesh->sight, sizeof key->sight);
+    memcpy(&key->projection, &mesh->projection, sizeof key->projection);
     memcpy(&key->shape, &mesh->shape, sizeof key->shape);
     memcpy(&key->newton, &mesh->newton, sizeof key->newton);
     key->mu = mesh->mu;
@@ -27,17 +27,17 @@ void wr_uv_cache_key(WrUvCacheKey *key, const WrViewMesh *mesh, const WrView *vi
     key->kernels = kernels;
 }
 
-bool wr_uv_cache_update(WrUvCache *sight, const WrUvCacheKey *key)
+bool wr_uv_cache_update(WrUvCache *cache, const WrUvCacheKey *key)
 {
     const size_t count = (size_t)key->width * (size_t)key->height;
-    if (sight->whole && memcmp(&sight->key, key, sizeof *key) == 0) return true;
-    if (!sight->u || sight->key.width != key->width || sight->key.height != key->height) {
-        wr_uv_cache_fini(sight);
-        sight->u = wr_try_alloc(count, sizeof *sight->u, "sight", NULL);
-        sight->v = wr_try_alloc(count, sizeof *sight->v, "sight", NULL);
-        if (!sight->u || !sight->v) wr_uv_cache_fini(sight);
+    if (cache->whole && memcmp(&cache->key, key, sizeof *key) == 0) return true;
+    if (!cache->u || cache->key.width != key->width || cache->key.height != key->height) {
+        wr_uv_cache_fini(cache);
+        cache->u = wr_try_alloc(count, sizeof *cache->u, "UV cache", NULL);
+        cache->v = wr_try_alloc(count, sizeof *cache->v, "UV cache", NULL);
+        if (!cache->u || !cache->v) wr_uv_cache_fini(cache);
     }
-    memcpy(&sight->key, key, sizeof *key);
-    sight->whole = false;
+    memcpy(&cache->key, key, sizeof *key);
+    cache->whole = false;
     return false;
 }

@@ -11,7 +11,7 @@ typedef struct WrError WrError;
 
 /* Everything that (u,v) depend on. */
 typedef struct WrUvCacheKey {
-    WrViewSight sight;
+    WrViewProjection projection;
     WrShapef shape;
     WrNewton newton;
     int mu, mv;        /* mesh cells along u and v */
@@ -33,10 +33,10 @@ typedef struct WrUvCache {
 
 #define WR_UV_CACHE_NONE 2.0f
 
-void wr_uv_cache_fini(WrUvCache *sight);
+void wr_uv_cache_fini(WrUvCache *cache);
 /* Fills a key, padding included. */
 void wr_uv_cache_key(WrUvCacheKey *key, const WrViewMesh *mesh, const WrView *view, bool exact,
                      const WrKernels *kernels);
 /* True if the cache holds this view. Otherwise it is emptied and ready to be filled; the caller then sets
    `whole`. Without memory u and v are NULL and nothing is stored. */
-bool wr_uv_cache_update(WrUvCache *sight, const WrUvCacheKey *key);
+bool wr_uv_cache_update(WrUvCache *cache, const WrUvCacheKey *key);

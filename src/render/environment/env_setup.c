@@ -116,7 +116,7 @@ static bool same(const WrReflectance *a, const WrReflectance *b)
            a->ior == b->ior;
 }
 
-static void bring_shares(WrEnvPrefilter *grades, const WrMaterial *m)
+static void update_shares(WrEnvPrefilter *grades, const WrMaterial *m)
 {
     const WrReflectance of = wr_scene_reflectance(m);
     if (grades->there && same(&grades->of, &of) && grades->ks == m->specular &&
@@ -142,7 +142,7 @@ bool wr_env_prefilter_update(WrEnvPrefilter *grades, const WrScene *scene, const
 {
     WrEnvironmentBrdf gloss, lobe;
     int first, last;
-    bring_shares(grades, &scene->material);
+    update_shares(grades, &scene->material);
     if (!plan->graded) return true;
     wr_scene_gloss(&scene->material, &gloss);
     rungs_of(&gloss, plan, &first, &last);
@@ -209,8 +209,8 @@ void wr_env_prefilter_fill(const WrEnvPrefilter *grades, const WrScene *scene, W
     }
     for (int i = 0; i < WR_TEXTURED_REFLECTION_RUNGS; i++) {
         const WrEnvLookup *of = &grades->rung[i];
-        const WrKernRung rung = { of->rgba ? of->rgba + 4 * ((ptrdiff_t)of->pitch + 1) : NULL,
-                                  of->pitch, of->width, of->height };
+        const WrKernMipLevel rung = { of->rgba ? of->rgba + 4 * ((ptrdiff_t)of->pitch + 1) : NULL,
+                                      of->pitch, of->width, of->height };
         wide->rung[i] = single->rung[i] = rung;
     }
 }

@@ -77,7 +77,7 @@ static inline float wr_refine_limit(const WrTileJob *job, WrTileScratch *scratch
 #define BLOCK_H 4
 #define AREA 3000 /* pixels of the view for each block, ... */
 #define LEAST 16  /* ... and the least number of blocks */
-#define MOST 128
+#define MAX_MOST 128
 /* mesh blocks: above this each probe is slow, because it traverses them all, so only ... */
 #define HEAVY 4096
 #define FEW 5   /* ... this many probes are taken */
@@ -171,7 +171,7 @@ bool wr_refine_pays(const WrTileJob *job, WrTileScratch *scratch)
     scratch->notes = (WrDirtyNotes){ 0 };
     const int64_t area = (int64_t)w * h / AREA;
     const bool heavy = job->triangles || (job->mesh && is_heavy(job->mesh));
-    const int count = heavy ? FEW : area < LEAST ? LEAST : area > MOST ? MOST : (int)area;
+    const int count = heavy ? FEW : area < LEAST ? LEAST : area > MAX_MOST ? MAX_MOST : (int)area;
     for (int k = 0; k < count && !(k >= SURE && clear(&spent)); k++)
         spend_block(&own, view->x0 + place(k, ACROSS, w - BLOCK_W),
                     view->y0 + place(k, DOWN, h - BLOCK_H), scratch, &spent);
@@ -183,7 +183,7 @@ bool wr_refine_pays(const WrTileJob *job, WrTileScratch *scratch)
 /* Further samples for open pixels: K of the K x K, then the others where those are not enough. */
 
 #define RING WR_REFINE_RING
-#define MOST_SAMPLES WR_TILE_SAMPLES_H /* largest K */
+#define MAX_SAMPLES WR_TILE_SAMPLES_H /* largest K */
 /* Largest deviation of each of the K samples, and of their mean, from the neighbours' prediction, in multiples
    of `contrast`. */
 #define SAMPLE_OFF 4.0f
@@ -310,7 +310,7 @@ static void queue_rest(Queue *queue, int first, int count)
     }
 }
 
-static void bring_tile(Batch *batch, const WrTileJob *job)
+static void update_tile(Batch *batch, const WrTileJob *job)
 {
     const WrRefiner *r = batch->r;
     const WrTilePart *part = &batch->part;
@@ -330,7 +330,7 @@ static void sample_pixels(Batch *batch, void (*fill)(Queue *, int, int), int fir
         const WrTileJob *job = batch->objects[i];
         Queue queue = { .batch = batch, .job = job, .first = i == 0 };
         if (i > 0) queue.limit = wr_refine_limit(job, s);
-        bring_tile(batch, job);
+        update_tile(batch, job);
         s->scatter.count = 0;
         fill(&queue, first, count);
         empty_queue(&queue);
@@ -383,16 +383,17 @@ static bool rooks_agree(const WrRefiner *r, const unsigned char at[2], float (*s
     const int k = r->job->samples;
     const float *centre = r->scratch->centre[at[1] + RING][at[0] + RING];
     const Bend bend = bend_at(r->scratch, at[0], at[1]);
-    float rook[MOST_SAMPLES][4];
+    float rook[MAX_SAMPLES][4];
     float most = 0, *pixel = wr_tile_pixel(r->job, r->part.x + at[0], r->part.y + at[1]);
     for (int j = 0; j < k; j++) {
         const float dx = ((float)r->rook[j] + 0.5f) / (float)k - 0.5f;
         const float dy = ((float)j + 0.5f) / (float)k - 0.5f;
         memcpy(rook[j], sample[j * k + r->rook[j]], sizeof rook[j]);
         for (int c = 0; c < 4; c++) {
-            const float told = centre[c] + dx * (bend.x[c] + dx * bend.xx[c] + dy * bend.xy[c]) +
-                               dy * (bend.y[c] + dy * bend.yy[c]);
-            const float off = fabsf(rook[j][c] - told);
+            const float extrapolated = centre[c] +
+                                       dx * (bend.x[c] + dx * bend.xx[c] + dy * bend.xy[c]) +
+                                       dy * (bend.y[c] + dy * bend.yy[c]);
+            const float off = fabsf(rook[j][c] - extrapolated);
             most = off <= most ? most : off; /* NaN is kept */
         }
         if (rook[j][3] != centre[3]) return false;
@@ -756,7 +757,7 @@ static void open_by_contrast(const WrRefiner *r)
 }
 
 /* Seconds of strips and rays so far; they are reported separately. */
-static double told_elsewhere(const WrTileScratch *scratch)
+static double timed_elsewhere(const WrTileScratch *scratch)
 {
     return scratch->all_strips + scratch->whole[WR_STAGE_VISIBILITY];
 }
@@ -776,7 +777,7 @@ static void refine(WrRefiner *r, const WrTileJob *jobs, int count)
 {
     WrTileScratch *s = r->scratch;
     const WrPlan *plan = r->job->plan;
-    const double start = wr_clock_seconds(), before = told_elsewhere(s);
+    const double start = wr_clock_seconds(), before = timed_elsewhere(s);
     const int64_t covered = s->covered;
     wr_did(s, WR_EFFECT_SAMPLES);
     make_rules(r, jobs, count, !r->by_bound && refine_rooks(r));
@@ -790,7 +791,7 @@ static void refine(WrRefiner *r, const WrTileJob *jobs, int count)
     }
     refine_more(r);
     count_covered(r, covered);
-    s->whole[WR_STAGE_RESOLVE] += wr_clock_seconds() - start - (told_elsewhere(s) - before);
+    s->whole[WR_STAGE_RESOLVE] += wr_clock_seconds() - start - (timed_elsewhere(s) - before);
 }
 
 void wr_refine_tile(const WrTileJob *job, int x, int y, int w, int h, WrTileScratch *scratch)

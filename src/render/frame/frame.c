@@ -228,7 +228,7 @@ bool wr_frame_casts(WrRenderer *const *renderers, const WrScene *const *scenes,
         renderers[i]->cast.count = renderers[i]->cast.all = 0;
         bodies[i] = &renderers[i]->body;
     }
-    if (dials->rays == 0 || !wr_shadow_rays_asked(request->scene)) return true;
+    if (dials->rays == 0 || !wr_shadow_rays_needed(request->scene)) return true;
     for (int i = 0; i < count; i++) {
         const WrShadowRaysRequest ask = { .scenes = scenes,
                                           .fields = fields,
@@ -323,7 +323,7 @@ static void render_tile(int index, int worker, void *ctx)
     part.w = least(tile->width - part.x, tile->tile_w);
     part.h = least(tile->rows - part.y, tile->tile_h);
     part.y += tile->top;
-    if (wr_cancel_asked(job->cancel)) return;
+    if (wr_cancel_requested(job->cancel)) return;
     if (!touches(job, index)) return;
     const double start = wr_clock_seconds();
     if (job->only) render_asked(job, part, index, job->scratch[worker]);
@@ -347,7 +347,7 @@ bool wr_frame_run(WrRenderer *renderer, FrameJob *job)
     job->tiles_u = tiles_across(&job->tile);
     const bool whole =
         wr_pool_run_with_progress(renderer->pool, wr_frame_tiles(&job->tile), render_tile, job);
-    return whole && !wr_cancel_asked(job->cancel);
+    return whole && !wr_cancel_requested(job->cancel);
 }
 
 WrRenderer *wr_renderer_new(WrPool *pool, const char *isa, WrError *err)
@@ -360,7 +360,7 @@ WrRenderer *wr_renderer_new(WrPool *pool, const char *isa, WrError *err)
     wr_code_bins_fill(renderer->bins);
     snprintf(renderer->isa, sizeof renderer->isa, "%s", isa ? isa : "auto");
     wr_table_init(&renderer->table);
-    renderer->steady = &renderer->own_steady;
+    renderer->relight = &renderer->own_relight;
     return renderer;
 }
 
@@ -392,9 +392,9 @@ void wr_renderer_forget(WrRenderer *renderer)
     wr_dice_fini(&renderer->dice);
     wr_triangles_free(renderer->square);
     renderer->square = NULL;
-    wr_uv_cache_fini(&renderer->sight);
+    wr_uv_cache_fini(&renderer->uv_cache);
     wr_shadow_rays_body_fini(&renderer->body);
-    wr_relight_fini(&renderer->own_steady);
+    wr_relight_fini(&renderer->own_relight);
 }
 
 void wr_renderer_free(WrRenderer *renderer)
@@ -437,7 +437,7 @@ static void drop_picture(WrRenderer *renderer)
 }
 
 /* Allocates the picture. A band reuses the memory of the band before it. */
-static bool bring_memory(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+static bool update_memory(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const bool banded = request->rows > 0, codes = request->codes.wanted;
     const int width = request->width, height = request->height;
@@ -457,7 +457,7 @@ static bool bring_memory(WrRenderer *renderer, const WrFrameRequest *request, Wr
 bool wr_frame_resize(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     if (!check_size(request, err)) return false;
-    if (!renderer->among && !bring_memory(renderer, request, err)) return false;
+    if (!renderer->among && !update_memory(renderer, request, err)) return false;
     renderer->banded = request->rows > 0;
     renderer->width = request->width;
     renderer->height = request->height;
@@ -520,7 +520,7 @@ WrTileJob wr_frame_job(WrRenderer *renderer, const WrFrameRequest *request)
     wr_frame_fill_looks(renderer, request, renderer->view.scale, &job);
     renderer->look = job.look, renderer->look_double = job.look_double;
     renderer->parallax = job.parallax;
-    wr_frame_fill_sight(renderer, &job);
+    wr_frame_fill_uv_cache(renderer, &job);
     job.cast = &renderer->cast;
     job.cast_count =
         wr_plan_calls(&renderer->plan, WR_EFFECT_CAST) ? renderer->cast.count : renderer->cast.all;
@@ -674,7 +674,7 @@ bool wr_frame_decide(WrRenderer *renderer, const WrFrameRequest *request, WrErro
     if (!wr_frame_prepare_table(renderer, request, &ask, err)) return false;
     if (!wr_frame_prepare_maps(renderer, request, err)) return false;
     const bool stands = renderer->stands = view_stands(renderer, request, &before, &ask);
-    renderer->sighting = renderer->sighted = false; /* not yet known */
+    renderer->uses_uv_cache = renderer->uv_cached = false; /* not yet known */
     ask.facts.rests = false;
     const WrKernels *last = renderer->kernels;
     renderer->kernels = kernels;
@@ -702,7 +702,7 @@ static void choose_steady(WrRenderer *renderer, const WrFrameRequest *request)
     const WrRelightPart part = { .scene = request->scene,
                                  .plan = &renderer->plan,
                                  .field = wr_field_key(request->field) };
-    wr_frame_choose_steady(renderer, request, &part, &renderer, 1);
+    wr_frame_choose_relight_cache(renderer, request, &part, &renderer, 1);
 }
 
 /* Selects the tiles of a static view that edits reach, or all; the selected tiles record their fetches again. */
@@ -715,7 +715,7 @@ static void start_keep(WrRenderer *renderer, const WrFrameRequest *request, Fram
     }
     wr_did(renderer->scratch[0], WR_EFFECT_AGAIN);
     job->cancel = request->cancel;
-    if (renderer->steady->use == WR_RELIGHT_KNOWN) return; /* no tile records its fetches */
+    if (renderer->relight->use == WR_RELIGHT_KNOWN) return; /* no tile records its fetches */
     if (!wr_frame_may_keep(request)) return;
     wr_frame_start_notes(&job->tile, &renderer->keep);
     job->tile.seen = &renderer->keep;
@@ -723,7 +723,7 @@ static void start_keep(WrRenderer *renderer, const WrFrameRequest *request, Fram
 
 void wr_frame_mark_current(WrRenderer *renderer)
 {
-    if (renderer->sighting) renderer->sight.whole = true;
+    if (renderer->uses_uv_cache) renderer->uv_cache.whole = true;
     if (renderer->keep.patches) wr_dirty_field(&renderer->keep, renderer->looked);
 }
 
@@ -754,7 +754,7 @@ static bool single_frame(WrRenderer *renderer, const WrFrameRequest *request, Wr
     }
     wr_frame_mark_current(renderer);
     wr_frame_account(renderer, prepared, started, frame);
-    if (renderer->steady->use == WR_RELIGHT_NOTE) renderer->steady->whole = true;
+    if (renderer->relight->use == WR_RELIGHT_NOTE) renderer->relight->whole = true;
     return true;
 }
 

@@ -57,9 +57,9 @@ struct WrRenderer {
     WrShadowRaysBody body; /* the object as a shadow caster */
     WrShadowRays cast;     /* objects that can hide lamps from it */
     WrFrames frames;
-    WrUvCache sight;               /* of the last static view */
-    WrRelight own_steady, *steady; /* relight cache of a static view: its own, or its group's */
-    WrTileScratch **scratch;       /* [threads], allocated on first use */
+    WrUvCache uv_cache;              /* of the last static view */
+    WrRelight own_relight, *relight; /* relight cache of a static view: its own, or its group's */
+    WrTileScratch **scratch;         /* [threads], allocated on first use */
     int threads;
     float *rgba;         /* the last picture, or its last band, as floats ... */
     uint32_t *codes;     /* ... or as codes; each is allocated on first use */
@@ -76,11 +76,11 @@ struct WrRenderer {
     int samples;
     WrShape sized; /* the shape that the cached radius belongs to; 0: none */
     double radius;
-    bool seen;     /* view and scene are set */
-    bool sighted;  /* `sight` holds this view */
-    bool sighting; /* this frame reads or fills `sight` */
-    bool outside;  /* the eye of that view is outside the surface */
-    bool stands;   /* the planned view equals the last one */
+    bool seen;          /* view and scene are set */
+    bool uv_cached;     /* `uv_cache` holds this view */
+    bool uses_uv_cache; /* this frame reads or fills `uv_cache` */
+    bool outside;       /* the eye of that view is outside the surface */
+    bool stands;        /* the planned view equals the last one */
     WrDirty keep;
     WrPlanRequest ask;   /* inputs of this frame's plan */
     WrFrameRequest last; /* of the last whole or refreshed picture; only its numbers are valid */
@@ -116,7 +116,7 @@ void wr_group_free(WrRenderer *renderer);
 /* Allocates the requested picture; for a part of a group, sets only its size. */
 bool wr_frame_resize(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
 /* Calls in this order: decide builds the plan of a frame of one object and the tables it needs; then
-   wr_frame_choose_steady; then prepare builds everything else needed before the tiles. False on error. */
+   wr_frame_choose_relight_cache; then prepare builds everything else needed before the tiles. False on error. */
 bool wr_frame_decide(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
 bool wr_frame_prepare(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
 /* Next call: the uv cache is reused from the last frame, or filled where every tile is new. beside: hash of the
@@ -125,12 +125,13 @@ void wr_frame_update_visibility(WrRenderer *renderer, const WrFrameRequest *requ
                                 bool anew);
 /* Decides whether the relight cache serves this frame of `count` objects (relight_cache.h). Plan rows that
    depend on it are decided again in each object's renderer. */
-void wr_frame_choose_steady(WrRenderer *renderer, const WrFrameRequest *request,
-                            const WrRelightPart *parts, WrRenderer *const *owners, int count);
+void wr_frame_choose_relight_cache(WrRenderer *renderer, const WrFrameRequest *request,
+                                   const WrRelightPart *parts, WrRenderer *const *owners,
+                                   int count);
 /* Prepares the dirty-region record of each tile of the picture. */
 void wr_frame_start_notes(const WrTileJob *canvas, WrDirty *keep);
 /* Binds uv cache and relight cache to the job: to read them or to fill them. */
-void wr_frame_fill_sight(WrRenderer *renderer, WrTileJob *job);
+void wr_frame_fill_uv_cache(WrRenderer *renderer, WrTileJob *job);
 /* A job with target and size of the tiles. request NULL: for picking. */
 WrTileJob wr_frame_canvas(WrRenderer *renderer, const WrFrameRequest *request);
 /* A job with target, tile size and everything that tiles fetch. */

@@ -31,8 +31,8 @@ void wr_frame_drop_tables(WrRenderer *renderer)
 }
 
 /* Updates the height copies that the plan needs and frees the others. */
-static bool bring_copies(WrRenderer *renderer, const WrFrameRequest *request, bool slope_free,
-                         WrError *err)
+static bool update_copies(WrRenderer *renderer, const WrFrameRequest *request, bool slope_free,
+                          WrError *err)
 {
     const bool hold = request->hold;
     WrTable *table = &renderer->table;
@@ -50,7 +50,7 @@ static bool bring_copies(WrRenderer *renderer, const WrFrameRequest *request, bo
     return !heights || wr_table_update(table, WR_COPY_HEIGHTS, field, renderer->pool, err);
 }
 
-static bool bring_pyramids(WrRenderer *renderer, bool hold, WrError *err)
+static bool update_pyramids(WrRenderer *renderer, bool hold, WrError *err)
 {
     const WrPlan *plan = &renderer->plan;
     const bool filter = wr_plan_runs(plan, WR_EFFECT_FILTER);
@@ -110,9 +110,9 @@ bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request,
         facts->slope_free = wr_table_slope_free(table);
         wr_plan_build(plan, ask);
     }
-    if (!bring_copies(renderer, request, facts->slope_free, err)) return false;
+    if (!update_copies(renderer, request, facts->slope_free, err)) return false;
     const double started = wr_clock_seconds();
-    if (!bring_pyramids(renderer, request->hold, err)) return false;
+    if (!update_pyramids(renderer, request->hold, err)) return false;
     renderer->pyramid_seconds = wr_clock_seconds() - started;
     const bool looked = plan->source == WR_SOURCE_TABLE && plan->precision == WR_PRECISION_SINGLE;
     facts->sloped = looked ? sloped_share(renderer, field) : -1;
@@ -121,7 +121,7 @@ bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request,
     return true;
 }
 
-static bool bring_relief(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+static bool update_relief(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const WrField *field = request->field;
     const WrPlan *plan = &renderer->plan;
@@ -138,7 +138,7 @@ static bool bring_relief(WrRenderer *renderer, const WrFrameRequest *request, Wr
     return true;
 }
 
-static bool bring_mirror(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+static bool update_mirror(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const WrPlan *plan = &renderer->plan;
     const WrEnvironmentMap *light = request->scene->environment.light;
@@ -166,7 +166,7 @@ static bool wants_facets(const WrPlan *plan, const WrScene *scene, int kind)
                                        : wr_reflects[scene->material.model].metalness);
 }
 
-static bool bring_facets(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+static bool update_facets(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const WrField *field = request->field;
     const WrPlan *plan = &renderer->plan;
@@ -190,11 +190,11 @@ bool wr_frame_prepare_maps(WrRenderer *renderer, const WrFrameRequest *request, 
     const WrPlan *plan = &renderer->plan;
     const WrField *field = request->field;
     WrColorMips *tint = &renderer->tint;
-    if (!bring_relief(renderer, request, err)) return false;
-    if (!bring_mirror(renderer, request, err)) return false;
+    if (!update_relief(renderer, request, err)) return false;
+    if (!update_mirror(renderer, request, err)) return false;
     if (!wr_frame_update_horizon(renderer, request, err)) return false;
     if (!wr_frame_update_occlusion(renderer, request, err)) return false;
-    if (!bring_facets(renderer, request, err)) return false;
+    if (!update_facets(renderer, request, err)) return false;
     if (!wr_plan_runs(plan, WR_EFFECT_COLOUR)) {
         wr_color_mips_drop(tint);
         return true;

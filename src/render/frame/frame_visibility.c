@@ -8,8 +8,8 @@
 
 #include <stdio.h>
 
-#define SIGHT_MOST (1 << 24) /* pixels; 8 bytes each */
-#define PLACES (1 << 16) /* samples along a side: in 256ths they are exact in single precision */
+#define SIGHT_MAX (1 << 24) /* pixels; 8 bytes each */
+#define PLACES (1 << 16)    /* samples along a side: in 256ths they are exact in single precision */
 
 /* True if an edit can change samples that did not fetch it: parallax may hit the relief anywhere, and among
    several objects the displaced surface moves. */
@@ -58,28 +58,28 @@ static bool is_forced(const WrFrameRequest *request)
 }
 
 /* Reads the uv cache of a static view, or starts to fill it. One sample a pixel, single precision. */
-static bool bring_sight(WrRenderer *renderer, const WrFrameRequest *request, WrHash beside,
-                        bool anew)
+static bool update_uv_cache(WrRenderer *renderer, const WrFrameRequest *request, WrHash beside,
+                            bool anew)
 {
     const WrPlan *plan = &renderer->plan;
     const int64_t objects = renderer->among ? renderer->among : 1;
     WrUvCacheKey key;
     /* If only light changed, the next edit can still use it. */
-    if (!renderer->mesh && renderer->steady->use != WR_RELIGHT_KNOWN)
-        wr_uv_cache_fini(&renderer->sight);
-    const bool small = objects * request->width * request->height <= SIGHT_MOST;
-    renderer->sighting = small && wr_frame_may_keep(request) && renderer->mesh &&
-                         plan->newton != 0 && plan->sampling == WR_SAMPLING_ONE &&
-                         !plan->shading_double && !is_forced(request);
-    if (!renderer->sighting || renderer->steady->use == WR_RELIGHT_KNOWN) {
-        renderer->sighting = false;
+    if (!renderer->mesh && renderer->relight->use != WR_RELIGHT_KNOWN)
+        wr_uv_cache_fini(&renderer->uv_cache);
+    const bool small = objects * request->width * request->height <= SIGHT_MAX;
+    renderer->uses_uv_cache = small && wr_frame_may_keep(request) && renderer->mesh &&
+                              plan->newton != 0 && plan->sampling == WR_SAMPLING_ONE &&
+                              !plan->shading_double && !is_forced(request);
+    if (!renderer->uses_uv_cache || renderer->relight->use == WR_RELIGHT_KNOWN) {
+        renderer->uses_uv_cache = false;
         return false;
     }
     const WrTileJob job = { .plan = plan, .scene = renderer->scene };
     wr_uv_cache_key(&key, renderer->mesh, &renderer->view, wr_tile_exact(&job), renderer->kernels);
     key.beside = beside;
-    if (wr_uv_cache_update(&renderer->sight, &key)) return true;
-    renderer->sighting = renderer->sight.u != NULL && anew;
+    if (wr_uv_cache_update(&renderer->uv_cache, &key)) return true;
+    renderer->uses_uv_cache = renderer->uv_cache.u != NULL && anew;
     return false;
 }
 
@@ -87,7 +87,7 @@ void wr_frame_update_visibility(WrRenderer *renderer, const WrFrameRequest *requ
                                 bool anew)
 {
     WrPlanRequest *ask = &renderer->ask;
-    ask->facts.sighted = renderer->sighted = bring_sight(renderer, request, beside, anew);
+    ask->facts.uv_cached = renderer->uv_cached = update_uv_cache(renderer, request, beside, anew);
     wr_plan_again(&renderer->plan, ask);
 }
 
@@ -106,19 +106,20 @@ static bool may_be_steady(const WrFrameRequest *request)
 }
 
 /* Writes the cache's status for the plan's row. hinders: reason why nothing is stored, or NULL. */
-static void tell_steady(WrRelight *steady, const WrRelightView *view, const char *hinders)
+static void report_relight(WrRelight *relight, const WrRelightView *view, const char *hinders)
 {
     char bytes[40];
     const double size = (double)wr_relight_bytes(view);
     snprintf(bytes, sizeof bytes, "%.3g MB, %.3g bytes a sample", size * 1e-6,
              size / ((double)view->width * view->height));
-    if (hinders) snprintf(steady->told, sizeof steady->told, "new, and not kept: %s", hinders);
-    else if (steady->use == WR_RELIGHT_KNOWN)
-        snprintf(steady->told, sizeof steady->told,
+    if (hinders)
+        snprintf(relight->status, sizeof relight->status, "new, and not kept: %s", hinders);
+    else if (relight->use == WR_RELIGHT_KNOWN)
+        snprintf(relight->status, sizeof relight->status,
                  "the view rests, and only its light changed: they are known (%s)", bytes);
     else
-        snprintf(steady->told, sizeof steady->told, "new; while a view rests they are kept (%s)",
-                 bytes);
+        snprintf(relight->status, sizeof relight->status,
+                 "new; while a view rests they are kept (%s)", bytes);
 }
 
 /* True if the light of every part depends on n'. */
@@ -144,15 +145,15 @@ static const char *hinders_of(const WrRelightView *view)
     for (int i = 0; i < view->count && !why; i++)
         why = wr_relight_hinders(view->parts[i].scene, view->parts[i].plan);
     if (!why && is_soon_anew(view)) why = "they are made anew as soon as they are read";
-    if (!why && wr_relight_bytes(view) > WR_RELIGHT_MOST)
-        why = "they would take more than " WR_RELIGHT_MOST_TEXT;
+    if (!why && wr_relight_bytes(view) > WR_RELIGHT_MAX)
+        why = "they would take more than " WR_RELIGHT_MAX_TEXT;
     return why;
 }
 
-void wr_frame_choose_steady(WrRenderer *renderer, const WrFrameRequest *request,
-                            const WrRelightPart *parts, WrRenderer *const *owners, int count)
+void wr_frame_choose_relight_cache(WrRenderer *renderer, const WrFrameRequest *request,
+                                   const WrRelightPart *parts, WrRenderer *const *owners, int count)
 {
-    WrRelight *steady = renderer->steady;
+    WrRelight *relight = renderer->relight;
     const int k = count > 0 ? parts[0].plan->samples : 1;
     const WrRelightView view = { .parts = parts,
                                  .count = count,
@@ -164,25 +165,25 @@ void wr_frame_choose_steady(WrRenderer *renderer, const WrFrameRequest *request,
     bool anew = false;
     for (int i = 0; i < count; i++) anew |= wr_plan_runs(parts[i].plan, WR_EFFECT_AGAIN);
     const bool may = may_be_steady(request) && count > 0 && !hinders && anew && has_normals(&view);
-    steady->use = may ? wr_relight_update(steady, &view) : WR_RELIGHT_NONE;
-    if (count > 0) tell_steady(steady, &view, hinders);
+    relight->use = may ? wr_relight_update(relight, &view) : WR_RELIGHT_NONE;
+    if (count > 0) report_relight(relight, &view, hinders);
     for (int i = 0; i < count; i++) {
         WrPlanRequest *ask = &owners[i]->ask;
-        ask->facts.steady = steady->use == WR_RELIGHT_KNOWN;
-        ask->facts.steady_told = steady->told;
-        ask->facts.normals |= steady->use == WR_RELIGHT_NOTE; /* on the dark side as well */
+        ask->facts.relight = relight->use == WR_RELIGHT_KNOWN;
+        ask->facts.relight_status = relight->status;
+        ask->facts.normals |= relight->use == WR_RELIGHT_NOTE; /* on the dark side as well */
         wr_plan_again(&owners[i]->plan, ask);
     }
 }
 
-void wr_frame_fill_sight(WrRenderer *renderer, WrTileJob *job)
+void wr_frame_fill_uv_cache(WrRenderer *renderer, WrTileJob *job)
 {
-    const WrRelight *steady = renderer->steady;
-    job->sight = renderer->sighting ? &renderer->sight : NULL;
-    job->seen_before = renderer->sighted;
-    if (steady->use == WR_RELIGHT_NONE) return;
-    if (steady->use == WR_RELIGHT_KNOWN) job->steady = steady;
-    else job->noting = steady;
-    job->lamps = steady->lamps;
+    const WrRelight *relight = renderer->relight;
+    job->uv_cache = renderer->uses_uv_cache ? &renderer->uv_cache : NULL;
+    job->seen_before = renderer->uv_cached;
+    if (relight->use == WR_RELIGHT_NONE) return;
+    if (relight->use == WR_RELIGHT_KNOWN) job->relight = relight;
+    else job->noting = relight;
+    job->lamps = relight->lamps;
     job->recalls = wr_relight_groups(job->scene, job->plan);
 }

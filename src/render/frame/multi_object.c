@@ -54,7 +54,7 @@ static WrRenderer *new_part(WrRenderer *group)
     memcpy(part->bins, group->bins, sizeof part->bins);
     memcpy(part->isa, group->isa, sizeof part->isa);
     wr_table_init(&part->table);
-    part->steady = &group->own_steady;
+    part->relight = &group->own_relight;
     return part;
 }
 
@@ -75,7 +75,7 @@ static void take_renderer(WrGroup *group, int i, int object, WrRenderer *rendere
 }
 
 /* Creates a renderer and a scene for each visible object. */
-static void bring_parts(WrRenderer *renderer, const WrFrameRequest *request)
+static void update_parts(WrRenderer *renderer, const WrFrameRequest *request)
 {
     WrGroup *group = renderer->group;
     const double aspect = (double)request->width / request->height;
@@ -125,7 +125,7 @@ static void choose_steady(WrRenderer *renderer, const WrFrameRequest *request,
                                     .object = group->parts[i].object };
     }
     if (group->count > 0) renderer->kernels = owners[0]->kernels, renderer->wide = owners[0]->wide;
-    wr_frame_choose_steady(renderer, request, parts, owners, group->count);
+    wr_frame_choose_relight_cache(renderer, request, parts, owners, group->count);
 }
 
 static bool prepare_parts(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
@@ -186,7 +186,7 @@ static bool group_rests(const WrRenderer *renderer, const WrFrameRequest *reques
 
 /* Everything that decides which object a sample shows. */
 typedef struct Place {
-    WrViewSight sight;
+    WrViewProjection uv_cache;
     WrShapef shape;
     WrNewton newton;
     double deep[3], deep_from, nearest, stretch[3], x0, y0, x1, y1;
@@ -197,10 +197,10 @@ static WrHash place_of(const Part *part, WrHash before)
 {
     const WrRenderer *own = part->renderer;
     const WrView *view = &own->view;
-    const WrViewSight sight = wr_view_sight(view);
+    const WrViewProjection uv_cache = wr_view_projection(view);
     Place place;
     memset(&place, 0, sizeof place); /* clears padding as well: its bytes are hashed */
-    memcpy(&place.sight, &sight, sizeof sight);
+    memcpy(&place.uv_cache, &uv_cache, sizeof uv_cache);
     memcpy(&place.shape, &view->shape, sizeof place.shape);
     memcpy(place.deep, view->deep, sizeof place.deep);
     memcpy(place.stretch, view->stretch, sizeof place.stretch);
@@ -214,7 +214,7 @@ static WrHash place_of(const Part *part, WrHash before)
 }
 
 /* Reads or fills the objects' uv caches: they are valid while no object moves. */
-static void bring_sights(WrRenderer *renderer, const WrFrameRequest *request, bool anew)
+static void update_sights(WrRenderer *renderer, const WrFrameRequest *request, bool anew)
 {
     WrGroup *group = renderer->group;
     WrHash all = { .low = 1 };
@@ -233,7 +233,7 @@ static void bring_sights(WrRenderer *renderer, const WrFrameRequest *request, bo
 /* True if tiles record their fetches from the tables. */
 static bool notes_tiles(const WrRenderer *renderer, const WrFrameRequest *request, bool rests)
 {
-    return wr_frame_may_keep(request) && !rests && renderer->steady->use != WR_RELIGHT_KNOWN;
+    return wr_frame_may_keep(request) && !rests && renderer->relight->use != WR_RELIGHT_KNOWN;
 }
 
 /* Target of the group's pixels. */
@@ -288,13 +288,13 @@ bool wr_group_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame
     }
     WrGroup *group = renderer->group;
     if (!wr_frame_resize(renderer, request, err)) return false;
-    bring_parts(renderer, request);
+    update_parts(renderer, request);
     if (!prepare_parts(renderer, request, err)) {
         drop_keeps(renderer);
         return false;
     }
     const bool rests = group_rests(renderer, request);
-    bring_sights(renderer, request, !rests);
+    update_sights(renderer, request, !rests);
     join_plans(renderer, request);
     wr_frame_start_counts(renderer);
     if (!rests) wr_did(renderer->scratch[0], WR_EFFECT_AGAIN);
@@ -318,7 +318,7 @@ bool wr_group_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame
     group->last = *request;
     group->whole = true;
     wr_frame_account(renderer, prepared, started, frame);
-    if (renderer->steady->use == WR_RELIGHT_NOTE) renderer->steady->whole = true;
+    if (renderer->relight->use == WR_RELIGHT_NOTE) renderer->relight->whole = true;
     return true;
 }
 

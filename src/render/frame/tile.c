@@ -113,7 +113,7 @@ static void draw(const Touching *touching, int k, WrTilePart whole, bool light, 
         const WrTileJob *job = touching->job[i];
         const WrTilePart part = touching->part[i];
         /* All that follows lies behind: drawing can stop (E52). Samples from the relight cache have no depth. */
-        if (i > 0 && !job->steady && !wr_plan_runs(job->plan, WR_EFFECT_HIDDEN) &&
+        if (i > 0 && !job->relight && !wr_plan_runs(job->plan, WR_EFFECT_HIDDEN) &&
             farthest(k, whole, scratch) < wr_tile_hidden_from(job))
             break;
         if (i > 0 && wr_plan_runs(job->plan, WR_EFFECT_HIDDEN)) wr_did(scratch, WR_EFFECT_HIDDEN);
@@ -125,7 +125,7 @@ static void draw(const Touching *touching, int k, WrTilePart whole, bool light, 
         if (light) out.rgba = scratch->sample[y][x];
         if (k == 1 && job->normals)
             out.normals = job->normals + 3 * wr_tile_place(job, part.x, part.y);
-        if (several && !job->steady) out.nearest = &scratch->nearest[y][x];
+        if (several && !job->relight) out.nearest = &scratch->nearest[y][x];
         scratch->notes = wr_dirty_open(job->seen, index, whole.x, whole.y);
         const WrDepthTile tile =
             wr_tile_depth(job, k, part.x * k, part.y * k, part.w * k, part.h * k, scratch);
@@ -241,13 +241,13 @@ WrDepthTile wr_tile_depth(const WrTileJob *job, int k, int x, int y, int w, int 
                          .k = k,
                          .kernels = job->kernels };
     if (k > 1 && job->plan->spread == WR_SPREAD_JITTERED) tile_jitter(&tile, k, scratch->shift);
-    if (job->mesh && !job->seen_before && !job->steady) {
+    if (job->mesh && !job->seen_before && !job->relight) {
         double start = wr_clock_seconds();
         wr_view_mesh_raster(job->mesh, job->view, &tile);
         wr_did(scratch, WR_EFFECT_DEPTH);
         scratch->whole[WR_STAGE_VISIBILITY] += wr_clock_seconds() - start;
     }
-    if (job->triangles && !job->steady) {
+    if (job->triangles && !job->relight) {
         double start = wr_clock_seconds();
         wr_view_triangles_raster(job->triangles, job->view, &tile);
         wr_did(scratch, WR_EFFECT_DEPTH);
@@ -367,8 +367,8 @@ static void find_planes(const WrTileRows *out, Packed *packed, Plane planes[PLAN
 }
 
 /* Loads zeros, or the samples that other objects have left there. */
-static void bring_packed(const WrTileRows *out, int top, int rows, int width, Packed *packed,
-                         const Plane planes[PLANES])
+static void update_packed(const WrTileRows *out, int top, int rows, int width, Packed *packed,
+                          const Plane planes[PLANES])
 {
     const size_t w = (size_t)width, from = (size_t)top;
     for (int i = 0; i < PLANES; i++) {
@@ -436,7 +436,7 @@ static void run_packed(const WrTileJob *job, int k, const WrDepthTile *tile, con
         const double start = wr_clock_seconds();
         const int rows = tile->h - top < many ? tile->h - top : many;
         place_packed(tile, top, rows, &scratch->scatter);
-        bring_packed(out, top, rows, tile->w, &packed, planes);
+        update_packed(out, top, rows, tile->w, &packed, planes);
         if (out->codes) fill_packed(job, tile, top, rows, packed.codes);
         WrSink sink = { .rgba = out->rgba ? packed.rgba[0] : NULL,
                         .normals = out->normals ? packed.normals[0] : NULL,

@@ -45,12 +45,12 @@ typedef struct WrTileJob {
     const WrKernels *kernels;
     const WrKernelsd *kernels_double; /* for shading or heights in double; else NULL */
     const WrViewMesh *mesh;           /* NULL: rays are solved in closed form */
-    const WrUvCache *sight;           /* uv cache of the view, to read or to fill; NULL: neither */
+    const WrUvCache *uv_cache;        /* uv cache of the view, to read or to fill; NULL: neither */
     const WrViewTriangles *triangles; /* of a mesh file; or NULL */
     WrTriangleLook triangle_look;
     const WrDice *dice;         /* source of the triangles of a displaced surface; or NULL */
-    bool seen_before;           /* `sight` is complete and read */
-    const WrRelight *steady;    /* relight cache to read; or NULL */
+    bool seen_before;           /* `uv_cache` is complete and read */
+    const WrRelight *relight;   /* relight cache to read; or NULL */
     const WrRelight *noting;    /* relight cache to fill; or NULL */
     const WrRelightLamp *lamps; /* cached visibility of the lamps; NULL: not cached */
     unsigned recalls;           /* bits of the WrRelightGroup that shading reads */
@@ -174,7 +174,7 @@ typedef struct WrTileScratch {
     double whole[WR_STAGE_COUNT]; /* of parts that are measured each time */
     double all;                   /* total time of all its tiles */
     int64_t covered, shaded;      /* pixels, samples */
-    bool told;                    /* the strip's u and v arrived together with its points */
+    bool uv_known;                /* the strip's u and v arrived together with its points */
     int face;                     /* face of a displaced surface that the strip's samples lie on */
     bool behind;                  /* the background of the current row is stored */
     int64_t met; /* first samples of the last refined tile that hit something, counted per object */

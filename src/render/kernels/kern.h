@@ -21,8 +21,8 @@
 
 #define WR_SPAN 256 /* samples in a strip */
 
-#define WR_APRON 4      /* texels around the contiguous copies */
-#define WR_TAPS_MOST 16 /* maximum fetches along a footprint's longer side */
+#define WR_APRON 4     /* texels around the contiguous copies */
+#define WR_TAPS_MAX 16 /* maximum fetches along a footprint's longer side */
 
 typedef struct WrPyramid WrPyramid; /* slope_pyramid.h */
 
@@ -100,10 +100,10 @@ typedef enum WrSeen {
 _Static_assert(WR_TEXTURED_REFLECTION_TERMS >= WR_ALBEDO_TERMS, "all terms");
 
 /* Environment blurred by one width, in the layout of WrKernMirror. */
-typedef struct WrKernRung {
+typedef struct WrKernMipLevel {
     const float *rgba;
     int pitch, width, height;
-} WrKernRung;
+} WrKernMipLevel;
 
 #define REAL float
 #define SHAPE WrShapef

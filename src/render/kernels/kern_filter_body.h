@@ -94,10 +94,10 @@ FLAT static void kern_footprint_met(const RAYS *rays, const LOOK *look, REAL pix
 }
 
 /* Isotropic: one fetch with the longer side. Anisotropic: fetches of the parallelogram's height, side by side
-   along its longer side, at most WR_TAPS_MOST, beyond which they grow. Up to one texel: level 0 (E17). */
+   along its longer side, at most WR_TAPS_MAX, beyond which they grow. Up to one texel: level 0 (E17). */
 FLAT static void kern_spread(const LOOK *look, bool anisotropic, STRIP *strip)
 {
-    const REAL most = anisotropic ? (REAL)WR_TAPS_MOST : K_(1);
+    const REAL most = anisotropic ? (REAL)WR_TAPS_MAX : K_(1);
     const REAL last = (REAL)(look->pyramid->levels - 1);
     const REAL reach = look->reach > K_(0) ? look->reach : K_(10) * VAST;
     const REAL per_u = K_(1) / ((REAL)look->width * (look->ru != 0.0 ? (REAL)look->ru : K_(1)));

@@ -55,7 +55,7 @@ ALWAYS MATTER vary_matter(const MATTER *m, const bool kept, REAL roughness, REAL
 {
     const REAL rough = between(roughness, K_(0), K_(1)), s = rough, ss = s * s;
     MATTER out = { .kd = m->kd, .ks = m->ks, .ior = m->ior, .f0 = m->f0 };
-    out.alpha = larger(rough * rough, K_(WR_ALPHA_LEAST));
+    out.alpha = larger(rough * rough, K_(WR_ALPHA_MIN));
     out.metal = between(metal, K_(0), K_(1));
     out.scale = kept ? m->scale : out.alpha * out.alpha;
     /* of oren-nayar, as in wr_matter_init; unused for other models, so their loops omit them */
@@ -249,7 +249,7 @@ ALWAYS void find_rungs(const MIRROR *how, const bool spread, STRIP *strip, Steps
 
 /* Fetches a blurred environment at u, v. The integer part of x is computed without a call, because x is above
    -1. */
-ALWAYS Four vary_look(const WrKernRung *rung, REAL u, REAL v)
+ALWAYS Four vary_look(const WrKernMipLevel *rung, REAL u, REAL v)
 {
     const REAL W = (REAL)rung->width, H = (REAL)rung->height;
     const REAL x = between(W * u - K_(0.5), K_(-0.5), W - K_(0.5));

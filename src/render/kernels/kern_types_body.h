@@ -36,7 +36,7 @@ typedef struct WR_T(WrStrip) {
     REAL rx[WR_SPAN], ry[WR_SPAN], wx[WR_SPAN], wy[WR_SPAN];
     REAL level[WR_SPAN];                   /* level of the pyramid: 0 .. its last, with fractions */
     REAL long_u[WR_SPAN], long_v[WR_SPAN]; /* the longer side of the footprint, in u and v */
-    int taps[WR_SPAN];                     /* fetches along it; 1..WR_TAPS_MOST */
+    int taps[WR_SPAN];                     /* fetches along it; 1..WR_TAPS_MAX */
     /* Covariance of the slopes within the footprint, in units of fu, fv. */
     REAL suu[WR_SPAN], suv[WR_SPAN], svv[WR_SPAN];
     /* That covariance in the plane across n', as tangents of angles: along e, across it, and mixed. */
@@ -158,7 +158,7 @@ typedef struct WR_T(WrKernVary) {
     REAL twice[WR_TEXTURED_REFLECTION_STEPS][WR_TEXTURED_REFLECTION_TERMS];
     REAL own[2][WR_TEXTURED_REFLECTION_STEPS][WR_TEXTURED_REFLECTION_TERMS],
         white[2][WR_TEXTURED_REFLECTION_STEPS][WR_TEXTURED_REFLECTION_TERMS];
-    WrKernRung rung[WR_TEXTURED_REFLECTION_RUNGS];
+    WrKernMipLevel rung[WR_TEXTURED_REFLECTION_RUNGS];
 } WR_T(WrKernVary);
 /* The table's horizons (field/horizon.h) and ambient occlusion (render/textures/ambient_occlusion.h). */
 typedef struct WR_T(WrKernHorizon) {

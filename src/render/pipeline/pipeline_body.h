@@ -184,12 +184,12 @@ static void bend_strip(const WrTileJob *job, const Rays *rays, bool level, const
     keep_half3(job, strip->bx, strip->by, strip->bz, strip->count, watch);
 }
 
-/* Work that the run can skip, once P and n are known. lit: it is known not to be dark. untold: as in is_dark. */
+/* Work that the run can skip, once P and n are known. lit: it is known not to be dark. deferred: as in is_dark. */
 static unsigned spared_of(const WrTileJob *job, const Rays *rays, bool level, bool lit,
-                          const WR_T(WrRound) * untold, Strip *strip, WrTileScratch *scratch,
+                          const WR_T(WrRound) * deferred, Strip *strip, WrTileScratch *scratch,
                           Watch *watch)
 {
-    const bool dark = !lit && is_dark(job, rays, level, untold, strip);
+    const bool dark = !lit && is_dark(job, rays, level, deferred, strip);
     const unsigned spared = (level ? WR_RUN_LEVEL : 0) | (dark ? WR_RUN_DARK : 0);
     if (runs(job, WR_EFFECT_GROUND) && !dark) did(watch, WR_EFFECT_GROUND);
     if (spared && scratch->notes.patches && job->plan->bump != WR_BUMP_NONE)
@@ -206,8 +206,8 @@ static unsigned normal_strip(const WrTileJob *job, const Rays *rays, int face, c
     surface_strip(job, face, level, sink, strip, watch);
     if (sink->nearest) keep_near(job, sink, strip, watch);
     if (strip->count == 0) return 0;
-    const WR_T(WrRound) *untold = bends_at_once(job, sink) ? round_of(job) : NULL;
-    const unsigned spared = spared_of(job, rays, level, false, untold, strip, scratch, watch);
+    const WR_T(WrRound) *deferred = bends_at_once(job, sink) ? round_of(job) : NULL;
+    const unsigned spared = spared_of(job, rays, level, false, deferred, strip, scratch, watch);
     if (spared & WR_RUN_DARK) return spared;
     if (runs(job, WR_EFFECT_CURVATURE)) {
         const WrSurfaceKind kind = job->view->shape_d.kind;
@@ -227,7 +227,7 @@ static unsigned shade_strip(const WrTileJob *job, const Rays *rays, int quad, co
     const int face = quad >= 0 ? job->view->quad_face[quad] : job->dice ? scratch->face : 0;
     unsigned spared = 0;
     if (runs(job, WR_EFFECT_PARAMETERS) && !job->triangles) {
-        if (!scratch->told) round_of(job)->params(&VIEWED(job->view, shape), strip);
+        if (!scratch->uv_known) round_of(job)->params(&VIEWED(job->view, shape), strip);
         did(watch, WR_EFFECT_PARAMETERS);
         watch_lap(watch, WR_STAGE_PARAMETERS);
     }
@@ -337,7 +337,7 @@ static void points(const WrTileJob *job, int k, const WrDepthTile *tile, const W
     Strip *strip = STRIP_OF(scratch);
     Watch watch = watch_start(scratch);
     if (places->count == 0) return;
-    if (job->steady) {
+    if (job->relight) {
         recall_places(job, places, strip);
         light_known(job, rays, sink, scratch, &watch);
         return;
@@ -415,7 +415,7 @@ static void row(const WrTileJob *job, int k, const WrDepthTile *tile, int y, con
     Strip *strip = STRIP_OF(scratch);
     Watch watch = watch_start(scratch);
     const REAL gx = (REAL)tile->x, gy = (REAL)(tile->y + y);
-    if (job->steady) {
+    if (job->relight) {
         recall_row_of(job, rays, tile, y, strip);
         light_known(job, rays, sink, scratch, &watch);
         return;
@@ -436,14 +436,14 @@ static void row(const WrTileJob *job, int k, const WrDepthTile *tile, int y, con
     const WR_T(WrRound) *round = round_of(job);
     if (round) {
         if (wide_row(job, rays, gx, gy, tile->w, sink, scratch, &watch)) return;
-        scratch->told =
+        scratch->uv_known =
             !runs(job, WR_EFFECT_PARALLAX) && met_wide(job, rays, gx, gy, tile->w, strip);
         if (go_along(job, rays)) take_all(tile->w, strip);
-        else if (!scratch->told) round->hit(rays, &VIEWED(view, shell), gx, gy, tile->w, strip);
+        else if (!scratch->uv_known) round->hit(rays, &VIEWED(view, shell), gx, gy, tile->w, strip);
         note_places(job, sink, scratch->notes.patches || job->noting, gx, gy, strip);
         watch_lap(&watch, WR_STAGE_VISIBILITY);
         finish_strip(job, rays, -1, sink, scratch, &watch);
-        scratch->told = false;
+        scratch->uv_known = false;
         return;
     }
     for (int i = 0; i < view->quad_count; i++) {

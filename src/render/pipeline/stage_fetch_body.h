@@ -357,8 +357,8 @@ static void note_grain(const WrTileJob *job, Watch *watch)
 }
 
 /* C of the colour picture, of the solid texture at P, or of both. */
-static void bring_colour(const WrTileJob *job, const Rays *rays, Strip *strip,
-                         WrTileScratch *scratch, Watch *watch)
+static void update_colour(const WrTileJob *job, const Rays *rays, Strip *strip,
+                          WrTileScratch *scratch, Watch *watch)
 {
     const bool over = runs(job, WR_EFFECT_COLOUR);
     if (over) look_colour(job, rays, strip, scratch, watch);
@@ -392,7 +392,7 @@ static void look_facets(const WrTileJob *job, const Rays *rays, Strip *strip,
 }
 
 /* Roughness and metalness of each sample. */
-static void bring_roughness(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *watch)
+static void update_roughness(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *watch)
 {
     const double *by = job->scene->grain.roughness;
     for (int i = 0; i < strip->count; i++) {

@@ -19,15 +19,15 @@ static WR_T(WrKernHorizon) horizon_of(const WrTileJob *job)
 static bool recall_seen(const WrTileJob *job, const float *known, const Strip *s,
                         REAL share[WR_SPAN], WrSeen *seen)
 {
-    int whole = 0, not = 0, told = 0;
+    int whole = 0, not = 0, decided = 0;
     for (int i = 0; i < s->count; i++) {
         share[i] = (REAL)known[share_place(job, s, i)];
-        told += share[i] >= (REAL)0;
+        decided += share[i] >= (REAL)0;
         whole += !(share[i] < (REAL)1);
         not += !(share[i] > (REAL)0);
     }
     *seen = whole == s->count ? WR_SEEN_WHOLE : not == s->count ? WR_SEEN_NOT : WR_SEEN_PART;
-    return told == s->count;
+    return decided == s->count;
 }
 
 /* Visibility of a lamp at the strip's samples. */

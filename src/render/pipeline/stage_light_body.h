@@ -74,8 +74,8 @@ static bool shadowed_lamp(const WrTileJob *job, const Rays *rays, const WR_T(WrK
     if (shadows || casts) keep_sums(strip, &before);
     const bool dull = lamp_strip(job, rays, light, sink, strip, watch);
     /* For a displaced surface, shadow rays hit its own relief and replace the horizons. */
-    const bool told = casts && job->dice && light->shadow;
-    if (shadows && !told) shadow_strip(job, light, &before, strip, watch);
+    const bool decided = casts && job->dice && light->shadow;
+    if (shadows && !decided) shadow_strip(job, light, &before, strip, watch);
     if (casts) cast_strip(job, light, &before, strip, watch);
     return dull;
 }
@@ -198,8 +198,8 @@ static bool light_by_stages(const WrTileJob *job, const Rays *rays, const WrSink
     Sums before;
     REAL *const sums[3] = { strip->dr, strip->dg, strip->db };
     open_strip(job, NULL, sums, strip, watch);
-    bring_colour(job, rays, strip, watch->scratch, watch);
-    if (runs(job, WR_EFFECT_VARIED) || job->plan->graded) bring_roughness(job, rays, strip, watch);
+    update_colour(job, rays, strip, watch->scratch, watch);
+    if (runs(job, WR_EFFECT_VARIED) || job->plan->graded) update_roughness(job, rays, strip, watch);
     stretch_strip(job->view, strip);
     const bool viewed =
         specular || reflect_of(job) || job->surround.shares > 0 || runs(job, WR_EFFECT_MIRROR);
@@ -237,7 +237,7 @@ static void ambient_alone(const WrTileJob *job, Strip *strip)
 /* Shading of samples that no lamp reaches. */
 static void ambient_strip(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *watch)
 {
-    bring_colour(job, rays, strip, watch->scratch, watch);
+    update_colour(job, rays, strip, watch->scratch, watch);
     ambient_alone(job, strip);
     watch_lap(watch, WR_STAGE_LIGHT);
     open_strip(job, NULL, (REAL *const[3]){ strip->cr, strip->cg, strip->cb }, strip, watch);
@@ -298,7 +298,7 @@ static unsigned light_strip(const WrTileJob *job, const Rays *rays, const WrSink
     const WR_T(WrShadeKernel) shade = single_pass(job, rays, sink);
     if (runs(job, WR_EFFECT_DARK)) did(watch, WR_EFFECT_DARK);
     if (!shade) return light_by_stages(job, rays, sink, strip, watch) ? WR_RUN_DULL : 0;
-    bring_colour(job, rays, strip, watch->scratch, watch);
+    update_colour(job, rays, strip, watch->scratch, watch);
     stretch_strip(job->view, strip);
     if (runs(job, WR_EFFECT_SHADOW) || runs(job, WR_EFFECT_OCCLUSION))
         veiled_at_once(job, shade, strip, watch);

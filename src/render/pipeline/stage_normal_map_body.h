@@ -177,7 +177,7 @@ static REAL slopes_per_gradient(const WrTileJob *job, const Strip *strip, int i,
 /* The gradient whose normal is m, limited to the steepest slope that the map reader allows. */
 static VEC gradient_of(VEC m, VEC n)
 {
-    const REAL z = v_dot(n, m), least = (REAL)WR_NORMAL_LEAST * length_of(m);
+    const REAL z = v_dot(n, m), least = (REAL)WR_NORMAL_MIN * length_of(m);
     const REAL inv = z > least ? (REAL)-1 / z : least > (REAL)0 ? (REAL)-1 / least : (REAL)0;
     return v_scale(v_mad(m, n, -z), inv);
 }

@@ -46,8 +46,8 @@ static size_t note_at(const WrTileJob *job, const WrDepthTile *tile, int cell)
 static void note(const WrTileJob *job, size_t at, const Strip *strip, int i)
 {
     const float u = (float)strip->rx[i];
-    job->sight->u[at] = strip->wx[i] > (REAL)0 ? u : -u;
-    job->sight->v[at] = (float)strip->ry[i];
+    job->uv_cache->u[at] = strip->wx[i] > (REAL)0 ? u : -u;
+    job->uv_cache->v[at] = (float)strip->ry[i];
 }
 
 /* The samples of the scatter that the mesh covers. */
@@ -57,7 +57,7 @@ static void locate_mesh(const WrTileJob *job, const Rays *rays, const WrDepthTil
     int count = 0;
     for (int i = 0; i < places->count; i++) {
         int cell = places->cell[i];
-        if (job->sight) job->sight->u[note_at(job, tile, cell)] = WR_UV_CACHE_NONE;
+        if (job->uv_cache) job->uv_cache->u[note_at(job, tile, cell)] = WR_UV_CACHE_NONE;
         if (tile->close[cell] == -FLT_MAX) continue;
         strip->index[count] = i;
         strip->x[count] = (REAL)places->x[i];
@@ -67,7 +67,7 @@ static void locate_mesh(const WrTileJob *job, const Rays *rays, const WrDepthTil
     }
     strip->count = count;
     polish(job, rays, strip, watch);
-    for (int i = 0; i < count && job->sight; i++)
+    for (int i = 0; i < count && job->uv_cache; i++)
         note(job, note_at(job, tile, places->cell[strip->index[i]]), strip, i);
 }
 
@@ -78,14 +78,14 @@ static void recall_mesh(const WrTileJob *job, const Rays *rays, const WrDepthTil
     int count = 0;
     for (int i = 0; i < places->count; i++) {
         const size_t at = note_at(job, tile, places->cell[i]);
-        const float u = job->sight->u[at];
+        const float u = job->uv_cache->u[at];
         if (u == WR_UV_CACHE_NONE) continue;
         strip->index[count] = i;
         strip->x[count] = (REAL)places->x[i];
         strip->y[count] = (REAL)places->y[i];
         strip->u[count] = (REAL)fabsf(u);
         strip->wx[count] = signbit(u) ? (REAL)0 : (REAL)1;
-        strip->v[count++] = (REAL)job->sight->v[at];
+        strip->v[count++] = (REAL)job->uv_cache->v[at];
     }
     strip->count = count;
     resume(job, rays, strip, watch);
@@ -96,13 +96,13 @@ static void locate_row(const WrTileJob *job, const Rays *rays, const WrDepthTile
                        Strip *strip, Watch *watch)
 {
     const size_t at = (size_t)y * (size_t)tile->w;
-    const size_t noted = job->sight ? wr_tile_place(job, tile->x, tile->y + y) : 0;
+    const size_t noted = job->uv_cache ? wr_tile_place(job, tile->x, tile->y + y) : 0;
     strip->count = 0;
     KERNELS_OF(job)->covered(tile->close + at, tile->u + at, tile->v + at, (REAL)tile->x,
                              (REAL)(tile->y + y), tile->w, strip);
     polish(job, rays, strip, watch);
-    if (!job->sight) return;
-    for (int x = 0; x < tile->w; x++) job->sight->u[noted + (size_t)x] = WR_UV_CACHE_NONE;
+    if (!job->uv_cache) return;
+    for (int x = 0; x < tile->w; x++) job->uv_cache->u[noted + (size_t)x] = WR_UV_CACHE_NONE;
     for (int i = 0; i < strip->count; i++) note(job, noted + (size_t)strip->index[i], strip, i);
 }
 
@@ -110,7 +110,7 @@ static void recall_row(const WrTileJob *job, const Rays *rays, const WrDepthTile
                        Strip *strip, Watch *watch)
 {
     const size_t noted = wr_tile_place(job, tile->x, tile->y + y);
-    KERNELS_OF(job)->recall(job->sight->u + noted, job->sight->v + noted, (REAL)tile->x,
+    KERNELS_OF(job)->recall(job->uv_cache->u + noted, job->uv_cache->v + noted, (REAL)tile->x,
                             (REAL)(tile->y + y), tile->w, strip);
     resume(job, rays, strip, watch);
 }

@@ -18,12 +18,12 @@ typedef struct Recall {
     int triangle; /* index of the number that holds the triangle; or -1 */
 } Recall;
 
-static Recall recall_of(const WrRelight *steady, unsigned groups, Strip *strip)
+static Recall recall_of(const WrRelight *relight, unsigned groups, Strip *strip)
 {
     Recall how = { .triangle = -1 };
     for (int g = 0, from = 0; g < WR_RELIGHT_GROUPS; g++) {
         REAL *to[6];
-        if (!(steady->groups & WR_RELIGHT_BIT(g))) continue;
+        if (!(relight->groups & WR_RELIGHT_BIT(g))) continue;
         const int numbers = numbers_of(strip, (WrRelightGroup)g, to);
         for (int k = 0; k < numbers; k++, from++) {
             if (!(groups & WR_RELIGHT_BIT(g))) continue;
@@ -64,13 +64,13 @@ static void recall_block(const Recall *how, const float *from, int count, Strip 
 }
 
 /* Appends `count` samples from x, y on, all of this object, to the strip. */
-static void recall_run(const WrRelight *steady, const Recall *how, int x, int y, int count,
+static void recall_run(const WrRelight *relight, const Recall *how, int x, int y, int count,
                        Strip *strip)
 {
     for (int left = count, most; left > 0; left -= most, x += most) {
         most = WR_RELIGHT_BLOCK - x % WR_RELIGHT_BLOCK;
         most = most < left ? most : left;
-        recall_block(how, steady->numbers + wr_relight_at(steady, x, y), most, strip);
+        recall_block(how, relight->numbers + wr_relight_at(relight, x, y), most, strip);
     }
 }
 
@@ -99,11 +99,11 @@ static const unsigned char *run_end(const unsigned char *from, const unsigned ch
 static void recall_row_of(const WrTileJob *job, const Rays *rays, const WrDepthTile *tile, int y,
                           Strip *strip)
 {
-    const WrRelight *steady = job->steady;
-    const unsigned char *owner = steady->owner + wr_relight_place(steady, tile->x, tile->y + y);
+    const WrRelight *relight = job->relight;
+    const unsigned char *owner = relight->owner + wr_relight_place(relight, tile->x, tile->y + y);
     const unsigned char *end = owner + tile->w, *from = owner;
     const unsigned char mark = (unsigned char)(job->object + 1);
-    const Recall how = recall_of(steady, recalled(job, rays), strip);
+    const Recall how = recall_of(relight, recalled(job, rays), strip);
     strip->count = 0;
     while (from < end && (from = memchr(from, mark, (size_t)(end - from)))) {
         const int x = (int)(from - owner), count = (int)(run_end(from, end, mark) - from);
@@ -115,7 +115,7 @@ static void recall_row_of(const WrTileJob *job, const Rays *rays, const WrDepthT
             at_x[i] = (REAL)(tile->x + x + i);
             at_y[i] = (REAL)(tile->y + y);
         }
-        recall_run(steady, &how, tile->x + x, tile->y + y, count, strip);
+        recall_run(relight, &how, tile->x + x, tile->y + y, count, strip);
         from += count;
     }
 }
@@ -123,16 +123,16 @@ static void recall_row_of(const WrTileJob *job, const Rays *rays, const WrDepthT
 /* Appends the object's samples among arbitrary positions of the tile. */
 static void recall_places(const WrTileJob *job, const WrScatter *places, Strip *strip)
 {
-    const Recall how = recall_of(job->steady, job->recalls, strip);
+    const Recall how = recall_of(job->relight, job->recalls, strip);
     strip->count = 0;
     for (int i = 0; i < places->count; i++) {
         const int x = (int)(places->x[i] + 0.5), y = (int)(places->y[i] + 0.5);
-        const size_t at = wr_relight_place(job->steady, x, y);
-        if (job->steady->owner[at] != job->object + 1) continue;
+        const size_t at = wr_relight_place(job->relight, x, y);
+        if (job->relight->owner[at] != job->object + 1) continue;
         strip->index[strip->count] = i;
         strip->x[strip->count] = (REAL)places->x[i];
         strip->y[strip->count] = (REAL)places->y[i];
-        recall_run(job->steady, &how, x, y, 1, strip);
+        recall_run(job->relight, &how, x, y, 1, strip);
     }
 }
 

@@ -33,8 +33,8 @@ static int sample_y(const Strip *s, int i)
 
 static size_t share_place(const WrTileJob *job, const Strip *s, int i)
 {
-    const WrRelight *steady = job->noting ? job->noting : job->steady;
-    return wr_relight_place(steady, sample_x(s, i), sample_y(s, i));
+    const WrRelight *relight = job->noting ? job->noting : job->relight;
+    return wr_relight_place(relight, sample_x(s, i), sample_y(s, i));
 }
 
 /* Marks the lamps' visibility at that position as unknown: it now shows a nearer object. */
@@ -50,26 +50,26 @@ static void forget_shares(const WrTileJob *job, size_t place)
 /* Stores all inputs of shading, before it runs. */
 static void note_known(const WrTileJob *job, Strip *strip)
 {
-    const WrRelight *steady = job->noting;
+    const WrRelight *relight = job->noting;
     size_t at[WR_SPAN];
     int done = 0;
     for (int i = 0; i < strip->count; i++) {
         const int x = sample_x(strip, i), y = sample_y(strip, i);
-        const size_t place = wr_relight_place(steady, x, y);
-        at[i] = wr_relight_at(steady, x, y);
-        if (steady->owner[place]) forget_shares(job, place);
-        steady->owner[place] = (unsigned char)(job->object + 1);
+        const size_t place = wr_relight_place(relight, x, y);
+        at[i] = wr_relight_at(relight, x, y);
+        if (relight->owner[place]) forget_shares(job, place);
+        relight->owner[place] = (unsigned char)(job->object + 1);
     }
     for (int g = 0; g < WR_RELIGHT_GROUPS; g++) {
         REAL *from[6];
-        if (!(steady->groups & WR_RELIGHT_BIT(g))) continue;
+        if (!(relight->groups & WR_RELIGHT_BIT(g))) continue;
         const int count = numbers_of(strip, (WrRelightGroup)g, from);
         for (int k = 0; k < count; k++, done++)
             for (int i = 0; i < strip->count; i++)
-                steady->numbers[at[i] + (size_t)done * WR_RELIGHT_BLOCK] = (float)from[k][i];
+                relight->numbers[at[i] + (size_t)done * WR_RELIGHT_BLOCK] = (float)from[k][i];
         if (g != WR_RELIGHT_TRIANGLE) continue;
         for (int i = 0; i < strip->count; i++) /* whole numbers below 2^24, as in the rasters */
-            steady->numbers[at[i] + (size_t)done * WR_RELIGHT_BLOCK] = (float)strip->triangle[i];
+            relight->numbers[at[i] + (size_t)done * WR_RELIGHT_BLOCK] = (float)strip->triangle[i];
         done++;
     }
 }

@@ -70,16 +70,16 @@ static void cast_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, co
     const WrKernLightd *lamp = &job->view->lights_d[at];
     float *known = job->lamps ? job->lamps[at].cast : NULL;
     REAL *const to[6] = { s->dr, s->dg, s->db, s->sr, s->sg, s->sb };
-    bool asked = !job->steady; /* else only cached values are used */
+    bool asked = !job->relight; /* else only cached values are used */
     for (int i = 0; i < s->count && lamp->shadow; i++) {
         bool adds = false;
         for (int k = 0; k < 6; k++) adds |= to[k][i] != before->of[k][i];
         if (!adds) continue;
         float *kept = known ? &known[share_place(job, s, i)] : NULL;
-        const bool told = kept && *kept >= 0;
-        const REAL share = told ? (REAL)*kept : cast_share(job, lamp, s, i, watch->scratch->face);
+        const bool stored = kept && *kept >= 0;
+        const REAL share = stored ? (REAL)*kept : cast_share(job, lamp, s, i, watch->scratch->face);
         if (kept) *kept = (float)share;
-        asked |= !told;
+        asked |= !stored;
         for (int k = 0; k < 6 && share < 1; k++)
             to[k][i] = before->of[k][i] + share * (to[k][i] - before->of[k][i]);
     }

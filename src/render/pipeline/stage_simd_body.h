@@ -68,7 +68,7 @@ static unsigned light_bumped(const WrTileJob *job, const Rays *rays, REAL gx, RE
         scratch->ran |= normal_effects[WR_BUMP_BLINN];
         did(watch, WR_EFFECT_TANGENTS);
     }
-    bring_colour(job, rays, strip, scratch, watch);
+    update_colour(job, rays, strip, scratch, watch);
     if (job->wide->sphere_light(rays, shape, job->view->lights, &m.shine, &m.material, gx, gy,
                                 pictured(job), !level, &dark, strip)) {
         note_light(job, watch);
@@ -118,7 +118,7 @@ static bool smooth_row(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy,
     did(watch, WR_EFFECT_STEADY);
     if (how == WR_WIDE_LATER) {
         did(watch, WR_EFFECT_PARAMETERS);
-        bring_colour(job, rays, strip, scratch, watch);
+        update_colour(job, rays, strip, scratch, watch);
         job->wide->paint(rays, light, &m.shine, &m.material, strip);
     }
     put_strip(job, rays, lit_plain(job, dark, watch), sink, strip, scratch, watch);
@@ -131,7 +131,7 @@ static unsigned light_plain(const WrTileJob *job, const Rays *rays, REAL gx, REA
 {
     const LampMatter m = lamp_matter(job, true);
     bool dark = false;
-    bring_colour(job, rays, strip, scratch, watch);
+    update_colour(job, rays, strip, scratch, watch);
     if (job->view->lights->point) job->wide->points(&job->view->shape, strip);
     job->wide->sphere_light(rays, &job->view->shape, job->view->lights, &m.shine, &m.material, gx,
                             gy, pictured(job), false, &dark, strip);

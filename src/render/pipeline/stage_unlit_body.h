@@ -30,17 +30,17 @@ static bool are_behind(const WrTileJob *job, const Rays *rays, const float table
 }
 
 /* A few samples are tested first, with the slopes of the table's flattest tile: most runs that are not dark fail
-   here. untold: kernels of a surface whose tangents are not computed yet, or NULL. */
+   here. deferred: kernels of a surface whose tangents are not computed yet, or NULL. */
 static bool is_dark(const WrTileJob *job, const Rays *rays, bool level,
-                    const WR_T(WrRound) * untold, Strip *strip)
+                    const WR_T(WrRound) * deferred, Strip *strip)
 {
     const int few = strip->count / 3 + 1;
     const bool bumped = !level && job->plan->bump != WR_BUMP_NONE;
     float table[2];
     if (!job->dark || job->view->stretched) return false;
-    if (bumped && untold) {
+    if (bumped && deferred) {
         if (!are_behind(job, rays, NULL, few, strip)) return false;
-        untold->tangents(&VIEWED(job->view, shape), strip);
+        deferred->tangents(&VIEWED(job->view, shape), strip);
     }
     if (!are_behind(job, rays, bumped ? job->level.gentlest : NULL, few, strip)) return false;
     if (!bumped) return are_behind(job, rays, NULL, 1, strip);

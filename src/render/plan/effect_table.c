@@ -362,7 +362,7 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                    "nothing but light and material of a resting view has changed "
                                    "since its points and normals were noted",
                                    0, .only_way = true, .manner = true,
-                                   .decide = wr_decide_steady },
+                                   .decide = wr_decide_relight },
     [WR_ROW(WR_EFFECT_BESIDE)] = { "E30", "tiles beside the object", WR_PROOF_IDENTICAL, NULL,
                                    "beyond the object's outline tiles, and parts of tiles, are "
                                    "cleared and no more",

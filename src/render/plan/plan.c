@@ -226,7 +226,7 @@ WrVerdict wr_decide_displaced(const WrPlan *plan, const WrPlanRequest *ask, cons
         return say(WR_VERDICT_SPARED, why, "the table is 0 everywhere");
     /* Shadow rays intersect facets of P + F n, however low it is. Started from the base, all rays would be
        blocked, or none. */
-    const bool met = wr_shadow_rays_asked(scene) && ask->dials->rays > 0;
+    const bool met = wr_shadow_rays_needed(scene) && ask->dials->rays > 0;
     if (ask->facts.rise >= 0 && ask->facts.rise < SEEN && !met)
         return say(WR_VERDICT_SPARED, why, "F moves no point by half a pixel: bump looks the same");
     return say(WR_VERDICT_RUN, why, "F moves the surface: facets of P + F n are seen");

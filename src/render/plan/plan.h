@@ -281,12 +281,12 @@ typedef struct WrPlanFacts {
     bool ends;       /* the table ends at the ends of an axis: it does not repeat */
     bool outside;    /* the eye is certainly outside a closed surface */
     bool lively;     /* adaptive: nearly all pixels of the view need all samples */
-    bool sighted;    /* the uv cache holds the view */
-    bool steady;     /* the relight cache holds it, too */
-    const char *steady_told; /* status of the relight cache; NULL: it is new */
-    int among;               /* visible objects; 0 or 1: this one alone */
-    int hiders;              /* objects that can hide a lamp from this one, including itself */
-    double rise;             /* largest displacement by F, in pixels; below 0: unknown */
+    bool uv_cached;  /* the uv cache holds the view */
+    bool relight;    /* the relight cache holds it, too */
+    const char *relight_status; /* status of the relight cache; NULL: it is new */
+    int among;                  /* visible objects; 0 or 1: this one alone */
+    int hiders;                 /* objects that can hide a lamp from this one, including itself */
+    double rise;                /* largest displacement by F, in pixels; below 0: unknown */
     bool rests; /* the last picture is kept, and was made by the same plan for the same request */
     double sloped; /* share of the table's tiles that have a slope; below 0: unknown */
 } WrPlanFacts;

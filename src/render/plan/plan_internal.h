@@ -89,15 +89,15 @@ static inline bool still(const WrScene *scene)
 typedef WrVerdict WrDecide(const WrPlan *plan, const WrPlanRequest *ask, const char **why);
 typedef void WrSettle(WrPlan *plan, const WrPlanRequest *ask);
 WrDecide wr_decide_back, wr_decide_depth, wr_decide_newton, wr_decide_perspective, wr_decide_again,
-    wr_decide_steady, wr_decide_parameters, wr_decide_tangents, wr_decide_hidden, wr_decide_between,
-    wr_decide_beside, wr_decide_dark, wr_decide_ground, wr_decide_colour, wr_decide_tint,
-    wr_decide_smooth, wr_decide_blocks, wr_decide_horizon, wr_decide_normals, wr_decide_diffuse,
-    wr_decide_specular, wr_decide_model, wr_decide_shadow, wr_decide_cast, wr_decide_occlusion,
-    wr_decide_filter, wr_decide_surround, wr_decide_harmonics, wr_decide_mirror, wr_decide_blur,
-    wr_decide_displaced, wr_decide_parallax, wr_decide_exact, wr_decide_curvature, wr_decide_grain,
-    wr_decide_octaves, wr_decide_faded, wr_decide_embossed, wr_decide_facets, wr_decide_varied,
-    wr_decide_samples, wr_decide_bound, wr_decide_kept, wr_decide_widened, wr_decide_faced,
-    wr_decide_faint;
+    wr_decide_relight, wr_decide_parameters, wr_decide_tangents, wr_decide_hidden,
+    wr_decide_between, wr_decide_beside, wr_decide_dark, wr_decide_ground, wr_decide_colour,
+    wr_decide_tint, wr_decide_smooth, wr_decide_blocks, wr_decide_horizon, wr_decide_normals,
+    wr_decide_diffuse, wr_decide_specular, wr_decide_model, wr_decide_shadow, wr_decide_cast,
+    wr_decide_occlusion, wr_decide_filter, wr_decide_surround, wr_decide_harmonics,
+    wr_decide_mirror, wr_decide_blur, wr_decide_displaced, wr_decide_parallax, wr_decide_exact,
+    wr_decide_curvature, wr_decide_grain, wr_decide_octaves, wr_decide_faded, wr_decide_embossed,
+    wr_decide_facets, wr_decide_varied, wr_decide_samples, wr_decide_bound, wr_decide_kept,
+    wr_decide_widened, wr_decide_faced, wr_decide_faint;
 WrSettle wr_settle_filter, wr_settle_depth, wr_settle_newton, wr_settle_tint, wr_settle_normals,
     wr_settle_facets, wr_settle_model, wr_settle_cast, wr_settle_occlusion, wr_settle_harmonics,
     wr_settle_blur, wr_settle_displaced, wr_settle_parallax, wr_settle_exact, wr_settle_curvature,

@@ -150,7 +150,7 @@ WrVerdict wr_decide_blur(const WrPlan *plan, const WrPlanRequest *ask, const cha
         return say(WR_VERDICT_SPARED, why, "surroundings of one colour are the same when blurred");
     wr_scene_gloss(&ask->scene->material, &gloss);
     const bool widened = roughens(ask->scene) || ask->dials->aa == WR_AA_MOMENTS;
-    if (gloss.alpha <= WR_ALPHA_LEAST && !widened)
+    if (gloss.alpha <= WR_ALPHA_MIN && !widened)
         return say(WR_VERDICT_SPARED, why,
                    "so smooth a surface mirrors: its lobe is a thousandth wide");
     if (widened)
@@ -171,7 +171,7 @@ bool wr_plan_graded(const WrPlan *plan, const WrScene *scene)
 {
     WrEnvironmentBrdf gloss;
     wr_scene_gloss(&scene->material, &gloss);
-    const bool narrow = gloss.alpha < WR_BLUR_LEAST; /* too narrow for a separate blurred picture */
+    const bool narrow = gloss.alpha < WR_BLUR_MIN; /* too narrow for a separate blurred picture */
     const bool blurred = runs(plan, WR_EFFECT_BLUR) && (runs(plan, WR_EFFECT_SPREAD) || narrow);
     return runs(plan, WR_EFFECT_MIRROR) && (blurred || runs(plan, WR_EFFECT_VARIED));
 }
@@ -328,7 +328,8 @@ WrVerdict wr_decide_shadow(const WrPlan *plan, const WrPlanRequest *ask, const c
 
 WrVerdict wr_decide_cast(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
-    if (!wr_shadow_rays_asked(ask->scene)) return say(WR_VERDICT_NONE, why, "no light has them on");
+    if (!wr_shadow_rays_needed(ask->scene))
+        return say(WR_VERDICT_NONE, why, "no light has them on");
     if (ask->dials->rays == 0)
         return say(WR_VERDICT_NONE, why, "the dial lets no ray go to a lamp");
     if (!runs(plan, WR_EFFECT_DIFFUSE) && !runs(plan, WR_EFFECT_SPECULAR))
@@ -368,6 +369,6 @@ WrVerdict wr_decide_occlusion(const WrPlan *plan, const WrPlanRequest *ask, cons
 
 void wr_settle_occlusion(WrPlan *plan, const WrPlanRequest *ask)
 {
-    const int n = ask->dials->horizons / WR_HORIZON_LEAST * WR_HORIZON_LEAST;
+    const int n = ask->dials->horizons / WR_HORIZON_MIN * WR_HORIZON_MIN;
     if (runs(plan, WR_EFFECT_OCCLUSION) || runs(plan, WR_EFFECT_SHADOW)) plan->horizons = n;
 }

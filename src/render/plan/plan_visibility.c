@@ -35,7 +35,7 @@ WrVerdict wr_decide_depth(const WrPlan *plan, const WrPlanRequest *ask, const ch
         return say(WR_VERDICT_RUN, why, "facets of the displaced surface hide others");
     if (surface_of(ask)->inversion != WR_INVERT_MESH && !is_held(ask))
         return say(WR_VERDICT_NONE, why, "the nearest root of the ray is enough");
-    if (ask->facts.sighted || ask->facts.steady)
+    if (ask->facts.uv_cached || ask->facts.relight)
         return say(WR_VERDICT_SPARED, why, "the view is still: its visible points are stored");
     return say(WR_VERDICT_RUN, why, "parts of the surface may hide others");
 }
@@ -54,7 +54,7 @@ WrVerdict wr_decide_newton(const WrPlan *plan, const WrPlanRequest *ask, const c
                    "rays meet triangles in closed form, and patches near them in a few steps");
     if (plan->inversion != WR_INVERT_MESH)
         return say(WR_VERDICT_NONE, why, "rays meet this surface in closed form");
-    if (ask->facts.sighted || ask->facts.steady)
+    if (ask->facts.uv_cached || ask->facts.relight)
         return say(WR_VERDICT_SPARED, why, "the view rests: u and v are known");
     return say(WR_VERDICT_RUN, why, "this surface has no closed inverse");
 }
@@ -84,12 +84,12 @@ WrVerdict wr_decide_again(const WrPlan *plan, const WrPlanRequest *ask, const ch
     return say(WR_VERDICT_SPARED, why, "the view rests: only tiles that an edit reached are new");
 }
 
-WrVerdict wr_decide_steady(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
+WrVerdict wr_decide_relight(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (!plan->normals) return say(WR_VERDICT_NONE, why, "no light depends on the normal");
-    const char *told = ask->facts.steady_told;
-    if (ask->facts.steady) return say(WR_VERDICT_SPARED, why, told);
-    return say(WR_VERDICT_RUN, why, told ? told : "points and normals are new");
+    const char *status = ask->facts.relight_status;
+    if (ask->facts.relight) return say(WR_VERDICT_SPARED, why, status);
+    return say(WR_VERDICT_RUN, why, status ? status : "points and normals are new");
 }
 
 /* ---- surface geometry ---- */

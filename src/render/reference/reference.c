@@ -221,7 +221,7 @@ static void map_row(int y, int worker, void *ctx)
     const Looker *looker = &job->looker;
     const WrReferenceView *view = &looker->stage.view;
     float *out = job->out + (size_t)y * (size_t)job->width;
-    if (wr_cancel_asked(job->cancel)) return;
+    if (wr_cancel_requested(job->cancel)) return;
     for (int x = 0; x < job->width; x++) {
         const WrReferenceRay ray = wr_reference_view_ray(view, x + 0.5, y + 0.5);
         WrReferenceHit hit;
@@ -250,7 +250,7 @@ bool wr_reference_map(const WrField *field, const WrScene *scene, int width, int
     bool good = looker_init(&job.looker, field, scene, width, height, turn_deg, table, pool, err);
     if (good) wr_pool_run(pool, height, map_row, &job);
     wr_reference_stage_fini(&job.looker.stage);
-    if (good && wr_cancel_asked(cancel)) return wr_fail(err, "cancelled");
+    if (good && wr_cancel_requested(cancel)) return wr_fail(err, "cancelled");
     return good;
 }
 
@@ -351,7 +351,7 @@ static void render_row(int y, int worker, void *ctx)
     const WrReferenceRequest *request = pass->request;
     const size_t row = (size_t)y * (size_t)request->width;
     for (int x = 0; x < request->width; x++) {
-        if (wr_cancel_asked(request->cancel)) return;
+        if (wr_cancel_requested(request->cancel)) return;
         if (!wanted(request, x, y)) continue;
         sample_pixel(pass, x, y, pass->rgba + 4 * (row + (size_t)x), &pass->lost[y]);
         WrReferenceSample centre;
@@ -425,7 +425,7 @@ static bool render_pass(const Set *set, const WrReferenceRequest *request, int k
     out->lost = 0;
     for (int y = 0; y < request->height; y++) out->lost += pass.lost[y];
     wr_free(pass.lost);
-    if (wr_cancel_asked(request->cancel)) return wr_fail(err, "cancelled");
+    if (wr_cancel_requested(request->cancel)) return wr_fail(err, "cancelled");
     out->samples = k;
     return true;
 }

@@ -392,7 +392,7 @@ static int cells_of(const WrReferenceRaised *raised, double share, double cells)
 {
     const WrInversion way = wr_surfaces[raised->shape->kind]->inversion;
     const double least = way == WR_INVERT_PLANE || way == WR_INVERT_CUBE ? 1 : ROUND;
-    return (int)fmin(fmax(ceil(share * cells), least), 2.0 * WR_RAISED_MOST);
+    return (int)fmin(fmax(ceil(share * cells), least), 2.0 * WR_RAISED_MAX);
 }
 
 static bool cut_sheets(WrReferenceRaised *raised, const double cells[2], WrError *err)
@@ -407,11 +407,11 @@ static bool cut_sheets(WrReferenceRaised *raised, const double cells[2], WrError
         if (sheet->kind == WR_RAISED_CORNER) sheet->nu = 1;
         all += (double)sheet->nu * sheet->nv;
     }
-    if (all <= WR_RAISED_MOST) return true;
+    if (all <= WR_RAISED_MAX) return true;
     return wr_fail(err,
                    "the reference renders a displaced surface of at most %d texels, repeats "
                    "counted: this one has %.0f",
-                   WR_RAISED_MOST, all);
+                   WR_RAISED_MAX, all);
 }
 
 bool wr_reference_raised_init(WrReferenceRaised *raised, const WrShape *shape,

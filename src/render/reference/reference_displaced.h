@@ -27,10 +27,10 @@ typedef struct WrReferenceRaised {
     double size; /* of the object with its relief, object units */
 } WrReferenceRaised;
 
-#define WR_RAISED_MOST 0x400000 /* cells */
+#define WR_RAISED_MAX 0x400000 /* cells */
 
 /* Builds cells and boxes. cells: numbers over all of u and v for which F has at most one bend per cell. Errors:
-   more cells than WR_RAISED_MOST; no memory. Call fini even then. */
+   more cells than WR_RAISED_MAX; no memory. Call fini even then. */
 bool wr_reference_raised_init(WrReferenceRaised *raised, const WrShape *shape,
                               WrReferenceHeight *height, const void *ctx, const double cells[2],
                               WrPool *pool, WrError *err);

@@ -68,7 +68,7 @@ static void walk_row(int y, int worker, void *ctx)
 {
     (void)worker;
     const Walk *walk = ctx;
-    if (wr_cancel_asked(walk->request->cancel)) return;
+    if (wr_cancel_requested(walk->request->cancel)) return;
     for (int x = 0; x < walk->request->width; x++) {
         const WrReferenceRay ray = wr_reference_view_ray(&walk->stage->view, x + 0.5, y + 0.5);
         WrReferenceHit hit;
@@ -112,7 +112,7 @@ bool wr_reference_moved(const WrReferenceRequest *request, WrPool *pool, WrMoved
         all.most = fmax(all.most, rows[y].most);
     }
     wr_free(rows);
-    if (good && wr_cancel_asked(request->cancel)) return wr_fail(err, "cancelled");
+    if (good && wr_cancel_requested(request->cancel)) return wr_fail(err, "cancelled");
     const double count = all.places > 0 ? (double)all.places : 1;
     *out = (WrMoved){ all.places, all.way / count, all.most, sqrt(all.light / count) };
     return good;

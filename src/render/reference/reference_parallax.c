@@ -11,10 +11,10 @@
 /* Parallax of round bases for the reference: a ray through the shell that contains the relief, by short even
    steps; its height above the base has a closed form. */
 
-#define PER_CELL 6 /* steps */
-#define PARTS 32   /* of a way, for counting its cells */
-#define LEAST 48   /* minimum steps of a whole way */
-#define MOST 6000  /* maximum steps of a whole way */
+#define PER_CELL 6    /* steps */
+#define PARTS 32      /* of a way, for counting its cells */
+#define LEAST 48      /* minimum steps of a whole way */
+#define MAX_MOST 6000 /* maximum steps of a whole way */
 #define HALVINGS 48
 
 typedef struct Shell {
@@ -81,7 +81,7 @@ static int steps_of(const Shell *shell, const double part[2])
                      fabs(v - last[1]) * shell->stage->cells[1];
         last[0] = u, last[1] = v;
     }
-    return (int)fmin(fmax(LEAST, ceil(PER_CELL * cells)), MOST);
+    return (int)fmin(fmax(LEAST, ceil(PER_CELL * cells)), MAX_MOST);
 }
 
 /* Hit on the relief of a base that has a shell (wr_parallax_has_shell), without the point. */
@@ -223,7 +223,7 @@ static bool meet(const Way *w, double *t)
     const double all = w->last - w->first;
     const double cells =
         fabs(w->a) * all * w->stage->cells[0] + fabs(w->b) * all * w->stage->cells[1];
-    const int steps = (int)fmin(fmax(LEAST, ceil(PER_CELL * cells)), MOST);
+    const int steps = (int)fmin(fmax(LEAST, ceil(PER_CELL * cells)), MAX_MOST);
     double from = w->first;
     *t = from;
     if (!(all > 0)) {

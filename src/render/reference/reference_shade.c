@@ -531,7 +531,7 @@ static WrMatter matter_at(const WrReferenceStage *stage, WrVec3 object, double u
     const double metal = out.metal;
     out = *low;
     out.metal = metal;
-    out.alpha = fmax(roughness * roughness, WR_ALPHA_LEAST), out.sigma = roughness;
+    out.alpha = fmax(roughness * roughness, WR_ALPHA_MIN), out.sigma = roughness;
     out.a += t * (high->a - low->a), out.b += t * (high->b - low->b);
     out.scale += t * (high->scale - low->scale), out.mean += t * (high->mean - low->mean);
     out.again += t * (high->again - low->again);

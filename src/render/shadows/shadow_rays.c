@@ -266,8 +266,8 @@ static bool shadow_rays_tree_meets(const WrShadowRaysBody *body, WrVec3 o, WrVec
 /* Facets of a surface without closed-form intersection, or of a displaced one. Their error is a few
    hundred-thousandths of its radius. */
 
-#define OFF 0x1p-15 /* of the radius: error that facets may have, if ... */
-#define MOST 512    /* ... this many steps are enough */
+#define OFF 0x1p-15  /* of the radius: error that facets may have, if ... */
+#define MAX_MOST 512 /* ... this many steps are enough */
 #define LEAST 16
 #define LOOKS 16   /* test points in each direction for the error of a step */
 #define CORNERS 64 /* rows at which Pv may be discontinuous */
@@ -279,7 +279,7 @@ typedef struct Cut {
     WrSurfaceCell cell;
     double corner[CORNERS];
     int corners;
-    double rows[MOST + CORNERS + 1];
+    double rows[MAX_MOST + CORNERS + 1];
     int across, down; /* number of steps */
     double off;       /* largest error of the facets */
 } Cut;
@@ -353,23 +353,23 @@ static int least_steps(const Cut *cut, bool along_u)
     const bool table = scene->analytic.kind == WR_ANALYTIC_OFF;
     const double of = fabs(along_u ? scene->replicate_u : scene->replicate_v);
     const int texels = !table ? LEAST : along_u ? wr_field_width(field) : wr_field_height(field);
-    return (int)fmin(fmax(LEAST, of * texels), MOST);
+    return (int)fmin(fmax(LEAST, of * texels), MAX_MOST);
 }
 
 static int steps_of(const Cut *cut, bool along_u, double enough)
 {
     int n = least_steps(cut, along_u);
-    while (n < MOST && off_by(cut, along_u, n) > enough) n *= 2;
-    return n < MOST ? n : MOST;
+    while (n < MAX_MOST && off_by(cut, along_u, n) > enough) n *= 2;
+    return n < MAX_MOST ? n : MAX_MOST;
 }
 
 /* Chooses the steps in both directions; returns their error. */
 static int choose_steps(Cut *cut, double enough)
 {
     int across = steps_of(cut, true, enough), down = steps_of(cut, false, enough);
-    while ((across < MOST || down < MOST) && off_across(cut, across, down) > 2 * enough) {
-        across = 2 * across < MOST ? 2 * across : MOST;
-        down = 2 * down < MOST ? 2 * down : MOST;
+    while ((across < MAX_MOST || down < MAX_MOST) && off_across(cut, across, down) > 2 * enough) {
+        across = 2 * across < MAX_MOST ? 2 * across : MAX_MOST;
+        down = 2 * down < MAX_MOST ? 2 * down : MAX_MOST;
     }
     cut->across = across;
     cut->off =
@@ -609,7 +609,7 @@ bool wr_shadow_rays_prepare(WrShadowRays *cast, const WrShadowRaysRequest *ask, 
     return true;
 }
 
-bool wr_shadow_rays_asked(const WrScene *scene)
+bool wr_shadow_rays_needed(const WrScene *scene)
 {
     for (int i = 0; i < scene->light_count; i++) {
         const WrLight *light = &scene->lights[i];

@@ -69,7 +69,7 @@ typedef struct WrShadowRays {
 } WrShadowRays;
 
 /* True if the scene has such shadows, of a lamp that is on. */
-bool wr_shadow_rays_asked(const WrScene *scene);
+bool wr_shadow_rays_needed(const WrScene *scene);
 void wr_shadow_rays_body_fini(WrShadowRaysBody *body);
 
 /* Arguments of wr_shadow_rays_prepare: finds which of `count` objects (scenes of one each, and their bodies) can

@@ -14,8 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define WR_DICE_SIDE 16       /* largest number of steps along a cell at which F is measured */
-#define WR_DICE_MOST_CUTS 256 /* largest number of cuts of a cell's side */
+#define WR_DICE_SIDE 16      /* largest number of steps along a cell at which F is measured */
+#define WR_DICE_MAX_CUTS 256 /* largest number of cuts of a cell's side */
 
 /* A cell of a face: its needs, and its cuts. */
 typedef struct WrDiceCell {
@@ -417,7 +417,7 @@ static int cuts_for(double rate, double width)
 {
     const double want = rate * width * (1 - 1e-9);
     int cuts = 1;
-    while (cuts < WR_DICE_MOST_CUTS && cuts < want) cuts *= 2;
+    while (cuts < WR_DICE_MAX_CUTS && cuts < want) cuts *= 2;
     return cuts;
 }
 
@@ -483,7 +483,7 @@ static void make_points(const WrDicing *d, const WrDiceCell *c)
 {
     int32_t at = c->corner;
     for (int y = 0; y <= c->nv; y++, at += c->nu + 1) {
-        double u[WR_DICE_MOST_CUTS + 1], v[WR_DICE_MOST_CUTS + 1], f[WR_DICE_MOST_CUTS + 1];
+        double u[WR_DICE_MAX_CUTS + 1], v[WR_DICE_MAX_CUTS + 1], f[WR_DICE_MAX_CUTS + 1];
         for (int x = 0; x <= c->nu; x++) u[x] = column(d, c, x), v[x] = row(d, c, y);
         wr_scene_heights(d->scene, d->field, c->nu + 1, u, v, f);
         for (int x = 0; x <= c->nu; x++) {
@@ -641,8 +641,8 @@ bool wr_dice_make(WrDice *dice, const WrScene *scene, const WrField *field, cons
     wr_dice_fini(dice);
     dice_lay(&d, pool);
     dice_choose(&d);
-    while (d.triangle_count > WR_DICE_MOST && d.epsilon < 1e30) {
-        d.epsilon *= fmax(1.5, 0.5 * (double)d.triangle_count / WR_DICE_MOST);
+    while (d.triangle_count > WR_DICE_MAX && d.epsilon < 1e30) {
+        d.epsilon *= fmax(1.5, 0.5 * (double)d.triangle_count / WR_DICE_MAX);
         dice_choose(&d);
     }
     const bool room = allocate(&d, err);

@@ -26,7 +26,7 @@ typedef struct WrScene WrScene;
 typedef struct WrView WrView;
 
 #define WR_DICE_FACES 6
-#define WR_DICE_MOST 3000000 /* maximum triangles; beyond it facets are coarser (HC125) */
+#define WR_DICE_MAX 3000000 /* maximum triangles; beyond it facets are coarser (HC125) */
 
 typedef struct WrDice {
     WrTriangles *triangles;     /* owned; corners have u and v, no normals; NULL: not built */

@@ -12,8 +12,8 @@
 
 /* ---- slope bounds ---- */
 
-#define REACH 3       /* texels: those that a fetch reads beside its position, and rounding */
-#define TILES_MOST 64 /* largest number of tiles of a box */
+#define REACH 3      /* texels: those that a fetch reads beside its position, and rounding */
+#define TILES_MAX 64 /* largest number of tiles of a box */
 
 /* Texels of an axis, from <= to; on a periodic one they may extend past both ends. */
 typedef struct Run {
@@ -78,7 +78,7 @@ void wr_level_box(const WrLevel *level, double u0, double u1, double v0, double 
             const int tu = around(i, width) / WR_TILE, tv = around(j, height) / WR_TILE;
             const int at = tv * level->tiles_u + tu;
             first = first < 0 ? at : first;
-            if (++tiles > TILES_MOST) return;
+            if (++tiles > TILES_MAX) return;
             add_tile(level, at, first, most);
         }
     for (int c = 0; c < 2; c++) steepest[c] = most[c];

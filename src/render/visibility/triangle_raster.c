@@ -198,12 +198,12 @@ bool wr_view_triangles_prepare(WrViewTriangles *to, const WrTriangles *source, c
         to->coned = blocks_apart;
         to->whole = false;
     }
-    const WrViewSight sight = wr_view_sight(view);
+    const WrViewProjection projection = wr_view_projection(view);
     const bool apart = blocks_apart && view->cull;
     if (to->whole && to->scale == view->scale && to->cull == apart &&
-        memcmp(&to->sight, &sight, sizeof sight) == 0)
+        memcmp(&to->projection, &projection, sizeof projection) == 0)
         return true;
-    to->sight = sight, to->scale = view->scale, to->cull = apart;
+    to->projection = projection, to->scale = view->scale, to->cull = apart;
     wr_pool_run(pool, (source->corner_count + CHUNK - 1) / CHUNK, project_chunk, &job);
     wr_pool_run(pool, to->group_count, bound_group, &job);
     to->whole = true;

@@ -26,7 +26,7 @@ typedef struct WrViewTriangles {
     WrTriangles *source; /* shared; NULL: not prepared */
     WrTriangleCone *cones;
     int32_t block_count, group_count;
-    WrViewSight sight; /* the view of the projection that follows */
+    WrViewProjection projection; /* the view of the projection that follows */
     double scale;
     bool cull, whole, coned; /* coned: the cones are computed */
     int32_t *sx, *sy;        /* projected corners, 1/256 samples */

@@ -79,7 +79,7 @@ static void choose_cells(const WrViewMesh *mesh, const WrShape *shape, const WrV
 {
     const double tolerance = 0.25 * view->samples; /* a quarter of a pixel, in samples */
     double k = view->scale * samples_per_unit(view, shape) / (8.0 * tolerance);
-    const int most = WR_MESH_MOST; /* a ribbon of sixty turns needs 1500 along it (HC164) ... */
+    const int most = WR_MESH_MAX; /* a ribbon of sixty turns needs 1500 along it (HC164) ... */
     double u = fmin(sqrt(2.0 * k * (mesh->uu + mesh->uv)), most);
     double v = fmin(sqrt(2.0 * k * (mesh->vv + mesh->uv)), most);
     /* ... but not in both directions */
@@ -202,18 +202,18 @@ static WrNewton choose_newton(const WrViewMesh *mesh, const WrSurfaceInfo *info,
                        .steps = ask->newton < 0 ? enough : ask->newton };
 }
 
-WrViewSight wr_view_sight(const WrView *view)
+WrViewProjection wr_view_projection(const WrView *view)
 {
-    return (WrViewSight){ .eye = view->eye,
-                          .right = view->right,
-                          .up = view->up,
-                          .forward = view->forward,
-                          .half_w = view->half_w,
-                          .half_h = view->half_h,
-                          .near = view->near,
-                          .grid_w = view->grid_w,
-                          .grid_h = view->grid_h,
-                          .perspective = view->perspective };
+    return (WrViewProjection){ .eye = view->eye,
+                               .right = view->right,
+                               .up = view->up,
+                               .forward = view->forward,
+                               .half_w = view->half_w,
+                               .half_h = view->half_h,
+                               .near = view->near,
+                               .grid_w = view->grid_w,
+                               .grid_h = view->grid_h,
+                               .perspective = view->perspective };
 }
 
 void wr_view_mesh_prepare(WrViewMesh *mesh, const WrShape *shape, const WrView *view,
@@ -233,9 +233,9 @@ void wr_view_mesh_prepare(WrViewMesh *mesh, const WrShape *shape, const WrView *
         wr_pool_run(pool, mv + 1, make_row, &job);
     }
     mesh->newton = choose_newton(mesh, wr_surfaces[shape->kind], view->scale, ask);
-    const WrViewSight sight = wr_view_sight(view);
-    if (same && memcmp(&mesh->sight, &sight, sizeof sight) == 0) return;
-    mesh->sight = sight;
+    const WrViewProjection projection = wr_view_projection(view);
+    if (same && memcmp(&mesh->projection, &projection, sizeof projection) == 0) return;
+    mesh->projection = projection;
     wr_pool_run(pool, mv + 1, project_row, &job);
     wr_pool_run(pool, mesh->blocks_v, bound_row, &job);
 }

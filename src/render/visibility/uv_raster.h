@@ -9,8 +9,8 @@
 
 typedef struct WrPool WrPool;
 
-#define WR_MESH_BLOCK 8   /* cells along a block's side */
-#define WR_MESH_MOST 2048 /* maximum cells along u, and along v */
+#define WR_MESH_BLOCK 8  /* cells along a block's side */
+#define WR_MESH_MAX 2048 /* maximum cells along u, and along v */
 
 typedef struct WrViewMeshBlock { /* bounds of a block's vertices, 1/256 samples */
     int32_t x0, y0, x1, y1;
@@ -26,12 +26,12 @@ typedef enum WrVertexPlace {
 } WrVertexPlace;
 
 /* All parts of a view that projection depends on. */
-typedef struct WrViewSight {
+typedef struct WrViewProjection {
     WrVec3 eye, right, up, forward;
     double half_w, half_h, near, grid_w, grid_h, perspective;
-} WrViewSight;
+} WrViewProjection;
 
-WrViewSight wr_view_sight(const WrView *view);
+WrViewProjection wr_view_projection(const WrView *view);
 
 /* Zero-initialise; fini frees. */
 typedef struct WrViewMesh {
@@ -42,12 +42,12 @@ typedef struct WrViewMesh {
     WrShapef shape;
     int mu, mv; /* cells along u and v; 0: not built */
     float *v;   /* [mv + 1] of the rows, owned: evenly spaced, except those moved to corners */
-    float *x, *y, *z;        /* [(mv + 1)(mu + 1)] kernel units, owned */
-    WrViewSight sight;       /* the view of the projection that follows */
-    int32_t *sx, *sy;        /* projected, 1/256 samples */
-    float *close;            /* 1/depth (perspective) or -depth: larger is nearer */
-    unsigned char *out;      /* WrVertexPlace */
-    WrViewMeshBlock *blocks; /* [blocks_v][blocks_u] */
+    float *x, *y, *z;            /* [(mv + 1)(mu + 1)] kernel units, owned */
+    WrViewProjection projection; /* the view of the projection that follows */
+    int32_t *sx, *sy;            /* projected, 1/256 samples */
+    float *close;                /* 1/depth (perspective) or -depth: larger is nearer */
+    unsigned char *out;          /* WrVertexPlace */
+    WrViewMeshBlock *blocks;     /* [blocks_v][blocks_u] */
     int blocks_u, blocks_v;
     WrNewton newton; /* parameters of Newton's method for its start values */
 } WrViewMesh;
