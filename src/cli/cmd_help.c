@@ -44,12 +44,11 @@ void wr_cli_help(const WrSubcommand *command, WrText *text)
     if (command) add_plain_options(text, command, false);
     add_plain_options(text, &wr_subcommands[0], true);
     if (!command)
-        wr_text_add(text,
-                    "\n`wrinkle help` lists the commands that scripts and --do take, "
-                    "`wrinkle help VERB` tells\nmore of one, `wrinkle SUBCOMMAND --help` of a "
-                    "subcommand.\n\n"
-                    "Exit status: 0 done, 1 failed, 2 the shell line was wrong, 130 "
-                    "interrupted.\n");
+        wr_text_add(text, "\n`wrinkle help` lists the commands that scripts and --do take, "
+                          "`wrinkle help VERB` describes\none, `wrinkle SUBCOMMAND --help` a "
+                          "subcommand.\n\n"
+                          "Exit status: 0 done, 1 failed, 2 the shell line was wrong, 130 "
+                          "interrupted.\n");
 }
 
 /* ---- for the guide ---- */

@@ -25,13 +25,13 @@ const WrSubcommand wr_subcommands[] = {
       wr_cli_render },
     { "export", "export [FILE] --as KIND [name=value...] -o OUT [--watch]",
       "the table for other programs", BIT(OUT) | BIT(AS),
-      "`wrinkle help export` lists the kinds and what each takes. `--as SET -o FOLDER` writes the "
-      "maps that a program wants, "
+      "`wrinkle help export` lists the kinds and their arguments. `--as SET -o FOLDER` writes the "
+      "maps for another program, "
       "all or none: blender, gltf, unreal, unity, godot, substance, renderman, arnold, povray, and "
       "those of your own, NAME.set in the folder sets of your settings.",
       wr_cli_export },
     { "check", "check FILE... [--as KIND] [--coding CODING] [--json]",
-      "whether pictures are seamless cells, and what they hold",
+      "whether pictures are seamless cells, and their content",
       BIT(CHECK) | BIT(JSON) | BIT(ALL_WORDS),
       "Of any picture, whoever made it: do opposite edges meet, beside the breaks inside; how fine "
       "are its "
@@ -51,10 +51,10 @@ const WrSubcommand wr_subcommands[] = {
     { "explain", "explain [FILE] [--measure] [--map FILE] [--full] [--json] [--size WxH]",
       "the plan of a picture, with reasons",
       BIT(JSON) | BIT(SIZE) | BIT(FULL) | BIT(EXPLAIN) | BIT(MAP),
-      "Renders once and prints what was simulated and what was left out. class I: leaving it out "
+      "Renders once and prints the effects that ran and those left out. class I: leaving it out "
       "gives\n"
       "the same bits; B: within a stated bound; P: a choice that changes the picture.\n"
-      "--measure takes some seconds: frames as planned and with one effect forced the other way, "
+      "--measure needs some seconds: frames as planned and with one effect forced the other way, "
       "by "
       "turns.\n"
       "costs: what the frame takes less without an effect that runs; saved: what it would take "
@@ -63,7 +63,7 @@ const WrSubcommand wr_subcommands[] = {
       "that was left out.",
       wr_cli_explain },
     { "accuracy", "accuracy [FILE] [--size WxH] [--plot FILE]... [--csv FILE] [--json]",
-      "what each approximation costs: error against time", BIT(JSON) | BIT(ACCURACY) | BIT(MAP),
+      "error and time of each approximation", BIT(JSON) | BIT(ACCURACY) | BIT(MAP),
       "Renders the document with each rung of each dial, one at a time and in the combinations "
       "that\n"
       "matter; times them interleaved, on one processor unless --threads says otherwise; measures "
@@ -80,8 +80,8 @@ const WrSubcommand wr_subcommands[] = {
       "missing it\n"
       "is kept, the status is 1, and --beyond, --script and discard are what is left to do.",
       wr_cli_recover },
-    { "brushes", "brushes [NAME...] [--sheet FILE] [--json]", "the brush presets, and what they do",
-      BIT(SHEET) | BIT(JSON) | BIT(ALL_WORDS),
+    { "brushes", "brushes [NAME...] [--sheet FILE] [--json]",
+      "the brush presets and their settings", BIT(SHEET) | BIT(JSON) | BIT(ALL_WORDS),
       "Without names: all presets that are found, by collection and group. With names: what each "
       "says\n"
       "of itself, its brush, and which of its settings are used, mean something else, or are left "
@@ -92,7 +92,7 @@ const WrSubcommand wr_subcommands[] = {
       "bench [PART...|all|generate|brushes|window] [--quick] [--exact] [--lines] [--size WxH] "
       "[--json]",
       "the program's own benchmark", BIT(SIZE) | BIT(JSON) | BIT(ALL_WORDS) | BIT(OWN),
-      "Pictures, documents, brushes and the window; with generate alone what fills a table, beside "
+      "Pictures, documents, brushes and the window; with generate alone the generators, beside "
       "gegl\n"
       "and oiiotool where they are installed, with brushes alone dabs beside libmypaint,\n"
       "with window alone how soon a motion of the pen is seen. A PART alone:\n"
@@ -106,8 +106,9 @@ const WrSubcommand wr_subcommands[] = {
       wr_cli_bench },
     { "help", "help [VERB...] [--json|--markdown]", "the commands of scripts and --do",
       BIT(JSON) | BIT(MARKDOWN) | BIT(ALL_WORDS),
-      "--markdown prints what the guide's pages hold: of a VERB its arguments; `verbs` all verbs, "
-      "`subcommands`\nthese with their options, `effects` what a plan leaves out and when.",
+      "--markdown prints tables of the guide: of a VERB its arguments; `verbs` all verbs, "
+      "`subcommands`\nthese with their options, `effects` the effects that a plan leaves out, and "
+      "when.",
       wr_cli_help_command },
     { .name = NULL }
 };

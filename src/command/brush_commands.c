@@ -78,7 +78,7 @@ const WrCommand wr_command_dab = {
     .more = wr_args_brush,
     .run = run_dab,
     .help = "touch the table once with a brush",
-    .details = "With tip= it is a stamp. What is given takes the place of the preset's own.",
+    .details = "With tip= it is a stamp. Given arguments replace the preset's own.",
     .example = "dab 0.5,0.5 radius=40 strength=0.3"
 };
 
@@ -95,8 +95,9 @@ const WrCommand wr_command_stroke = {
         "began and the largest coverage it ever had, so crossing one's own stroke does not "
         "double "
         "it; flow= below 1, presets and buildup=on add the dabs up instead. smooth, level, pinch "
-        "and smear change what they find, dab by dab. Samples are joined along the shorter way "
-        "round. What is given takes the place of the preset's own. Symmetry draws the whole "
+        "and smear change the heights under them, dab by dab. Samples are joined along the shorter "
+        "way "
+        "round. Given arguments replace the preset's own. Symmetry draws the whole "
         "stroke again: mirrors, turns, and a lattice over the cell.",
     .example = "stroke points=0.1,0.5;0.9,0.5,0.4 radius=12 mode=lower"
 };
@@ -414,7 +415,7 @@ static const char *const paints[] = { "outline", "fill", NULL };
 #define PAINT                                                                                      \
     {                                                                                              \
         .name = "paint", .type = WR_ARG_CHOICE, .words = paints, .fallback_text = "outline",       \
-        .help = "draw its outline with the brush, or cover its inside with what the mode does"     \
+        .help = "draw its outline with the brush, or apply the mode to its inside"                 \
     }
 
 WR_ROWS(shape_forms);

@@ -263,7 +263,7 @@ static const WrForm camera_forms[] = {
                                         .help = "of the turntable: all that it shows between "
                                                 "fits" } } },
     [WR_ROW(FORM_SAVE)] = { .name = "save",
-                            .help = "keep a view under a name; what is left out is as it is now" },
+                            .help = "keep a view under a name; other values stay as they are now" },
     [WR_ROW(
         FORM_USE)] = { .name = "use", .help = "go to a view that was kept", .args = { VIEW_NAME } },
     [WR_ROW(FORM_FORGET)] = { .name = "forget", .help = "keep it no more", .args = { VIEW_NAME } },
@@ -299,7 +299,7 @@ const WrCommand wr_command_camera = {
     .run = run_camera,
     .print = print_all,
     .help = "where the picture is taken from",
-    .details = "Only what is given changes. A view is no edit: undo leaves it as it is, `view "
+    .details = "Only given arguments change. A view is no edit: undo leaves it as it is, `view "
                "back` goes back. To save or forget a view is an edit: the document keeps it. With "
                "fit=on all stays in the picture however it turns; `camera fill` leaves no more "
                "margin than 2 %, and narrower pictures than it was told of see the whole as well "

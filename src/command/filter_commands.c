@@ -121,7 +121,7 @@ static bool form_filter(int i, WrForm *out)
                                    "above the active layer" };
     *next = (WrArgSpec){ .name = "name",
                          .type = WR_ARG_NAME,
-                         .help = "of a new one; left out, what the operation is called" };
+                         .help = "of a new one; default: the operation's name" };
     return true;
 }
 
@@ -135,7 +135,7 @@ const WrCommand wr_command_filter = {
     .help = "a layer that is an operation over the layers below: blur, levels and the like",
     .details = "It holds no heights: what it makes of the joined layers below it follows whatever "
                "is done to them, and joins them by its blend (`mix` at first), its opacity and its "
-               "mask, which `layer set` and `layer mask` change. A new one has what is selected as "
+               "mask, which `layer set` and `layer mask` change. A new one has the selection as "
                "its mask. Edits of its heights are refused, "
                "those of its mask are not. `layer merge` and `layer flatten` make heights of it.",
     .example = "filter blur sigma=3"

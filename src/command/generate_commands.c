@@ -451,7 +451,7 @@ static int add_shared(const WrGenerator *g, WrArgSpec *out)
                                 .type = WR_ARG_CHOICE,
                                 .choice = blend_name,
                                 .fallback_text = g->blend,
-                                .help = "how it joins what is there" };
+                                .help = "how it joins the present heights" };
     out[count++] = (WrArgSpec){ .name = wr_generator_argument(g, "radius"),
                                 .type = WR_ARG_NUMBER,
                                 .low = 0,
@@ -534,7 +534,7 @@ const WrCommand wr_command_pattern = {
     .prework = WR_PREWORK_TABLES,
     .help = "bricks, tiles, cloth, cells and other regular things",
     .details =
-        "They close at the table's edges, and origin= rolls them. What they make joins the "
+        "They close at the table's edges, and origin= rolls them. The result joins the "
         "active "
         "layer inside the selection, as blend= says: replace, unless the row has another way.",
     .example = "pattern bricks across=4 rows=10 joint=5"
@@ -552,7 +552,7 @@ const WrCommand wr_command_noise = {
         "Heights become level + amplitude N, N the sum of octaves of ratio^-i noise, octave i "
         "with "
         "cells step^i cells, rounded, so that every octave closes at the table's edges. Octaves "
-        "that would alias are left out. `wrinkle inspect --noise` tells N at any point.",
+        "that would alias are left out. `wrinkle inspect --noise` prints N at any point.",
     .example = "noise perlin cells=6 octaves=5 amplitude=0.3"
 };
 
@@ -564,7 +564,7 @@ const WrCommand wr_command_formula = {
     .run = run_generate,
     .prework = WR_PREWORK_TABLES,
     .help = "a polynomial or a Fourier series, texel by texel",
-    .details = "It is what `analytic` shows, as heights that can be painted on.",
+    .details = "It is the function of `analytic`, as heights that can be painted on.",
     .example = "formula fourier terms=3,0,0.5;0,5,0.25,90,0"
 };
 
@@ -575,8 +575,8 @@ const WrCommand wr_command_text = {
     .run = run_generate,
     .prework = WR_PREWORK_TABLES,
     .help = "letters of any font and script, in relief",
-    .details = "They are added to the active layer, where they cover it, unless blend= says "
-               "otherwise. In quotes \\\\n begins a new line. Overlapping letters are one shape.",
+    .details = "They are added to the active layer, where they cover it, unless blend= is "
+               "given. In quotes \\\\n begins a new line. Overlapping letters are one shape.",
     .example = "text Wrinkle font=serif size=90 profile=round bevel=6"
 };
 
@@ -589,7 +589,7 @@ const WrCommand wr_command_rim = {
     .help = "bevel, round, ridge, outline or emboss an edge by the distance from it",
     .details =
         "The edge is that of the selection, where it is half selected; of the layer's mask; or "
-        "where the layer's heights cross a level. What is made is not kept to the selection.",
+        "where the layer's heights cross a level. The result is not limited to the selection.",
     .example = "rim kind=round width=8"
 };
 
@@ -602,7 +602,7 @@ const WrCommand wr_command_solid = {
     .prework = WR_PREWORK_TABLES,
     .help = "solids, letters and meshes seen from above by a Z-buffer",
     .details = "They stand in the ground, which hides what is below height 0, and join the active "
-               "layer by max unless blend= says otherwise. across= and rows= make lattices of "
+               "layer by max unless blend= is given. across= and rows= make lattices of "
                "them, crossing the table's edges exactly.",
     .example = "solid sphere across=8 rows=8 radius=16"
 };

@@ -204,7 +204,7 @@ const WrCommand wr_command_script = {
     .kind = WR_CLASS_OUTPUT,
     .args = args_script,
     .run = run_script,
-    .help = "write what was done as a script",
+    .help = "write the history as a script",
     .details = "The script makes the same document, bit for bit; undone steps are not in it, "
                "and of the views only those that it takes.",
     .example = "script bricks.wrinkle"
@@ -227,7 +227,7 @@ const WrCommand wr_command_redo = { .name = "redo",
                                     .args = args_redo,
                                     .run = run_redo,
                                     .steps = 1,
-                                    .help = "do again what was undone",
+                                    .help = "redo the last undone command",
                                     .example = "redo" };
 
 const WrCommand wr_command_view = {

@@ -44,7 +44,7 @@ extern const char *const wr_mask_sources[];
     }
 
 #define WR_PASTE_ARGS                                                                              \
-    { PLACE("FILE"), .type = WR_ARG_PATH, .help = "what `copy` wrote, or any picture" },           \
+    { PLACE("FILE"), .type = WR_ARG_PATH, .help = "a file that `copy` wrote, or any picture" },    \
         { .name = "at",                                                                            \
           .type = WR_ARG_TUPLE,                                                                    \
           .components = 2,                                                                         \
@@ -503,7 +503,7 @@ static const char *const layer_parts[] = { "heights", "mask", NULL };
     { .name = "blend",                                                                             \
       .type = WR_ARG_CHOICE,                                                                       \
       .choice = blend_name,                                                                        \
-      .help = "how it joins what lies below" },                                                    \
+      .help = "how it joins the layers below" },                                                   \
         { .name = "opacity",                                                                       \
           .type = WR_ARG_NUMBER,                                                                   \
           .low = 0,                                                                                \
@@ -553,7 +553,7 @@ static const WrForm layer_forms[] = {
                                          { PLACE("NAME"), .type = WR_ARG_NAME,
                                            .help = "the new name" } } },
     [WR_ROW(LAYER_SET)] = { .name = "set",
-                            .help = "only what is given changes",
+                            .help = "only given arguments change",
                             .args = { LAYER_N,
                                       LAYER_SETTINGS,
                                       { .name = "visible",

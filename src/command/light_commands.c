@@ -94,17 +94,15 @@ static bool form_light(int i, WrForm *out)
 
 /* ---- the row ---- */
 
-const WrCommand wr_command_light = {
-    .name = "light",
-    .kind = WR_CLASS_SCENE,
-    .form_word = "KIND",
-    .form = form_light,
-    .run = run_light,
-    .print = print_light,
-    .help = "add, replace or remove lights",
-    .details = "The first light takes the place of the one that a new document has.",
-    .example = "light directional to=-1,1,2 strength=0.9"
-};
+const WrCommand wr_command_light = { .name = "light",
+                                     .kind = WR_CLASS_SCENE,
+                                     .form_word = "KIND",
+                                     .form = form_light,
+                                     .run = run_light,
+                                     .print = print_light,
+                                     .help = "add, replace or remove lights",
+                                     .details = "The first light replaces that of a new document.",
+                                     .example = "light directional to=-1,1,2 strength=0.9" };
 
 /* ---- The command environment: image-based lighting ---- */
 
@@ -272,8 +270,8 @@ const WrCommand wr_command_environment = {
         "Beside the lights; `light clear` leaves them alone. A picture is twice as wide as high, "
         "its middle is -z, its upper border straight up; float ones (EXR, HDR) are taken as "
         "linear, 8-bit and 16-bit ones decoded from sRGB. Diffuse light of them is by spherical "
-        "harmonics of order 2. The picture is saved inside the document. Only what is given "
-        "changes.",
+        "harmonics of order 2. The picture is saved inside the document. Only given arguments "
+        "change.",
     .example = "environment sky turn=30 strength=0.8"
 };
 
@@ -337,11 +335,11 @@ const WrCommand wr_command_background = {
     .form = form_background,
     .run = run_background,
     .print = print_background,
-    .help = "what stands behind the objects",
-    .details = "Of 8-bit pictures, and in the window. Only what is given changes. EXR and TIFF "
+    .help = "the background behind the objects",
+    .details = "Of 8-bit pictures, and in the window. Only given arguments change. EXR and TIFF "
                "hold coverage in its place. Files without alpha, such as JPEG, have the plain "
                "colour where there is none, and so has a scene without surroundings. An "
-               "orthographic camera sees one direction of them.",
+               "orthographic camera shows one direction of them.",
     .example = "background gradient top=0.12,0.16,0.24 bottom=0.5,0.47,0.42"
 };
 
@@ -390,8 +388,8 @@ const WrCommand wr_command_tone = {
     .row = row_tone,
     .run = run_tone,
     .print = print_tone,
-    .help = "exposure, and what becomes of light too bright for a picture",
+    .help = "exposure, and tone mapping of light too bright for a picture",
     .details = "Of 8-bit pictures, and in the window; EXR and TIFF keep light as it is. The "
-               "background is developed with the rest. Only what is given changes.",
+               "background is developed with the rest. Only given arguments change.",
     .example = "tone soft exposure=-0.5"
 };

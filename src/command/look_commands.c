@@ -148,7 +148,7 @@ static bool row_material(WrForm *out)
     *out = (WrForm){ .args = { { .name = "preset",
                                  .type = WR_ARG_CHOICE,
                                  .choice = preset_choice,
-                                 .help = "all of it at once, before what else is given" },
+                                 .help = "all of it at once, before the other arguments" },
                                { .name = "model",
                                  .type = WR_ARG_CHOICE,
                                  .choice = model_choice,
@@ -229,8 +229,8 @@ const WrCommand wr_command_material = {
     .run = run_material,
     .print = print_material,
     .of_object = true,
-    .help = "what the surface reflects",
-    .details = "Only what is given changes.",
+    .help = "the reflectance of the surface",
+    .details = "Only given arguments change.",
     .example = "material model=ggx diffuse=1 specular=1 roughness=0.4"
 };
 
@@ -240,7 +240,7 @@ const WrCommand wr_command_dials = { .name = "dials",
                                      .run = run_dials,
                                      .print = print_dials,
                                      .help = "accuracy against time",
-                                     .details = "Only what is given changes.",
+                                     .details = "Only given arguments change.",
                                      .example = "dials aa=supersample samples=4" };
 
 const WrCommand wr_command_tolerance = {
@@ -253,7 +253,7 @@ const WrCommand wr_command_tolerance = {
     .help = "the cheapest dials that keep to an error",
     .details = "One of the four. Each picture measures a sample of itself and takes, for each "
                "kind of block that it has, the cheapest slopes, normals and samples that meet "
-               "the tolerance; `wrinkle explain` says what it took, and whether that holds. save "
-               "keeps what the last picture took in chosen=.",
+               "the tolerance; `wrinkle explain` prints the choice, and whether it holds. save "
+               "keeps the last picture's choice in chosen=.",
     .example = "tolerance rms=0.004"
 };

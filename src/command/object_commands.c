@@ -385,7 +385,7 @@ static const struct {
     [WR_ROW(FORM_COPY)] = { "copy", "one more, like the chosen one; it is chosen then", true,
                             .settings = true },
     [WR_ROW(FORM_CHOOSE)] = { "choose", "commands are about this one from now on", true },
-    [WR_ROW(FORM_SET)] = { "set", "only what is given changes, of the chosen one", .renames = true,
+    [WR_ROW(FORM_SET)] = { "set", "only given arguments change, of the chosen one", .renames = true,
                            .settings = true },
     [WR_ROW(FORM_HIDE)] = { "hide", "leave it out of pictures; NAME left out, the chosen one" },
     [WR_ROW(FORM_SHOW)] = { "show", "bring it back into pictures" },
@@ -581,7 +581,7 @@ static const WrForm ground_forms[] = {
                                       .high = 1e9,
                                       .unit = "scene units",
                                       .help = "of its sides; left out: as it is, at first 12 times "
-                                              "what stands on it" },
+                                              "the text on it" },
                                     { .name = "colour",
                                       .type = WR_ARG_TUPLE,
                                       .components = 3,

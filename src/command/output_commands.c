@@ -333,7 +333,7 @@ const WrCommand wr_command_maps = {
     .row = row_maps,
     .args = args_maps,
     .run = run_maps,
-    .help = "write the set of maps that another program wants",
+    .help = "write the set of maps for another program",
     .details =
         "Sets: blender, gltf, unreal, unity, godot, substance, renderman, arnold, povray, and "
         "those "
@@ -435,7 +435,7 @@ const WrCommand wr_command_sheet = {
     .args = args_sheet,
     .run = run_sheet,
     .print = print_sheet,
-    .help = "what the export sheet of the window was told last",
+    .help = "last settings of the window's export sheet",
     .details = "The document keeps it; nothing is written by it: `maps` does that.",
     .example = "sheet unreal folder=out name=bricks depth=16"
 };

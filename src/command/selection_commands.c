@@ -219,7 +219,7 @@ static bool run_select(WrSession *session, WrCall *call, WrError *err)
 #define JOIN                                                                                       \
     {                                                                                              \
         .name = "mode", .type = WR_ARG_CHOICE, .words = wr_select_modes,                           \
-        .fallback_text = "replace", .help = "how it joins what is selected already"                \
+        .fallback_text = "replace", .help = "how it joins the present selection"                   \
     }
 
 #define TEXELS(most, help_)                                                                        \
@@ -246,7 +246,7 @@ static const WrForm select_forms[] = {
                              .help = "everything, as a selection that can be changed" },
     [WR_ROW(SELECT_NONE)] = { .name = "none", .help = "no selection: edits act everywhere" },
     [WR_ROW(SELECT_INVERT)] = { .name = "invert",
-                                .help = "what is not selected; without a selection, all" },
+                                .help = "the inverse of the selection; without a selection, all" },
     [WR_ROW(SELECT_RECT)] = { .name = "rect",
                               .help =
                                   "a rectangle; a corner beyond 0 or 1 crosses the table's edge",
@@ -302,7 +302,7 @@ static const WrForm select_forms[] = {
                                    "without soft edge",
                                .args = { WR_ARGS_FLOOD("heights"), JOIN } },
     [WR_ROW(SELECT_MASK)] = { .name = "mask",
-                              .help = "what a layer's mask shows",
+                              .help = "the mask of a layer",
                               .args = { { PLACE("N"), .type = WR_ARG_LAYER, .help = "the layer" },
                                         JOIN } },
     [WR_ROW(SELECT_GROW)] = { .name = "grow",
@@ -369,8 +369,7 @@ static void make_row(const Copying *copy, int y, float *parts, float *out)
 
 static float *parts_of(const Copying *copy, WrError *err)
 {
-    return wr_try_alloc((size_t)copy->box.count_i, 5 * sizeof(float), "rows of what is copied",
-                        err);
+    return wr_try_alloc((size_t)copy->box.count_i, 5 * sizeof(float), "rows of the copy", err);
 }
 
 static bool rows(void *ctx, int y, int count, void *out, WrError *err)
@@ -542,7 +541,7 @@ static bool join_piece(const Moving *m, WrLayer *layer, const WrRelief *piece, c
                        WrError *err)
 {
     float *rows = wr_try_alloc((size_t)wr_field_width(layer->heights), 5 * sizeof *rows,
-                               "rows of what is moved", err);
+                               "rows of the moved part", err);
     for (int j = 0; rows && j < wr_field_height(layer->heights); j++) {
         if (wr_progress_stopped()) {
             wr_free(rows);
@@ -745,17 +744,17 @@ static const WrArgSpec args_transform[] = {
       .shape = "u,v",
       .low = -WR_SELECT_REACH,
       .high = WR_SELECT_REACH,
-      .help = "the point that only moves; left out, the middle of what is selected" },
+      .help = "the point that only moves; default: the middle of the selection" },
     { .name = "blend",
       .type = WR_ARG_CHOICE,
       .choice = blend_name,
       .fallback_text = "replace",
-      .help = "how it joins what lies where it comes" },
+      .help = "how it joins the heights at its new place" },
     { .name = "leave",
       .type = WR_ARG_CHOICE,
       .words = wr_off_on,
       .fallback_text = "off",
-      .help = "on: what is selected stays, and a copy of it goes" },
+      .help = "on: the selection stays, and a copy of it moves" },
     { .name = "filter",
       .type = WR_ARG_CHOICE,
       .words = wr_place_filters,
@@ -774,7 +773,7 @@ const WrCommand wr_command_transform = {
     .kind = WR_CLASS_EDIT,
     .args = args_transform,
     .run = run_transform,
-    .help = "move, turn, scale and mirror what is selected, or a whole layer",
+    .help = "move, turn, scale and mirror the selection, or a whole layer",
     .details = "Everything goes round periodic edges, and the selection goes along. Without a "
                "selection the "
                "whole layer moves, with its mask. Moves by whole texels, quarter turns and mirrors "

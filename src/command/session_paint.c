@@ -96,7 +96,7 @@ const WrArgSpec wr_args_brush[] = {
       .type = WR_ARG_CHOICE,
       .choice = pressure_name,
       .fallback_text = "strength",
-      .help = "what the pen's pressure turns; presets have their own curves" },
+      .help = "settings that pen pressure controls; presets have their own curves" },
     { .name = "preset",
       .type = WR_ARG_PRESET,
       .help = "a brush preset by its name (`wrinkle brushes` lists them), or a .myb file; what is "
@@ -109,7 +109,7 @@ const WrArgSpec wr_args_brush[] = {
       .check = check_settings,
       .shape = "name=value;name:input=x,y|x,y|...;...",
       .help = "other values of the preset's settings, as MyPaint calls them, and other curves of "
-              "what an input adds to one" },
+              "the amount that an input adds to one" },
     { .name = "seed",
       .type = WR_ARG_NUMBER,
       .low = 0,

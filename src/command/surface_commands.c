@@ -871,7 +871,7 @@ const WrCommand wr_command_surface = {
     .help = "the surface that the table wrinkles",
     .details =
         "Parameters that are left out take their defaults. A mesh without a file is a square of "
-        "two triangles. On a cube faces=6 gives each face a cell of its own of the table, three "
+        "two triangles. On a cube faces=6 assigns each face a cell of its own of the table, three "
         "beside two from the lower left (front, right, back; left, top, bottom), within a margin "
         "of a 32nd: in cells of 64 texels and more no scheme but bspline-fit, and no filter, "
         "reads another face's heights.",
@@ -917,7 +917,7 @@ const WrCommand wr_command_bump = { .name = "bump",
                                     .print = print_bump,
                                     .of_object = true,
                                     .help = "how the table turns the normal",
-                                    .details = "Only what is given changes.",
+                                    .details = "Only given arguments change.",
                                     .example = "bump mode=exact height=0.05" };
 
 const WrCommand wr_command_replicate = { .name = "replicate",
@@ -966,6 +966,6 @@ const WrCommand wr_command_cell = {
         "Slopes and normals that are exported go by it, so do solids of a plane, and files "
         "tell it in their labels; pictures of the scene do not. In millimetres F = 1 is as high as "
         "height= says; in scene units as `bump height=` says. "
-        "Only what is given changes.",
+        "Only given arguments change.",
     .example = "cell 120,80 mm=on height=2.5"
 };

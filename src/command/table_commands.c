@@ -283,7 +283,8 @@ static const WrArgSpec args_table[] = {
       .type = WR_ARG_CHOICE,
       .choice = wr_document_wrap_name,
       .fallback_text = "periodic",
-      .help = "what lies beyond the edges: the table again, or its edge for u, for v, for both" },
+      .help =
+          "continuation beyond the edges: the table again, or its edge for u, for v, for both" },
     { 0 }
 };
 
@@ -324,8 +325,7 @@ static const WrArgSpec args_image[] = {
     { .name = "fit",
       .type = WR_ARG_CHOICE,
       .choice = fit_name,
-      .help =
-          "resample the picture to the table's size; without it the table takes the picture's" },
+      .help = "resample the picture to the table's size; without it the table gets the picture's" },
     WR_ARGS_OF_FILE,
     { .name = "labels",
       .type = WR_ARG_CHOICE,
@@ -353,7 +353,7 @@ const WrCommand wr_command_table = {
     .args = args_table,
     .run = run_table,
     .help = "a new height table, everywhere 0",
-    .details = "It has one layer, and nothing is selected. Each layer takes 4 bytes a texel where "
+    .details = "It has one layer, and nothing is selected. Each layer needs 4 bytes a texel where "
                "its heights differ: 1.1 GB for 16384x16384. A command needs up to 9 times that "
                "beside the document while it runs; most need 1 or 2 times.",
     .example = "table 512x256 wrap=clamp-v"
@@ -395,9 +395,9 @@ const WrCommand wr_command_image = {
     .help = "take the heights from a picture",
     .details =
         "8-bit and 16-bit pictures read as 0..1, float ones as their values; of RGB the Rec. "
-        "709 luma of the codes is taken. A file that export wrote comes back as what it was: "
+        "709 luma of the codes is taken. A file that export wrote is read as its own kind: "
         "codes "
-        "as the heights that its label tells, a normal map as the heights that have its normals. "
+        "as the heights of its label, a normal map as the heights that have its normals. "
         "The table keeps its wrap. In a script the file is looked up beside the script.",
     .example = "image bricks.png fit=table"
 };

@@ -490,7 +490,7 @@ const WrCommand wr_command_colour = {
     .details =
         "8-bit and 16-bit pictures are decoded from sRGB, float ones taken as linear; alpha is "
         "left out. Beyond its ends it goes on as the table does. Under dials aa=filter and "
-        "aa=moments each pixel has the mean of what it covers of the picture. It is saved inside "
+        "aa=moments each pixel has the mean of the picture over its area. It is saved inside "
         "the document.",
     .example = "colour peel.png repeat=once"
 };
@@ -505,11 +505,12 @@ const WrCommand wr_command_normalmap = {
     .of_object = true,
     .help = "a normal map on the surface",
     .details =
-        "Its slopes are added to those of the table. What `export normal` writes of a table with "
+        "Its slopes are added to those of the table. The map that `export normal` writes of a "
+        "table with "
         "cell=1,1 turns the normal as the table does. A picture of normals is data, and never "
         "colour-converted; 8-bit and 16-bit codes are 2 c/M - 1, float numbers by coding. "
         "Where most texels are 128,128 "
-        "(32768 of 16 bits) that code stands for 0. A note tells what was taken. Beyond its ends "
+        "(32768 of 16 bits) that code stands for 0. A note reports the choice. Beyond its ends "
         "it goes on as the table does. It is saved inside the document.",
     .example = "normalmap rivets.png green=down strength=1"
 };
@@ -652,7 +653,7 @@ const WrCommand wr_command_roughness = {
     .details =
         "In the place of the material's roughness, and of a solid texture's. Its numbers are data, "
         "0 smooth and 1 rough, and never colour-converted; of a picture of three channels G is "
-        "taken, as glTF packs it, unless channel= says otherwise. Beyond its ends it goes on as "
+        "taken, as glTF packs it, unless channel= is given. Beyond its ends it goes on as "
         "the table does. Under dials aa=filter and aa=moments each pixel has the mean of what it "
         "covers. It is saved inside the document.",
     .example = "roughness worn.png repeat=once"
@@ -863,7 +864,7 @@ const WrCommand wr_command_gltf = {
         "object's material, of model ggx, and its pictures of colours, of normals, of roughness "
         "(G) and metalness (B) are laid over the mesh once, out of the file or from beside it, as "
         "colour, normalmap, roughness and metalness lay them: there they are called FILE.glb#N, N "
-        "the image's place in the file from 0. What is not taken is told.",
+        "the image's place in the file from 0. A note lists unused parts.",
     .example = "gltf helmet.glb"
 };
 
@@ -1062,7 +1063,7 @@ WR_ROWS(colouring_forms);
 static const WrForm colouring_forms[] = {
     [WR_ROW(
         FORM_RAMP)] = { .name = "ramp",
-                        .help = "from stop to stop; only what is given changes, of a ramp of "
+                        .help = "from stop to stop; only given arguments change, of a ramp of "
                                 "water, sand, meadows, rock and snow over 0..1 to begin with",
                         .args = { { .name = "stops",
                                     .type = WR_ARG_LIST,
@@ -1092,7 +1093,7 @@ static const WrForm colouring_forms[] = {
                                     .components = 3,
                                     .low = 0,
                                     .high = 1e6,
-                                    .help = "the colour of hollows: what lies lower than the mean "
+                                    .help = "the colour of hollows: places lower than the mean "
                                             "about it" },
                                   { .name = "depth",
                                     .type = WR_ARG_TUPLE,
@@ -1209,7 +1210,7 @@ static bool row_grain(WrForm *out)
                             { .name = "drives",
                               .type = WR_ARG_CHOICE,
                               .choice = drive_choice,
-                              .help = "what the pattern changes; colour unless told" } } };
+                              .help = "target of the pattern; colour by default" } } };
     return wr_scene_args("grain", NULL, out->args + 3) > 0;
 }
 
@@ -1226,7 +1227,7 @@ const WrCommand wr_command_grain = {
                "bump it is a height that turns the normal, and as roughness it goes from smooth "
                "to rough. Under dials aa=filter or moments, and on ground without end, what is "
                "finer than a pixel is its mean. Of another kind than before all numbers that are "
-               "not given are that kind's usual ones; else only what is given changes. off "
-               "forgets them all.",
+               "not given are that kind's usual ones; else only given arguments change. off "
+               "removes them all.",
     .example = "grain wood rings=12 amount=0.6"
 };

@@ -346,7 +346,8 @@ const WrExportKind wr_export_kinds[] = {
       .describe = wr_export_map_describe },
     { .name = "occlusion",
       .label = "ambient occlusion",
-      .help = "how much of the sky each texel sees, 0 to 1, by exact horizons",
+      .help =
+          "ambient occlusion: visible share of the sky at each texel, 0 to 1, by exact horizons",
       .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT, WR_OPTION_DIRECTIONS, WR_OPTION_REACH,
                    WR_OPTION_SHEET },
       .channels = 1,

@@ -321,7 +321,7 @@ static bool add_sizes(bool quick, WrText *text, WrError *err)
     for (int t = 0; t < 2 && good; t++) median[t] = wr_bench_median(times[t], rounds);
     if (good)
         wr_text_addf(text,
-                     "  a dab of radius 32 takes %.0f ns on a table of %dx%d, %.0f on %dx%d: %.2f "
+                     "  a dab of radius 32: %.0f ns on a table of %dx%d, %.0f on %dx%d: %.2f "
                      "times as long\n",
                      median[0], sides[0], sides[0], median[1], sides[1], sides[1],
                      median[1] / median[0]);

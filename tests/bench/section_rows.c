@@ -616,13 +616,13 @@ static bool fill_output(WrBenchSections *all, WrError *err)
 }
 
 const WrBenchSection wr_bench_section_table[] = {
-    { "surfaces", "what is shown on which surface, beside smooth shading", fill_surfaces },
+    { "surfaces", "effects on each surface, relative to smooth shading", fill_surfaces },
     { "schemes", "how the table is looked up, beside central", fill_schemes },
     { "normals", "the formula of the normal, beside blinn", fill_normals },
-    { "aliasing", "what is done against aliasing, beside one sample", fill_aliasing },
+    { "aliasing", "anti-aliasing methods, relative to one sample", fill_aliasing },
     { "effects", "each effect, beside the picture without it", fill_effects },
     { "isa", "the set of instructions, beside the plain text", fill_isa },
-    { "plan", "only what the picture needs, beside all that it could leave out", fill_plan },
+    { "plan", "the planned effects, relative to all effects", fill_plan },
     { "still", "a view at rest, beside one that turns", fill_still },
     { "first", "a new renderer's first frame, beside the next", fill_first },
     { "output", "floats, beside 8-bit codes", fill_output },

@@ -9,7 +9,7 @@ cd "$root" || exit 2
 limits='
 comments               0.1    0.2
 tests                  0.1    0.1
-messages               3.2    1.9
+messages               1.3    1.3
 guide                  3.1    1.0
 '
 clauses_max=0 # first lines of headers that begin with a clause instead of a noun
