@@ -329,7 +329,7 @@ static bool follow(const Pictures *p, WrIllusion *out, WrError *err)
                                         .cancel =
                                             request->progress ? request->progress->cancel : NULL };
     WrMoved moved;
-    const bool good = wr_reference_moved(&wanted, p->pool, &moved, err);
+    const bool good = wr_reference_displacement_difference(&wanted, p->pool, &moved, err);
     if (good) {
         out->shading_at = moved.light_rms;
         out->way = moved.way_most, out->way_mean = moved.way_mean;

@@ -88,7 +88,7 @@ int wr_file_open_no_link(const char *path, uint64_t limit, uint64_t *length, WrE
     return open_to_read(path, WR_OPEN_NO_LINK, limit, length, err);
 }
 
-int wr_file_create(const char *path, WrError *err)
+int wr_file_open_truncate(const char *path, WrError *err)
 {
     int fd = wr_fd_open(path, WR_OPEN_WRITE | WR_OPEN_CREATE | WR_OPEN_EMPTY | WR_OPEN_NO_WAIT);
     if (fd < 0) wr_fail(err, "%s: cannot be written: %s", path, strerror(errno));

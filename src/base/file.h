@@ -26,7 +26,7 @@ int wr_file_open_no_link(const char *path, uint64_t limit, uint64_t *length, WrE
 /* Reads the first `count` bytes of a file to detect its format; returns the number of bytes read. */
 size_t wr_file_peek(const char *path, void *bytes, size_t count);
 /* Creates or truncates a file for incremental writing. Does not wait for a reader of a pipe. */
-int wr_file_create(const char *path, WrError *err);
+int wr_file_open_truncate(const char *path, WrError *err);
 
 /* Reads a whole regular file, at most `limit` bytes. *bytes is owned by the caller (wr_free) and ends
    in a NUL that `length` does not count. */

@@ -52,7 +52,7 @@ void wr_brush_dab(WrField *field, const WrBrush *brush, double u, double v)
 
 /* Tiles of a shape in one row of tiles, for several threads. */
 typedef struct Filling {
-    const WrMaker *maker;
+    const WrStrokeResolver *maker;
     WrStrokeResolve makes[WR_FIELD_MAX / WR_TILE];
     int count;
 } Filling;
@@ -62,7 +62,7 @@ static void fill_one(int index, int worker, void *ctx)
     (void)worker;
     const Filling *filling = ctx;
     WrStrokeResolve make = filling->makes[index];
-    const WrMaker *maker = filling->maker;
+    const WrStrokeResolver *maker = filling->maker;
     /* whole blocks; texels beyond the table's edge get no coverage */
     float *inside = NULL, *target = NULL;
     if (make.count % WR_BRUSH_BLOCK) {
@@ -86,7 +86,7 @@ static void fill_one(int index, int worker, void *ctx)
 /* flat: [WR_TILE * WR_TILE] of the coverage's level */
 static void fill_row(Filling *filling, const WrField *coverage, int ty, const float *flat)
 {
-    const WrMaker *maker = filling->maker;
+    const WrStrokeResolver *maker = filling->maker;
     filling->count = 0;
     for (int tx = 0; tx < wr_field_tiles_u(coverage); tx++) {
         const float *cover = wr_field_tile(coverage, tx, ty);
@@ -118,10 +118,11 @@ bool wr_brush_fill(const WrBrushGround *ground, const WrBrush *brush, const WrFi
                        wr_field_width(ground->field), wr_field_height(ground->field));
     if (sane.strength == 0.0 && wr_mode_work(sane.mode)->as_strong) return true;
     sane.buildup = false; /* applied once */
-    WrMaker maker;
-    wr_maker_init(&maker, ground, &sane);
+    WrStrokeResolver maker;
+    wr_stroke_resolver_init(&maker, ground, &sane);
     double x, y;
-    if (wr_paint_place(ground->field, first_u, first_v, &x, &y)) wr_maker_first(&maker, x, y);
+    if (wr_paint_place(ground->field, first_u, first_v, &x, &y))
+        wr_stroke_resolver_set_flatten_height(&maker, x, y);
     float *flat = wr_alloc(WR_TILE * WR_TILE, sizeof *flat);
     for (int k = 0; k < WR_TILE * WR_TILE; k++) flat[k] = wr_field_level(coverage);
     Filling *filling = wr_alloc(1, sizeof *filling);
@@ -134,6 +135,6 @@ bool wr_brush_fill(const WrBrushGround *ground, const WrBrush *brush, const WrFi
     }
     wr_free(filling);
     wr_free(flat);
-    wr_maker_fini(&maker);
+    wr_stroke_resolver_fini(&maker);
     return good || wr_fail(err, "cancelled");
 }

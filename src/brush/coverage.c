@@ -195,9 +195,10 @@ void wr_blend_target_tile(const WrTargets *t, int tx, int ty, float *out)
 
 /* ---- stroke resolve ---- */
 
-void wr_maker_init(WrMaker *maker, const WrBrushGround *ground, const WrBrush *brush)
+void wr_stroke_resolver_init(WrStrokeResolver *maker, const WrBrushGround *ground,
+                             const WrBrush *brush)
 {
-    *maker = (WrMaker){ .ground = *ground, .brush = *brush };
+    *maker = (WrStrokeResolver){ .ground = *ground, .brush = *brush };
     maker->start = wr_field_share(ground->field);
     maker->work = wr_mode_work(brush->mode);
     if (ground->mark && maker->work->lowers_mark) maker->mark_start = wr_field_share(ground->mark);
@@ -205,7 +206,7 @@ void wr_maker_init(WrMaker *maker, const WrBrushGround *ground, const WrBrush *b
     maker->targets = wr_targets(ground, maker->start, brush);
 }
 
-void wr_maker_fini(WrMaker *maker)
+void wr_stroke_resolver_fini(WrStrokeResolver *maker)
 {
     wr_field_free(maker->start);
     wr_field_free(maker->mark_start);
@@ -219,7 +220,7 @@ static int texel_at(double x, int n, WrWrap wrap)
     return cell > 0.0 ? (cell < n ? (int)cell : n - 1) : 0;
 }
 
-void wr_maker_first(WrMaker *maker, double x, double y)
+void wr_stroke_resolver_set_flatten_height(WrStrokeResolver *maker, double x, double y)
 {
     if (!maker->work->first_height) return;
     const WrField *field = maker->start;
@@ -228,15 +229,15 @@ void wr_maker_first(WrMaker *maker, double x, double y)
 }
 
 /* True if nothing is selected in that tile. */
-static bool maker_closed(const WrMaker *maker, int tx, int ty)
+static bool maker_closed(const WrStrokeResolver *maker, int tx, int ty)
 {
     const WrField *selection = maker->ground.selection;
     return selection && !wr_field_tile(selection, tx, ty) && !(wr_field_level(selection) > 0.0f);
 }
 
 /* The effective weight of the coverage. */
-static void parts(const WrMaker *maker, const WrStrokeResolve *make, const float *selection, int at,
-                  float *part)
+static void parts(const WrStrokeResolver *maker, const WrStrokeResolve *make,
+                  const float *selection, int at, float *part)
 {
     const float *cover = make->cover + at, *rest = make->rest ? make->rest + at : NULL;
     float opacity = (float)maker->brush.opacity;
@@ -256,13 +257,13 @@ static void parts(const WrMaker *maker, const WrStrokeResolve *make, const float
     }
 }
 
-static const float *selection_of(const WrMaker *maker, const WrStrokeResolve *make)
+static const float *selection_of(const WrStrokeResolver *maker, const WrStrokeResolve *make)
 {
     const WrField *selection = maker->ground.selection;
     return selection ? wr_field_tile(selection, make->tx, make->ty) : NULL;
 }
 
-bool wr_stroke_resolve_needed(const WrMaker *maker, const WrStrokeResolve *make)
+bool wr_stroke_resolve_needed(const WrStrokeResolver *maker, const WrStrokeResolve *make)
 {
     if (maker_closed(maker, make->tx, make->ty) || !(maker->brush.opacity > 0.0)) return false;
     const float *selection = selection_of(maker, make);
@@ -275,7 +276,7 @@ bool wr_stroke_resolve_needed(const WrMaker *maker, const WrStrokeResolve *make)
     return false;
 }
 
-void wr_stroke_resolve_open(const WrMaker *maker, WrStrokeResolve *make)
+void wr_stroke_resolve_open(const WrStrokeResolver *maker, WrStrokeResolve *make)
 {
     make->out = wr_field_tile_write(maker->ground.field, make->tx, make->ty);
     make->mark =
@@ -283,8 +284,8 @@ void wr_stroke_resolve_open(const WrMaker *maker, WrStrokeResolve *make)
 }
 
 /* Painting raises the mark to the weight; erasing removes that fraction of the previous mark. */
-static void make_mark(const WrMaker *maker, const float *before, const float *part, int count,
-                      float *mark)
+static void make_mark(const WrStrokeResolver *maker, const float *before, const float *part,
+                      int count, float *mark)
 {
     float level = maker->mark_start ? wr_field_level(maker->mark_start) : 0.0f;
     for (int i = 0; i < count; i++) {
@@ -298,7 +299,7 @@ static void make_mark(const WrMaker *maker, const float *before, const float *pa
     }
 }
 
-void wr_stroke_resolve(const WrMaker *maker, const WrStrokeResolve *make)
+void wr_stroke_resolve(const WrStrokeResolver *maker, const WrStrokeResolve *make)
 {
     alignas(WR_ALIGN) float part[WR_TILE], flat[WR_TILE];
     const float *selection = selection_of(maker, make);
@@ -328,7 +329,7 @@ void wr_coverage_init(WrCoverage *cover, const WrBrushGround *ground, const WrBr
                       WrCoverageRule rule)
 {
     *cover = (WrCoverage){ .rule = rule, .tiles_u = wr_field_tiles_u(ground->field) };
-    wr_maker_init(&cover->maker, ground, brush);
+    wr_stroke_resolver_init(&cover->maker, ground, brush);
     size_t tiles = (size_t)cover->tiles_u * (size_t)wr_field_tiles_v(ground->field);
     cover->pages = wr_alloc(tiles, sizeof(WrPage *));
 }
@@ -345,7 +346,7 @@ void wr_coverage_fini(WrCoverage *cover)
     wr_array_free(&cover->makes);
     wr_free(cover->pages);
     cover->pages = NULL;
-    wr_maker_fini(&cover->maker);
+    wr_stroke_resolver_fini(&cover->maker);
 }
 
 static WrPage *page_of(WrCoverage *cover, int tx, int ty)

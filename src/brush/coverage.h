@@ -32,7 +32,7 @@ void wr_read_box(const WrField *field, int i, int j, int count_i, int count_j, i
 
 /* ---- computation of heights from those before the stroke and its coverage ---- */
 
-typedef struct WrMaker {
+typedef struct WrStrokeResolver {
     WrBrushGround ground; /* borrowed */
     WrBrush brush;        /* sane */
     WrField *start;       /* the table before the stroke; owned */
@@ -40,12 +40,13 @@ typedef struct WrMaker {
     const WrModeWork *work;
     WrModeArgs args;
     WrTargets targets;
-} WrMaker;
+} WrStrokeResolver;
 
-void wr_maker_init(WrMaker *maker, const WrBrushGround *ground, const WrBrush *brush);
-void wr_maker_fini(WrMaker *maker);
+void wr_stroke_resolver_init(WrStrokeResolver *maker, const WrBrushGround *ground,
+                             const WrBrush *brush);
+void wr_stroke_resolver_fini(WrStrokeResolver *maker);
 /* Sets flatten's height: that of the texel at (x, y), before the stroke. */
-void wr_maker_first(WrMaker *maker, double x, double y);
+void wr_stroke_resolver_set_flatten_height(WrStrokeResolver *maker, double x, double y);
 
 /* A rectangle of one tile's texels. */
 typedef struct WrStrokeResolve {
@@ -58,11 +59,11 @@ typedef struct WrStrokeResolve {
 } WrStrokeResolve;
 
 /* True if any texel of it may change, judging by coverage and selection. */
-bool wr_stroke_resolve_needed(const WrMaker *maker, const WrStrokeResolve *make);
+bool wr_stroke_resolve_needed(const WrStrokeResolver *maker, const WrStrokeResolve *make);
 /* Opens the tile for writing: sets out and mark. Not for several threads at once. */
-void wr_stroke_resolve_open(const WrMaker *maker, WrStrokeResolve *make);
+void wr_stroke_resolve_open(const WrStrokeResolver *maker, WrStrokeResolve *make);
 /* Any number of threads, on different tiles. */
-void wr_stroke_resolve(const WrMaker *maker, const WrStrokeResolve *make);
+void wr_stroke_resolve(const WrStrokeResolver *maker, const WrStrokeResolve *make);
 
 typedef enum WrCoverageRule {
     WR_COVERAGE_MAX,
@@ -82,7 +83,7 @@ typedef struct WrPage {
 } WrPage;
 
 typedef struct WrCoverage {
-    WrMaker maker;
+    WrStrokeResolver maker;
     WrCoverageRule rule;
     int tiles_u;
     WrPage **pages; /* [tiles]; NULL: no coverage; owned */

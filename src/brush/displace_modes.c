@@ -50,8 +50,8 @@ static bool reserve(WrMover *mover, size_t floats)
 }
 
 /* Weights of one row of the box: the dab's, times opacity and selection. `at`: scratch. */
-static void weigh_row(const WrMaker *maker, const WrDabShape *shape, const WrMoveBox *box, int i,
-                      int j, float *weights, float *chosen)
+static void weigh_row(const WrStrokeResolver *maker, const WrDabShape *shape, const WrMoveBox *box,
+                      int i, int j, float *weights, float *chosen)
 {
     float opacity = (float)maker->brush.opacity;
     wr_shape_row(shape, j, i, box->pitch, weights);
@@ -66,8 +66,8 @@ static void weigh_row(const WrMaker *maker, const WrDabShape *shape, const WrMov
 }
 
 /* Processes rows in runs of 64, the maximum count of kernels. */
-static void weigh(const WrMaker *maker, const WrDabShape *shape, const WrMoveBox *box, int i, int j,
-                  float *weights)
+static void weigh(const WrStrokeResolver *maker, const WrDabShape *shape, const WrMoveBox *box,
+                  int i, int j, float *weights)
 {
     for (int y = 0; y < box->height; y++) {
         float *row = weights + (size_t)y * (size_t)box->pitch;
@@ -80,7 +80,7 @@ static void weigh(const WrMaker *maker, const WrDabShape *shape, const WrMoveBox
     }
 }
 
-static void write_mark(const WrMaker *maker, const float *weights, int count, float *mark)
+static void write_mark(const WrStrokeResolver *maker, const float *weights, int count, float *mark)
 {
     for (int i = 0; i < count; i++) {
         float w = weights[i];
@@ -96,8 +96,8 @@ static bool any_weight(const float *weights, int count)
     return any;
 }
 
-static void write_row(const WrMaker *maker, const WrMoveBox *box, int i, int j, const float *from,
-                      const float *weights)
+static void write_row(const WrStrokeResolver *maker, const WrMoveBox *box, int i, int j,
+                      const float *from, const float *weights)
 {
     int width = wr_field_width(maker->ground.field), run;
     for (int x = 0; x < box->width; x += run) {
@@ -114,7 +114,7 @@ static void write_row(const WrMaker *maker, const WrMoveBox *box, int i, int j, 
     }
 }
 
-static void write_back(const WrMaker *maker, const WrMoveBox *box, int i, int j)
+static void write_back(const WrStrokeResolver *maker, const WrMoveBox *box, int i, int j)
 {
     int height = wr_field_height(maker->ground.field);
     for (int y = 0; y < box->height; y++) {
@@ -140,7 +140,7 @@ static void target_row(WrCoverage *cover, const WrMoveBox *box, int i, int j, fl
 /* A covering mode used in a moving dab: blends to its result for coverage 1, by the dab's weight. */
 static void cover_box(WrCoverage *cover, WrMoveBox *box, int i, int j)
 {
-    const WrMaker *maker = &cover->maker;
+    const WrStrokeResolver *maker = &cover->maker;
     float *ones = box->spare, *target = ones + box->pitch;
     for (int x = 0; x < box->pitch; x++) ones[x] = 1.0f;
     memset(target, 0, (size_t)box->pitch * sizeof *target);
@@ -191,7 +191,7 @@ static bool lay_out(WrMover *mover, WrMoveBox *box, float **weights, float **bef
 void wr_move_dab(WrMover *mover, WrCoverage *cover, const WrDabShape *shape, double radius,
                  double way_x, double way_y, double drag, double dragged)
 {
-    const WrMaker *maker = &cover->maker;
+    const WrStrokeResolver *maker = &cover->maker;
     const WrField *field = maker->ground.field;
     way_x = short_way(way_x, wr_field_width(field), wr_field_wrap_u(field));
     way_y = short_way(way_y, wr_field_height(field), wr_field_wrap_v(field));

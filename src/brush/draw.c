@@ -84,7 +84,7 @@ void wr_draw_motion(WrDraw *draw, double x, double y, double dx, double dy, doub
                     double pressure_end)
 {
     if (does_nothing(draw) || !(pressure_start > 0.0 || pressure_end > 0.0)) return;
-    const WrMaker *maker = &draw->cover.maker;
+    const WrStrokeResolver *maker = &draw->cover.maker;
     if (draw->copy_count > 1) {
         x = on_grid(x);
         y = on_grid(y);
@@ -107,7 +107,7 @@ void wr_draw_motion(WrDraw *draw, double x, double y, double dx, double dy, doub
 void wr_draw_dab(WrDraw *draw, const WrDab *dab)
 {
     if (does_nothing(draw)) return;
-    const WrMaker *maker = &draw->cover.maker;
+    const WrStrokeResolver *maker = &draw->cover.maker;
     WrDab fine = *dab;
     fine.x = on_grid(dab->x);
     fine.y = on_grid(dab->y);

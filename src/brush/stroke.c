@@ -377,9 +377,10 @@ void wr_stroke_push(WrStroke *stroke, WrSample sample)
                   .seconds = sample.seconds };
     if (spot.pressure > 1.0) spot.pressure = 1.0;
     if (brush_of(stroke)->pressure == WR_PRESSURE_NONE && !stroke->engine) spot.pressure = 1.0;
-    WrMaker *maker = &stroke->draw.cover.maker;
+    WrStrokeResolver *maker = &stroke->draw.cover.maker;
     if (!wr_paint_place(maker->ground.field, sample.u, sample.v, &spot.x, &spot.y)) return;
-    if (!stroke->begun && stroke->queue.count == 0) wr_maker_first(maker, spot.x, spot.y);
+    if (!stroke->begun && stroke->queue.count == 0)
+        wr_stroke_resolver_set_flatten_height(maker, spot.x, spot.y);
     wr_array_push(&stroke->queue, spot);
 }
 

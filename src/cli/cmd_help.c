@@ -177,7 +177,7 @@ static bool add_verb(const WrCli *cli, int *i, WrText *text, WrError *err)
         return true;
     }
     for (; is_part(cli, command, *i + 1); ++*i)
-        if (!wr_help_part(command, cli->words[*i + 1], text, err)) return false;
+        if (!wr_help_command_part(command, cli->words[*i + 1], text, err)) return false;
     return true;
 }
 

@@ -320,7 +320,7 @@ static void add_argument_of_forms(WrText *text, const WrCommand *command, const 
     wr_text_fini(&rows);
 }
 
-bool wr_help_part(const WrCommand *command, const char *part, WrText *text, WrError *err)
+bool wr_help_command_part(const WrCommand *command, const char *part, WrText *text, WrError *err)
 {
     WrForm row;
     if (!wr_help_has_part(command, part)) return fail_part(command, part, err);

@@ -12,7 +12,7 @@ bool wr_help_command(const char *name, WrText *text, WrError *err);
 /* True if `part` is a form of the command, or an argument of one of its forms. */
 bool wr_help_has_part(const WrCommand *command, const char *part);
 /* One form of a command with its arguments, or one argument in each form that has it. Fails for an unknown part. */
-bool wr_help_part(const WrCommand *command, const char *part, WrText *text, WrError *err);
+bool wr_help_command_part(const WrCommand *command, const char *part, WrText *text, WrError *err);
 
 /* One command as a section of a guide page, in Markdown: a heading, then a table of arguments. */
 bool wr_help_markdown(const char *name, WrText *text, WrError *err);

@@ -454,7 +454,7 @@ static bool file_of(WrSession *session, const WrCall *call, int index, const cha
     const char *word = call->args[index].text;
     WrBrushFile file;
     if (call->specs[index].type == WR_ARG_PRESET) {
-        if (!wr_session_preset_file(session, word, folder, &file, NULL)) return false;
+        if (!wr_session_load_preset(session, word, folder, &file, NULL)) return false;
         wr_text_add(path, file.path);
         memcpy(hex, file.sha256, 65);
         if (file.tip_path) keep_tip_beside(session, file.tip_path);

@@ -225,7 +225,7 @@ typedef struct WrBrushFile {
 } WrBrushFile;
 /* The cached file, read again if it has changed. word: from a line of the script in `folder` (NULL: the current one).
  */
-bool wr_session_preset_file(WrSession *session, const char *word, const char *folder,
+bool wr_session_load_preset(WrSession *session, const char *word, const char *folder,
                             WrBrushFile *file, WrError *err);
 bool wr_session_tip_file(WrSession *session, const char *word, const char *folder,
                          WrBrushFile *file, WrError *err);

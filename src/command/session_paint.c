@@ -367,7 +367,7 @@ static bool take(WrSession *session, bool is_tip, const char *key, WrBrushFile *
     return true;
 }
 
-bool wr_session_preset_file(WrSession *session, const char *word, const char *folder,
+bool wr_session_load_preset(WrSession *session, const char *word, const char *folder,
                             WrBrushFile *file, WrError *err)
 {
     char *key = wr_names_preset_file(word) ? absolute(wr_path_join(folder, word)) : wr_strdup(word);
@@ -468,7 +468,7 @@ static bool take_preset(WrSession *session, WrCall *call, WrHeldBrush *held, WrE
         return false;
     if (!wr_call_gives(call, "preset")) return true;
     WrBrushFile file;
-    if (!wr_session_preset_file(session, wr_call_arg(call, "preset")->text, session->folder, &file,
+    if (!wr_session_load_preset(session, wr_call_arg(call, "preset")->text, session->folder, &file,
                                 err) ||
         !wr_call_check_sha256(call, "preset_sha256", file.path, file.sha256, err))
         return false;

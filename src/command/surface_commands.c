@@ -637,7 +637,7 @@ static bool run_surface(WrSession *session, WrCall *call, WrError *err)
                (size_t)call->args[i].rows * (size_t)wr_arg_width(&call->specs[i]) * sizeof(double));
     }
     if (!wr_shape_check(&shape, err) || !make_data(call, shape.kind, &data, err)) return false;
-    if (data) wr_shape_take_data(&shape, data);
+    if (data) wr_shape_borrow_data(&shape, data);
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     wr_scene_set_triangles(scene, NULL, NULL, NULL);
     wr_free(scene->form_layer);

@@ -297,7 +297,7 @@ static WrImage *read_normals(WrSession *session, const WrCall *call, const char 
     WrImage *image =
         map->object
             ? wr_normal_map_read_object(file, green == WR_GREEN_DOWN, coding, &report, err)
-            : wr_normal_map_read(file, green, channels ? channels + 1 : 0, coding, &report, err);
+            : wr_normal_map_decode(file, green, channels ? channels + 1 : 0, coding, &report, err);
     if (!image) return NULL;
     map->channels = report.channels;
     map->green_down = report.green_down;

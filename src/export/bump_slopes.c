@@ -121,8 +121,8 @@ static void fitted_rows(Piece *piece)
     const int tall = piece->rows + 2 * APRON;
     double *taps = wr_alloc_unset(pitch * (size_t)tall, sizeof *taps);
     float *row = wr_alloc_unset(width, sizeof *row);
-    wr_field_read_fitted_double(piece->job->field, -APRON, piece->y - APRON, (int)pitch, tall, taps,
-                                pitch);
+    wr_field_read_bspline_coefficients_double(piece->job->field, -APRON, piece->y - APRON,
+                                              (int)pitch, tall, taps, pitch);
     for (int j = 0; j < piece->rows; j++) {
         wr_field_read(piece->job->field, 0, piece->y + j, (int)width, 1, row, width);
         for (int x = 0; x < (int)width; x += WR_NORMAL_STRIP)

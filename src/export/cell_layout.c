@@ -375,7 +375,7 @@ WrField *wr_export_sheet(WrExportJob *job, bool *good, WrError *err)
 
 /* If neighbouring cells meet at other rows than their edges, as in an atlas or a hexagonal sheet, the original
    cell is tested. */
-WrCertificate wr_export_certify(const WrExportJob *job)
+WrCertificate wr_export_certify_seam(const WrExportJob *job)
 {
     if (job->analytic) return wr_certificate_formula(&job->scene->analytic);
     const WrExportOptions *o = &job->options;

@@ -17,7 +17,7 @@ typedef struct WrText WrText;
 WrField *wr_export_sheet(WrExportJob *job, bool *good, WrError *err);
 
 /* Seam continuity of the job's cell in its arrangement. */
-WrCertificate wr_export_certify(const WrExportJob *job);
+WrCertificate wr_export_certify_seam(const WrExportJob *job);
 
 /* A table of half the size, rounded down, at least 1: means of the covered texels. */
 WrField *wr_export_half(const WrExportJob *job, const WrField *field, WrError *err);

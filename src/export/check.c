@@ -365,7 +365,8 @@ static bool check_normals(const WrImage *image, int kind, WrCoding coding, WrChe
 {
     WrNormalMapReport report = { 0 };
     const bool could = kind == WR_CHECK_NORMAL || (kind < 0 && image->channels >= 3);
-    WrImage *map = could ? wr_normal_map_read(image, WR_GREEN_AUTO, 0, coding, &report, err) : NULL;
+    WrImage *map =
+        could ? wr_normal_map_decode(image, WR_GREEN_AUTO, 0, coding, &report, err) : NULL;
     if (could && !map) return false;
     check->kind = kind < 0 ? kind_of(image, &report, check) : (WrCheckKind)kind;
     const bool codes = check->numbers.bits < 32;
@@ -392,7 +393,7 @@ static bool check_slopes(const WrImage *slopes, WrCheck *check, WrError *err)
         normals->data[3 * i + 1] = (float)(-q * unit);
         normals->data[3 * i + 2] = (float)unit;
     }
-    WrImage *map = wr_normal_map_read(normals, WR_GREEN_AUTO, 3, WR_CODING_SIGNED, &report, err);
+    WrImage *map = wr_normal_map_decode(normals, WR_GREEN_AUTO, 3, WR_CODING_SIGNED, &report, err);
     if (map) {
         take_report(&report, &check->normals);
         check->normals.lengths = false; /* computed here */

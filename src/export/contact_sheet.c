@@ -153,7 +153,7 @@ static const WrExportKind *next_kind(const char **list, char word[40])
     return wr_export_find(word);
 }
 
-bool wr_export_set_contact_maps(WrExportOptions *options, const char *value, WrError *err)
+bool wr_export_parse_contact_maps(WrExportOptions *options, const char *value, WrError *err)
 {
     char word[40];
     if (!*value) return wr_fail(err, "maps: must be kinds of maps, separated by semicolons");

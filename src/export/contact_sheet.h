@@ -19,7 +19,7 @@ void wr_contact_add(WrContact *contact, const char *name, const WrExportPicture 
 bool wr_contact_write(WrContact *contact, WrError *err);
 
 /* Option parsers of the kind. */
-bool wr_export_set_contact_maps(WrExportOptions *options, const char *value, WrError *err);
+bool wr_export_parse_contact_maps(WrExportOptions *options, const char *value, WrError *err);
 bool wr_export_set_contact_tile(WrExportOptions *options, const char *value, WrError *err);
 
 #define WR_CONTACT_TILE 256

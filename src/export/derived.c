@@ -110,7 +110,7 @@ static void find_range(WrExportJob *job, Derive *derive, const char *quantity)
     Deriving deriving = { .derive = derive };
     wr_export_extent_init(&deriving.extent);
     wr_export_run(job, 0, job->height, find_extent, &deriving);
-    wr_export_extent_take(&deriving.extent, &job->report);
+    wr_export_extent_finish(&deriving.extent, &job->report);
     job->report.quantity = quantity;
 }
 

@@ -260,7 +260,7 @@ static bool write_one(WrExportJob *job, const char *path, WrError *err)
                                     .convention = convention_of(job->kind, job->options.axes),
                                     .depth = job->options.depth,
                                     .half = job->options.half };
-    job->report.seam = wr_export_certify(job);
+    job->report.seam = wr_export_certify_seam(job);
     return job->picture       ? wr_export_fill_picture(job, err)
            : job->kind->write ? job->kind->write(job, path, err)
                               : wr_export_write(job, path, err);

@@ -76,7 +76,7 @@ static void find_range(WrExportJob *job)
             int rows = job->height - y < WR_IMAGE_STRIP ? job->height - y : WR_IMAGE_STRIP;
             wr_export_run(job, y, rows, find_extent, &extent);
         }
-        wr_export_extent_take(&extent, &job->report);
+        wr_export_extent_finish(&extent, &job->report);
     } else {
         float low, high;
         wr_field_range(job->field, &low, &high);

@@ -77,7 +77,7 @@ void wr_export_extent_init(WrExtent *extent);
 /* Adds the extent of one piece. */
 void wr_export_extent_add(WrExtent *extent, double low, double high);
 /* Stores the extent in the report and frees it. */
-void wr_export_extent_take(WrExtent *extent, WrExportReport *report);
+void wr_export_extent_finish(WrExtent *extent, WrExportReport *report);
 
 /* The text of a new attribute, to be filled. */
 WrText *wr_export_attribute(WrExportJob *job, const char *name);

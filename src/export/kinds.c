@@ -433,7 +433,7 @@ const WrExportKind wr_export_kinds[] = {
       .label = "contact sheet",
       .help = "maps as small pictures in one, each with its name below",
       .options = { { "maps", "KIND;KIND...", "which; left out: all of the cell",
-                     wr_export_set_contact_maps },
+                     wr_export_parse_contact_maps },
                    { "tile", "PIXELS", "the longer side of each, 32..1024; left out: 256",
                      wr_export_set_contact_tile },
                    CELL,

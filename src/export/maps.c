@@ -226,7 +226,7 @@ void wr_export_map_range(WrExportJob *job, const char *quantity)
     WrExtent extent;
     wr_export_extent_init(&extent);
     wr_export_run(job, 0, job->height, find_extent, &extent);
-    wr_export_extent_take(&extent, &job->report);
+    wr_export_extent_finish(&extent, &job->report);
     job->report.quantity = quantity;
 }
 

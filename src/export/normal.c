@@ -237,8 +237,8 @@ static void fitted_rows(Piece *piece)
     size_t pitch = (size_t)piece->job->width + 2 * APRON;
     int tall = piece->rows + 2 * APRON;
     double *taps = wr_alloc_unset(pitch * (size_t)tall, sizeof *taps);
-    wr_field_read_fitted_double(piece->job->field, -APRON, piece->y - APRON, (int)pitch, tall, taps,
-                                pitch);
+    wr_field_read_bspline_coefficients_double(piece->job->field, -APRON, piece->y - APRON,
+                                              (int)pitch, tall, taps, pitch);
     for (int j = 0; j < piece->rows; j++)
         for (int x = 0; x < piece->job->width; x += WR_NORMAL_STRIP)
             finish_run(piece, x, run_length(piece->job, x), j,

@@ -93,7 +93,7 @@ void wr_export_extent_add(WrExtent *extent, double low, double high)
     wr_mutex_unlock(&extent->lock);
 }
 
-void wr_export_extent_take(WrExtent *extent, WrExportReport *report)
+void wr_export_extent_finish(WrExtent *extent, WrExportReport *report)
 {
     wr_mutex_fini(&extent->lock);
     report->low = extent->low;

@@ -99,8 +99,8 @@ static void read_taps(WrDerivativesBand *band)
     const int wide = (int)band->pitch, tall = band->rows + 2 * APRON;
     band->taps = wr_alloc_unset(band->pitch * (size_t)tall, sizeof(double));
     if (wr_schemes[band->ground.scheme].taps == WR_TAPS_FITTED) {
-        wr_field_read_fitted_double(field, band->x - APRON, band->y - APRON, wide, tall, band->taps,
-                                    band->pitch);
+        wr_field_read_bspline_coefficients_double(field, band->x - APRON, band->y - APRON, wide,
+                                                  tall, band->taps, band->pitch);
         return;
     }
     const size_t count = band->pitch * (size_t)tall;

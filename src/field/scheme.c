@@ -160,14 +160,14 @@ static void read_fitted(const WrField *field, int i, int j, int count_i, int cou
     wr_free(fit);
 }
 
-void wr_field_read_fitted(const WrField *field, int i, int j, int count_i, int count_j, float *out,
-                          size_t pitch)
+void wr_field_read_bspline_coefficients(const WrField *field, int i, int j, int count_i,
+                                        int count_j, float *out, size_t pitch)
 {
     read_fitted(field, i, j, count_i, count_j, (Out){ .single = out }, pitch);
 }
 
-void wr_field_read_fitted_double(const WrField *field, int i, int j, int count_i, int count_j,
-                                 double *out, size_t pitch)
+void wr_field_read_bspline_coefficients_double(const WrField *field, int i, int j, int count_i,
+                                               int count_j, double *out, size_t pitch)
 {
     read_fitted(field, i, j, count_i, count_j, (Out){ .wide = out }, pitch);
 }
@@ -352,7 +352,9 @@ static double *fit_whole(const WrField *field, WrScheme scheme, size_t count)
     const size_t texels = (size_t)width * (size_t)height;
     if (wr_schemes[scheme].taps != WR_TAPS_FITTED || count < texels / 200) return NULL;
     double *whole = wr_try_alloc(texels, sizeof *whole, "taps", NULL);
-    if (whole) wr_field_read_fitted_double(field, -2, -2, width, height, whole, (size_t)width);
+    if (whole)
+        wr_field_read_bspline_coefficients_double(field, -2, -2, width, height, whole,
+                                                  (size_t)width);
     return whole;
 }
 
@@ -367,7 +369,7 @@ static void read_taps(const WrField *field, WrSchemeTaps kind, const double *who
             memcpy(taps + 4 * k, whole + (size_t)(j + 2 + k) * pitch + (size_t)(i + 2),
                    4 * sizeof *taps);
     } else if (kind == WR_TAPS_FITTED) {
-        wr_field_read_fitted_double(field, i, j, 4, 4, taps, 4);
+        wr_field_read_bspline_coefficients_double(field, i, j, 4, 4, taps, 4);
     } else {
         wr_field_read(field, i, j, 4, 4, texels, 4);
         for (int k = 0; k < 16; k++) taps[k] = (double)texels[k];

@@ -26,7 +26,7 @@ typedef int WrScheme;
 typedef enum WrSchemeTaps {
     WR_TAPS_TABLE,   /* table entries, from floor(x) - 1 to floor(x) + 2 */
     WR_TAPS_CENTRED, /* table entries, from one before to two after the texel that holds the point */
-    WR_TAPS_FITTED   /* wr_field_read_fitted's coefficients, from floor(x) - 1 to floor(x) + 2 */
+    WR_TAPS_FITTED /* wr_field_read_bspline_coefficients's coefficients, from floor(x) - 1 to floor(x) + 2 */
 } WrSchemeTaps;
 
 /* Evaluates the scheme: taps[16], 4 rows of 4 from the top; a, b in 0..1 the position to the right of
@@ -77,8 +77,8 @@ void wr_field_sample_blinn(const WrField *field, double u, double v, double *fu,
  * Rectangle and pitch as in wr_field_read (indices outside wrap or are extrapolated). A coefficient has
  * the same bits in every rectangle. About 30 ns per texel for large rectangles. */
 #define WR_PREFILTER_REACH 28
-void wr_field_read_fitted(const WrField *field, int i, int j, int count_i, int count_j, float *out,
-                          size_t pitch);
-/* wr_field_read_fitted without rounding to single precision. */
-void wr_field_read_fitted_double(const WrField *field, int i, int j, int count_i, int count_j,
-                                 double *out, size_t pitch);
+void wr_field_read_bspline_coefficients(const WrField *field, int i, int j, int count_i,
+                                        int count_j, float *out, size_t pitch);
+/* wr_field_read_bspline_coefficients without rounding to single precision. */
+void wr_field_read_bspline_coefficients_double(const WrField *field, int i, int j, int count_i,
+                                               int count_j, double *out, size_t pitch);

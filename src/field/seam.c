@@ -305,7 +305,7 @@ static double *read_piece(const Strip *strip, int first)
     const int i = strip->along_v ? first : -1, j = strip->along_v ? -1 : first;
     const int w = strip->along_v ? 4 : lines, h = strip->along_v ? lines : 4;
     if (wr_schemes[strip->scheme].taps == WR_TAPS_FITTED) {
-        wr_field_read_fitted_double(strip->field, i, j, w, h, raw, (size_t)w);
+        wr_field_read_bspline_coefficients_double(strip->field, i, j, w, h, raw, (size_t)w);
     } else {
         float *texels = wr_alloc_unset(count, sizeof *texels);
         wr_field_read(strip->field, i, j, w, h, texels, (size_t)w);

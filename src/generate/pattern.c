@@ -74,14 +74,15 @@ static WrCells cells(double width, double height, int across, int rows)
                       .cell_height = height / rows };
 }
 
-WrCells wr_cells(const WrField *like, int across, int rows)
+WrCells wr_cell_grid_make(const WrField *like, int across, int rows)
 {
     return cells(wr_field_width(like), wr_field_height(like), across, rows);
 }
 
 WrCells wr_cells_of(const WrParams *params, const WrField *like)
 {
-    return wr_cells(like, wr_param_whole(params, "across"), wr_param_whole(params, "rows"));
+    return wr_cell_grid_make(like, wr_param_whole(params, "across"),
+                             wr_param_whole(params, "rows"));
 }
 
 WrCells wr_cells_along(const WrParams *params, const WrField *like)

@@ -33,7 +33,7 @@ typedef struct WrCells {
     bool turned;                    /* for patterns along v: x and y are exchanged */
 } WrCells;
 
-WrCells wr_cells(const WrField *like, int across, int rows);
+WrCells wr_cell_grid_make(const WrField *like, int across, int rows);
 /* From the parameters across and rows. */
 WrCells wr_cells_of(const WrParams *params, const WrField *like);
 /* wr_cells_of for patterns with a direction, the parameter along. */

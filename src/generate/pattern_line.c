@@ -105,7 +105,7 @@ static bool read_direction(const WrParams *params, const char *name, Lines *l,
     l->b = wr_param_number(params, "rows");
     if (l->a == 0.0 && l->b == 0.0)
         return wr_fail(err, "pattern %s: across=0 rows=0: one of them must be other than 0", name);
-    l->cells = wr_cells(job->like, 1, 1);
+    l->cells = wr_cell_grid_make(job->like, 1, 1);
     l->steep = sqrt(l->a / width * (l->a / width) + l->b / height * (l->b / height));
     return true;
 }

@@ -265,7 +265,7 @@ bool wr_pattern_hexagons(const WrParamValue *values, const WrGenerateJob *job, W
         return wr_fail(
             err, "pattern hexagons: rows=%d: must be even, or the honeycomb cannot close", rows);
     if (rows == 0) rows = regular_rows(job->like, across);
-    Hexagons h = { .cells = wr_cells(job->like, across, rows),
+    Hexagons h = { .cells = wr_cell_grid_make(job->like, across, rows),
                    .joint = wr_param_number(&params, "joint") };
     h.pieces = wr_pieces_of(&params, &h.cells);
     double w = h.cells.cell_width, t = h.cells.cell_height;

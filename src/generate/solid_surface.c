@@ -106,7 +106,7 @@ static bool read_shape(const char *text, WrShape *shape, WrError *err)
     if (good && wr_surfaces[kind]->make) {
         WrSurfaceData *data = wr_surface_data_make(shape->kind, (const char *const *)texts, err);
         good = data != NULL;
-        if (good) wr_shape_take_data(shape, data);
+        if (good) wr_shape_borrow_data(shape, data);
     }
     for (int i = 0; i < WR_SURFACE_TEXTS; i++) wr_free(texts[i]);
     return good;

@@ -187,7 +187,7 @@ WrSurfacePointf wr_hard_narrow(const WrSurfacePoint *at)
 
 /* ---- tables ---- */
 
-WrField *wr_hard_rough(WrHardMeasurement *gauge, int width, int height, WrWrap wrap)
+WrField *wr_hard_random_table(WrHardMeasurement *gauge, int width, int height, WrWrap wrap)
 {
     WrField *field = wr_field_new(width, height, wrap, wrap, 0.0f, NULL);
     for (int j = 0; j < height; j++)

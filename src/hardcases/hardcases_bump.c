@@ -321,7 +321,7 @@ static bool hc56(WrHardMeasurement *g, WrError *err)
 {
     static const float sides[] = { 0, 1e-30f, 0.5f, 1, 1e3f, 1e6f, 1e9f, INFINITY, NAN };
     enum { SIDES = sizeof sides / sizeof *sides };
-    WrField *field = wr_hard_rough(g, 64, 48, WR_WRAP_PERIODIC);
+    WrField *field = wr_hard_random_table(g, 64, 48, WR_WRAP_PERIODIC);
     WrPyramid pyramid = { 0 };
     WrHardLook look;
     bool good = wr_pyramid_update(&pyramid, WR_PYRAMID_MOMENTS, field, g->pool, err);
@@ -376,7 +376,7 @@ static bool hc57(WrHardMeasurement *g, WrError *err)
 {
     static const WrSurfaceKind kinds[] = { WR_SURFACE_cylinder, WR_SURFACE_sphere,
                                            WR_SURFACE_torus };
-    WrField *field = wr_hard_rough(g, 48, 31, WR_WRAP_PERIODIC);
+    WrField *field = wr_hard_random_table(g, 48, 31, WR_WRAP_PERIODIC);
     bool good = true;
     for (int scheme = 0; scheme < WR_SCHEME_COUNT && good; scheme++) {
         WrHardLook look;
@@ -416,7 +416,7 @@ static bool hc58(WrHardMeasurement *g, WrError *err)
     bool good = true;
     for (int s = 0; s < 12 && good; s++) {
         const int w = sizes[s / 2][0], h = sizes[s / 2][1];
-        WrField *field = wr_hard_rough(g, w, h, s % 2 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC);
+        WrField *field = wr_hard_random_table(g, w, h, s % 2 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC);
         WrHardLook look;
         good = wr_hard_look_init(g, &look, field, WR_SCHEME_BSPLINE_FIT, 1, 1, err);
         for (int k = 0; k < w * h && good; k++) {
@@ -543,12 +543,12 @@ static bool hc137(WrHardMeasurement *g, WrError *err)
     WrNormalMapReport report;
     WrImage *file = blank(WR_PIXEL_U8, 3);
     for (int i = 0; i < 3 * TEXELS; i++) file->data[i] = (float)((i % 3 < 2 ? 128 : 255) / 255.0);
-    WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &report, err);
+    WrImage *map = wr_normal_map_decode(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &report, err);
     wr_hard_holds(g, WR_HARD_DOUBLE, report.centred && map->data[0] == 0 && map->data[1] == 0);
     bool good = shoot_map(g, map, 1, 1, WR_AA_POINT, true, err);
     for (int i = 0; i < 3 * TEXELS; i += 6)
         file->data[i] = file->data[i + 1] = (float)(127 / 255.0);
-    map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &report, err);
+    map = wr_normal_map_decode(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &report, err);
     wr_hard_holds(g, WR_HARD_DOUBLE, !report.centred);
     for (int i = 0; i < 3 * TEXELS; i += 3) {
         const double lean = hypot((double)map->data[i], (double)map->data[i + 1]);
@@ -571,7 +571,7 @@ static bool hc138(WrHardMeasurement *g, WrError *err)
         const double x = 2 * (double)file->data[i] - 1, y = 2 * (double)file->data[i + 1] - 1;
         beyond += x * x + y * y >= 1 - WR_NORMAL_MIN * WR_NORMAL_MIN;
     }
-    WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 2, WR_CODING_AUTO, &report, err);
+    WrImage *map = wr_normal_map_decode(file, WR_GREEN_UP, 2, WR_CODING_AUTO, &report, err);
     for (int i = 0; i < 3 * TEXELS; i += 3) wr_hard_holds(g, WR_HARD_DOUBLE, tame(map->data + i));
     wr_hard_holds(g, WR_HARD_DOUBLE, report.away == beyond && beyond > 0);
     wr_image_free(file);
@@ -590,7 +590,7 @@ static bool hc139(WrHardMeasurement *g, WrError *err)
         const double x = 2 * (double)t[0] - 1, y = 2 * (double)t[1] - 1, z = 2 * (double)t[2] - 1;
         away += z / sqrt(x * x + y * y + z * z) < WR_NORMAL_MIN;
     }
-    WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &report, err);
+    WrImage *map = wr_normal_map_decode(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &report, err);
     for (int i = 0; i < TEXELS; i++) {
         const float *t = file->data + 3 * i, *n = map->data + 3 * i;
         const double x = 2 * (double)t[0] - 1, y = 2 * (double)t[1] - 1;
@@ -624,7 +624,7 @@ static bool hc140(WrHardMeasurement *g, WrError *err)
     for (int apart = 0; apart < 2; apart++) {
         WrNormalMapReport report;
         WrImage *file = waves(apart, 1);
-        WrImage *map = wr_normal_map_read(file, WR_GREEN_AUTO, 0, WR_CODING_AUTO, &report, err);
+        WrImage *map = wr_normal_map_decode(file, WR_GREEN_AUTO, 0, WR_CODING_AUTO, &report, err);
         wr_hard_holds(g, WR_HARD_DOUBLE,
                       apart ? report.undecided && !report.green_down
                             : !report.undecided && report.green_down);
@@ -640,7 +640,7 @@ static bool hc141(WrHardMeasurement *g, WrError *err)
     for (int k = 0; k < 3; k++) {
         WrNormalMapReport report;
         WrImage *file = waves(false, powers[k]);
-        WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &report, err);
+        WrImage *map = wr_normal_map_decode(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &report, err);
         wr_hard_holds(g, WR_HARD_DOUBLE, report.converted == (k > 0));
         wr_image_free(map);
         wr_image_free(file);
@@ -661,7 +661,7 @@ static bool hc142(WrHardMeasurement *g, WrError *err)
             file->data[3 * i + 1] = wr_hard_random(g) < 0.5 ? -1 : 1;
             file->data[3 * i + 2] = 0;
         }
-        WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &report, err);
+        WrImage *map = wr_normal_map_decode(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &report, err);
         for (int i = 0; i < 3 * TEXELS; i += 3)
             wr_hard_holds(g, WR_HARD_DOUBLE, tame(map->data + i));
         good = shoot_map(g, map, 100, k % 2 ? 1e9 : 3, k / 2 ? WR_AA_MOMENTS : WR_AA_FILTER, false,

@@ -17,7 +17,7 @@
 /* Random heights, five times as high in the texels outside the cell of face 0, the lower left one. */
 static WrField *with_cell(WrHardMeasurement *g, int w, int h, const WrField *cell)
 {
-    WrField *field = wr_hard_rough(g, w, h, WR_WRAP_PERIODIC);
+    WrField *field = wr_hard_random_table(g, w, h, WR_WRAP_PERIODIC);
     for (int k = 0; k < w * h; k++) {
         const int i = k % w, j = k / w;
         const bool own = 3 * i < w && 2 * (h - 1 - j) < h;
@@ -47,7 +47,8 @@ bool wr_hard_hc176(WrHardMeasurement *g, WrError *err)
     for (int k = 0; k < 6 && good; k++) {
         const int w = sizes[k % 3][0], h = sizes[k % 3][1];
         WrScene *scene = wr_scene_new();
-        WrField *cell = wr_hard_rough(g, w, h, WR_WRAP_PERIODIC), *other = with_cell(g, w, h, cell);
+        WrField *cell = wr_hard_random_table(g, w, h, WR_WRAP_PERIODIC),
+                *other = with_cell(g, w, h, cell);
         WrFrameRequest request = { .scene = scene, .width = 33, .height = 31 };
         look_at_face(scene, k);
         for (int way = 0; way < WR_HARD_WAYS && good; way++) {
@@ -128,7 +129,7 @@ bool wr_hard_hc177(WrHardMeasurement *g, WrError *err)
         good = plain_ground(g, cells, k % 2, err);
     }
     for (int k = 0; k < 4 && good; k++) { /* heights at the limits of float */
-        WrField *field = wr_hard_rough(g, 1 + 6 * k, 19 - 6 * k, WR_WRAP_PERIODIC);
+        WrField *field = wr_hard_random_table(g, 1 + 6 * k, 19 - 6 * k, WR_WRAP_PERIODIC);
         Ground ground;
         for (int i = 0; i < wr_field_width(field); i++)
             wr_field_set(field, i, 0, i % 2 ? -3e38f : 3e38f);
@@ -203,7 +204,7 @@ static void check_steep(WrHardMeasurement *g, WrHeightColormap *of)
 /* Cliffs as high as float's maximum are steep, not NaN; a rolled table produces the rolled picture, to the bit. */
 static bool check_table(WrHardMeasurement *g, const WrHeightColormap *of, WrError *err)
 {
-    WrField *field = wr_hard_rough(g, 13, 9, WR_WRAP_PERIODIC);
+    WrField *field = wr_hard_random_table(g, 13, 9, WR_WRAP_PERIODIC);
     wr_field_set(field, 0, 4, 3e38f);
     wr_field_set(field, 2, 4, -3e38f);
     WrField *rolled = wr_hard_rolled(field, 5, 4);

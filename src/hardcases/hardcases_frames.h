@@ -17,7 +17,7 @@ typedef struct WrHardMesh {
 } WrHardMesh;
 
 /* The mesh as if read from a file; owned by the caller. NULL and an error as wr_triangles_new. */
-WrTriangles *wr_hard_triangles(const WrHardMesh *mesh, WrError *err);
+WrTriangles *wr_hard_mesh_triangles_new(const WrHardMesh *mesh, WrError *err);
 
 /* Pictures of a mesh seen from above in every arithmetic and by the reference: each value is finite. */
 bool wr_hard_mesh_tame(WrHardMeasurement *gauge, const WrHardMesh *mesh, WrError *err);

@@ -81,7 +81,7 @@ WrSurfacePointf wr_hard_narrow(const WrSurfacePoint *at);
 /* ---- tables ---- */
 
 /* A table of random heights in -0.5..0.5. Never NULL. */
-WrField *wr_hard_rough(WrHardMeasurement *gauge, int width, int height, WrWrap wrap);
+WrField *wr_hard_random_table(WrHardMeasurement *gauge, int width, int height, WrWrap wrap);
 /* A smooth table: a few waves of height about 1. */
 WrField *wr_hard_waves(int width, int height);
 bool wr_hard_equal(const WrField *a, const WrField *b);

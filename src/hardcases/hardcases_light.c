@@ -161,7 +161,7 @@ static double looked_at(const WrField *field, int i, int j, int direction)
 /* A table of w x h texels: flat, a ramp that falls at its seam, or rough. */
 static bool table_of(WrHardMeasurement *g, int w, int h, int kind, WrError *err)
 {
-    WrField *field = wr_hard_rough(g, w, h, WR_WRAP_PERIODIC);
+    WrField *field = wr_hard_random_table(g, w, h, WR_WRAP_PERIODIC);
     WrHorizon made = { 0 };
     for (int k = 0; k < w * h && kind < 2; k++)
         wr_field_set(field, k % w, k / w, kind ? 0.37f * (float)(k % w) : -2.7f);

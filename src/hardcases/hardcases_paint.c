@@ -335,7 +335,7 @@ static bool look_for_cracks(WrHardMeasurement *g, const WrFrameRequest *request,
 static bool hc124(WrHardMeasurement *g, WrError *err)
 {
     static const double rates[] = { 16, 4, 1.7, 0.5 };
-    WrField *field = wr_hard_rough(g, 11, 7, WR_WRAP_PERIODIC);
+    WrField *field = wr_hard_random_table(g, 11, 7, WR_WRAP_PERIODIC);
     bool good = true;
     for (int k = 0; k < 4 * CASES && good; k++) {
         WrScene *scene = displaced_of(k % CASES, 0.13, rates[k / CASES]);
@@ -373,7 +373,7 @@ static bool ends(WrHardMeasurement *g, const WrFrameRequest *request, bool endle
 static bool hc125(WrHardMeasurement *g, WrError *err)
 {
     WrField *level = wr_field_new(4, 3, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 1, err);
-    WrField *rough = wr_hard_rough(g, 31, 17, WR_WRAP_PERIODIC);
+    WrField *rough = wr_hard_random_table(g, 31, 17, WR_WRAP_PERIODIC);
     bool good = level != NULL;
     for (int k = 0; k < 2 && good; k++) {
         WrScene *scene = displaced_of(1, k == 0 ? -1 : 1e6, 0.5);
@@ -486,7 +486,8 @@ static bool hc71(WrHardMeasurement *g, WrError *err)
     (void)err;
     static const double none[] = { 0, -1, NAN, -INFINITY };
     for (int k = 0; k < 4; k++) {
-        WrField *field = wr_hard_rough(g, 50, 40, WR_WRAP_PERIODIC), *was = wr_field_share(field);
+        WrField *field = wr_hard_random_table(g, 50, 40, WR_WRAP_PERIODIC),
+                *was = wr_field_share(field);
         const WrBrush brush = brush_of(none[k], 0.5, 1);
         wr_brush_dab(field, &brush, 0.4, 0.4);
         const WrSample path[] = { at(0.1, 0.1, 1), at(0.5, 0.6, 1) };
@@ -497,7 +498,8 @@ static bool hc71(WrHardMeasurement *g, WrError *err)
     }
     for (int k = 0; k < 4; k++) { /* strength 0, and above the maximum; and the limits of float */
         static const double strengths[] = { 0, NAN, INFINITY, -INFINITY };
-        WrField *field = wr_hard_rough(g, 50, 40, WR_WRAP_PERIODIC), *was = wr_field_share(field);
+        WrField *field = wr_hard_random_table(g, 50, 40, WR_WRAP_PERIODIC),
+                *was = wr_field_share(field);
         const WrBrush brush = brush_of(3, 1, strengths[k]);
         wr_brush_dab(field, &brush, 0.5, 0.5);
         const double got = (double)wr_field_get(field, 25, 20);
@@ -521,7 +523,8 @@ static bool hc72(WrHardMeasurement *g, WrError *err)
     (void)err;
     static const double radii[] = { 0.4, 3, 30 };
     for (int r = 0; r < 3; r++) {
-        WrField *dab = wr_hard_rough(g, 80, 80, WR_WRAP_PERIODIC), *stroke = wr_field_share(dab);
+        WrField *dab = wr_hard_random_table(g, 80, 80, WR_WRAP_PERIODIC),
+                *stroke = wr_field_share(dab);
         const WrBrush brush = brush_of(radii[r], 0.2, 0.5);
         WrSample path[100];
         for (int k = 0; k < 100; k++) path[k] = at(0.31, 0.77, 1);
@@ -559,7 +562,8 @@ static bool hc74(WrHardMeasurement *g, WrError *err)
     static const double pressures[][2] = { { NAN, 0 },      { -3, 0 }, { -INFINITY, 0 },
                                            { INFINITY, 1 }, { 7, 1 },  { 0.5, 0.5 } };
     for (int k = 0; k < 12; k++) { /* with both samples, and with the second alone */
-        WrField *wild = wr_hard_rough(g, 64, 64, WR_WRAP_PERIODIC), *tame = wr_field_share(wild);
+        WrField *wild = wr_hard_random_table(g, 64, 64, WR_WRAP_PERIODIC),
+                *tame = wr_field_share(wild);
         const WrBrush brush = brush_of(9, 0.5, 1);
         WrSample a[] = { at(0.5, 0.5, k < 6 ? pressures[k][0] : 0.7),
                          at(0.6, 0.6, pressures[k % 6][0]) };
@@ -632,7 +636,7 @@ static void check_pass(WrHardMeasurement *g, const WrField *was, const WrField *
 
 static bool hc77(WrHardMeasurement *g, WrError *err)
 {
-    WrField *field = wr_hard_rough(g, 90, 70, WR_WRAP_PERIODIC);
+    WrField *field = wr_hard_random_table(g, 90, 70, WR_WRAP_PERIODIC);
     const WrOpInfo *blur = wr_op_find("blur");
     WrBrush brush = brush_of(20, 0.5, 1);
     bool good = true;

@@ -67,7 +67,7 @@ static bool hc144(WrHardMeasurement *g, WrError *err)
     WrSurfaceData *egg = made(WR_SURFACE_revolution, "0,-1.125;0.8125,-0.75;0,0.875", err);
     if (!egg) return false;
     WrShape shape = wr_hard_shape(WR_SURFACE_revolution);
-    wr_shape_take_data(&shape, egg);
+    wr_shape_borrow_data(&shape, egg);
     for (int i = 0; i < 32; i++)
         angles(g, &shape, i / 16.0 / 2, i % 2, (WrVec3){ 0, 0, i % 2 ? 1 : -1 });
     wr_surface_data_free(egg);
@@ -102,7 +102,7 @@ static bool hc149(WrHardMeasurement *g, WrError *err)
     if (!data) return true;
     WrShape shape = wr_hard_shape(WR_SURFACE_formula);
     WrSurfacePoint at;
-    wr_shape_take_data(&shape, data);
+    wr_shape_borrow_data(&shape, data);
     wr_surface_at(&shape, 0, 0.5, 0.25, &at);
     wr_hard_holds(g, WR_HARD_DOUBLE, at.p.x == 2 && at.pu.x == 0 && at.puu.x == 0);
     wr_surface_data_free(data);
@@ -234,7 +234,7 @@ static void compare_edges(WrHardMeasurement *g, const WrPatches *set, const WrFi
 
 static bool hc151(WrHardMeasurement *g, WrError *err)
 {
-    WrField *field = wr_hard_rough(g, 16, 16, WR_WRAP_PERIODIC);
+    WrField *field = wr_hard_random_table(g, 16, 16, WR_WRAP_PERIODIC);
     bool good = true;
     for (int round = 0; round < 24 && good; round++) {
         float(*points)[48] = rough_points(g, 2, 0.3);
@@ -626,7 +626,7 @@ bool wr_hard_hc129(WrHardMeasurement *g, WrError *err)
         wr_hard_units(g, &mesh, frames);
         const double turned = v3_angle_rad(frames[0].t, frames[3].t);
         wr_hard_holds(g, WR_HARD_DOUBLE, apart ? turned > 0.5 : turned == 0);
-        WrTriangles *made = wr_hard_triangles(&mesh, err);
+        WrTriangles *made = wr_hard_mesh_triangles_new(&mesh, err);
         if (!made) return false;
         wr_hard_holds(g, WR_HARD_DOUBLE, made->report.near_uv == (apart > 0));
         wr_hard_holds(g, WR_HARD_DOUBLE, made->corner_count == 4 + (apart > 0));
@@ -703,7 +703,7 @@ bool wr_hard_hc132(WrHardMeasurement *g, WrError *err)
         wr_hard_units(g, &mesh, frames);
         for (int i = 0; i < 3 * WR_HARD_FACES; i++)
             wr_hard_holds(g, WR_HARD_DOUBLE, isfinite(v3_len(mean[i].t) + v3_len(mean[i].b)));
-        WrTriangles *made = wr_hard_triangles(&mesh, NULL); /* all may have no area */
+        WrTriangles *made = wr_hard_mesh_triangles_new(&mesh, NULL); /* all may have no area */
         wr_triangles_free(made);
         if (made && round < 6 && !wr_hard_mesh_tame(g, &mesh, err)) return false;
     }
@@ -745,7 +745,7 @@ bool wr_hard_hc133(WrHardMeasurement *g, WrError *err)
         WrVec3 normal, gu, gv;
         const bool good = wr_triangle_gradients(p, uv, &normal, &gu, &gv);
         wr_hard_off(g, WR_HARD_DOUBLE, good ? v3_angle_rad(normal, want) : INFINITY);
-        WrTriangles *made = wr_hard_triangles(&mesh, err);
+        WrTriangles *made = wr_hard_mesh_triangles_new(&mesh, err);
         if (!made) return false;
         const float *got = made->corners[0].n;
         wr_hard_off(g, WR_HARD_FLOAT,
@@ -767,7 +767,7 @@ bool wr_hard_hc136(WrHardMeasurement *g, WrError *err)
         if (bad[k % 4] == 0) memset(mesh.corner[2].n, 0, sizeof mesh.corner[2].n);
         const bool opposite = k >= 4;
         if (opposite) mesh.face[1][0] = 0, mesh.face[1][1] = 2, mesh.face[1][2] = 1;
-        WrTriangles *made = wr_hard_triangles(&mesh, err);
+        WrTriangles *made = wr_hard_mesh_triangles_new(&mesh, err);
         if (!made) return false;
         wr_hard_holds(g, WR_HARD_DOUBLE, made->report.bad_normal == 1);
         wr_hard_holds(g, WR_HARD_DOUBLE, made->report.face_normal == (opposite ? 2 : 0));

@@ -106,7 +106,8 @@ WR_HARD_LIST(flat, rows);
 /* One texel at float's maximum: outside the scheme's reach not a bit differs. */
 static bool hc49(WrHardMeasurement *g, WrError *err)
 {
-    WrField *field = wr_hard_rough(g, 100, 100, WR_WRAP_PERIODIC), *spoilt = wr_field_share(field);
+    WrField *field = wr_hard_random_table(g, 100, 100, WR_WRAP_PERIODIC),
+            *spoilt = wr_field_share(field);
     const float wild[] = { NAN, INFINITY, -INFINITY };
     wr_field_set(spoilt, 50, 50, FLT_MAX);
     bool good = true;
@@ -145,7 +146,7 @@ static bool hc50(WrHardMeasurement *g, WrError *err)
 {
     bool good = true;
     for (int wrap = 0; wrap < 2 && good; wrap++) {
-        WrField *field = wr_hard_rough(g, 8, 8, wrap ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC);
+        WrField *field = wr_hard_random_table(g, 8, 8, wrap ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC);
         for (int k = 0; k < 64; k++)
             wr_field_set(field, k % 8, k / 8, (k * k / 3) % 2 ? FLT_MAX : -FLT_MAX);
         for (int scheme = 0; scheme < WR_SCHEME_COUNT && good; scheme++) {
@@ -308,7 +309,7 @@ static bool hc54(WrHardMeasurement *g, WrError *err)
 {
     static const WrScheme smooth[] = { WR_SCHEME_CENTRAL, WR_SCHEME_BSPLINE, WR_SCHEME_BSPLINE_FIT,
                                        WR_SCHEME_CATMULL };
-    WrField *field = wr_hard_rough(g, 32, 32, WR_WRAP_PERIODIC);
+    WrField *field = wr_hard_random_table(g, 32, 32, WR_WRAP_PERIODIC);
     bool good = true;
     for (int k = 0; k < 4 && good; k++) {
         WrHardLook look;
@@ -542,7 +543,7 @@ bool wr_hard_hc157(WrHardMeasurement *g, WrError *err)
     bool good = true;
     for (int k = 0; k < 3 * WR_SCHEME_COUNT && good; k++) {
         const int w = sizes[k % 3][0], h = sizes[k % 3][1];
-        WrField *thin = wr_hard_rough(g, w, h, WR_WRAP_PERIODIC);
+        WrField *thin = wr_hard_random_table(g, w, h, WR_WRAP_PERIODIC);
         WrField *wide = repeated(thin, w == 1 ? 8 : 1, h == 1 ? 8 : 1);
         WrScene *scene = wr_scene_new();
         scene->shape = wr_hard_shape(kinds[k / 3 % 3]);
@@ -859,7 +860,7 @@ static bool hc35(WrHardMeasurement *g, WrError *err)
     }
     bool good = true;
     for (int s = 0; s < 4 && good; s++) {
-        WrField *field = wr_hard_rough(g, sizes[s], sizes[s], WR_WRAP_PERIODIC);
+        WrField *field = wr_hard_random_table(g, sizes[s], sizes[s], WR_WRAP_PERIODIC);
         good = each_look(g, field, 1, 1, check_ends, err);
         wr_field_free(field);
     }
@@ -891,7 +892,7 @@ static void check_tiny(const Looker *l)
 
 static bool hc36(WrHardMeasurement *g, WrError *err)
 {
-    WrField *field = wr_hard_rough(g, 64, 64, WR_WRAP_PERIODIC);
+    WrField *field = wr_hard_random_table(g, 64, 64, WR_WRAP_PERIODIC);
     const bool good = each_look(g, field, 1, 1, check_tiny, err);
     wr_field_free(field);
     return good;
@@ -910,7 +911,7 @@ static void check_wild(const Looker *l)
 
 static bool hc37(WrHardMeasurement *g, WrError *err)
 {
-    WrField *field = wr_hard_rough(g, 20, 30, WR_WRAP_PERIODIC);
+    WrField *field = wr_hard_random_table(g, 20, 30, WR_WRAP_PERIODIC);
     const bool good = each_look(g, field, 1, 1, check_wild, err);
     wr_field_free(field);
     return good;
@@ -924,7 +925,7 @@ static void check_half(const Looker *l)
 
 static bool hc38(WrHardMeasurement *g, WrError *err)
 {
-    WrField *field = wr_hard_rough(g, 64, 16, WR_WRAP_PERIODIC);
+    WrField *field = wr_hard_random_table(g, 64, 16, WR_WRAP_PERIODIC);
     const bool good = each_look(g, field, 1, 1, check_half, err);
     wr_field_free(field);
     return good;
@@ -933,7 +934,7 @@ static bool hc38(WrHardMeasurement *g, WrError *err)
 /* Dyadic positions around the seams, so that u + 1/2 is exact; the table rolled by half in either direction. */
 static bool hc39(WrHardMeasurement *g, WrError *err)
 {
-    WrField *field = wr_hard_rough(g, 32, 64, WR_WRAP_PERIODIC);
+    WrField *field = wr_hard_random_table(g, 32, 64, WR_WRAP_PERIODIC);
     WrField *rolled = wr_hard_rolled(field, 16, 32);
     bool good = true;
     for (int scheme = 0; scheme < WR_SCHEME_COUNT && good; scheme++) {
@@ -974,7 +975,7 @@ static double reduced_off(double u, double r, double got)
 static bool hc40(WrHardMeasurement *g, WrError *err)
 {
     static const double repeats[] = { 1e3, 1e5, 1e6, 1e7, 1e7 / 3.0, -1e7, 12345.678 };
-    WrField *field = wr_hard_rough(g, 64, 64, WR_WRAP_PERIODIC);
+    WrField *field = wr_hard_random_table(g, 64, 64, WR_WRAP_PERIODIC);
     bool good = true;
     for (int k = 0; k < 7 && good; k++) {
         WrHardLook look;
@@ -1020,7 +1021,7 @@ static void check_repeats(WrHardMeasurement *g, const WrField *field, const WrHa
 static bool hc41(WrHardMeasurement *g, WrError *err)
 {
     static const double repeats[] = { 0, -1, 0.5, 2.5, -2.25, 0.0078125, 77.125 };
-    WrField *field = wr_hard_rough(g, 64, 64, WR_WRAP_PERIODIC);
+    WrField *field = wr_hard_random_table(g, 64, 64, WR_WRAP_PERIODIC);
     bool good = true;
     for (int k = 0; k < WR_SCHEME_COUNT * 7 && good; k++) {
         const WrScheme scheme = (WrScheme)(k / 7);
@@ -1081,7 +1082,7 @@ static bool hc46(WrHardMeasurement *g, WrError *err)
     static const int sizes[][2] = { { 3, 3 }, { 48, 100 }, { 64, 64 }, { 16383, 1 } };
     bool good = true;
     for (int s = 0; s < 4 && good; s++) {
-        WrField *field = wr_hard_rough(g, sizes[s][0], sizes[s][1], WR_WRAP_PERIODIC);
+        WrField *field = wr_hard_random_table(g, sizes[s][0], sizes[s][1], WR_WRAP_PERIODIC);
         good = each_look(g, field, 1, 1, check_modulus, err) &&
                each_look(g, field, 1, 1, check_ends_of_rows, err);
         wr_field_free(field);
@@ -1113,7 +1114,7 @@ static bool flat_both(WrHardMeasurement *g, int w, int h, bool along_u, bool alo
 {
     bool good = true;
     for (int wrap = 0; wrap < 2 && good; wrap++) {
-        WrField *field = wr_hard_rough(g, w, h, wrap ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC);
+        WrField *field = wr_hard_random_table(g, w, h, wrap ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC);
         if (along_u) good = each_look(g, field, 1, 1, check_flat_u, err);
         if (along_v && good) good = each_look(g, field, 1, 1, check_flat_v, err);
         wr_field_free(field);
@@ -1143,7 +1144,7 @@ static void check_two(const Looker *l)
 
 static bool hc44(WrHardMeasurement *g, WrError *err)
 {
-    WrField *field = wr_hard_rough(g, 2, 9, WR_WRAP_PERIODIC);
+    WrField *field = wr_hard_random_table(g, 2, 9, WR_WRAP_PERIODIC);
     const bool good = each_look(g, field, 1, 1, check_two, err);
     wr_field_free(field);
     return good;

@@ -581,7 +581,7 @@ WR_HARD_LIST(turn, turned);
 
 /* ---- shared functions ---- */
 
-WrTriangles *wr_hard_triangles(const WrHardMesh *mesh, WrError *err)
+WrTriangles *wr_hard_mesh_triangles_new(const WrHardMesh *mesh, WrError *err)
 {
     float points[WR_HARD_CORNERS][3], normals[WR_HARD_CORNERS][3], uv[WR_HARD_CORNERS][2];
     for (int i = 0; i < mesh->corners; i++) {
@@ -619,7 +619,7 @@ WrScene *wr_hard_above(WrTriangles *triangles, double height)
 
 bool wr_hard_mesh_tame(WrHardMeasurement *g, const WrHardMesh *mesh, WrError *err)
 {
-    WrTriangles *triangles = wr_hard_triangles(mesh, err);
+    WrTriangles *triangles = wr_hard_mesh_triangles_new(mesh, err);
     if (!triangles) return false;
     WrScene *scene = wr_hard_above(triangles, 0.1);
     WrField *field = wr_hard_waves(24, 20);
@@ -673,7 +673,7 @@ static WrHardMesh pair(const float uv[4][2])
 static void report(WrHardMeasurement *g, const WrHardMesh *mesh, int32_t collinear,
                    int32_t mirrored)
 {
-    WrTriangles *made = wr_hard_triangles(mesh, NULL);
+    WrTriangles *made = wr_hard_mesh_triangles_new(mesh, NULL);
     const bool good =
         made && made->report.collinear == collinear && made->report.mirrored == mirrored;
     wr_hard_holds(g, WR_HARD_DOUBLE, good);
@@ -729,7 +729,7 @@ static WrVec3 by_map(const WrField *field, const WrScene *scene, const Map *map,
 static bool measure_bend(WrHardMeasurement *g, const WrHardMesh *mesh, const Map map[2],
                          double height, double *bent, WrError *err)
 {
-    WrTriangles *triangles = wr_hard_triangles(mesh, err);
+    WrTriangles *triangles = wr_hard_mesh_triangles_new(mesh, err);
     if (!triangles) return false;
     WrScene *scene = wr_hard_above(triangles, height);
     WrField *field = wr_hard_waves(48, 40);
@@ -839,8 +839,8 @@ bool wr_hard_hc29(WrHardMeasurement *g, WrError *err)
             more.face[2][i] = 4 + i;
         }
         more.corners = 7, more.faces = 3;
-        WrTriangles *with = wr_hard_triangles(&more, err),
-                    *without = wr_hard_triangles(&whole, err);
+        WrTriangles *with = wr_hard_mesh_triangles_new(&more, err),
+                    *without = wr_hard_mesh_triangles_new(&whole, err);
         good = with && without;
         wr_hard_holds(g, WR_HARD_DOUBLE,
                       good && with->report.no_area == 1 && with->triangle_count == 2);

@@ -216,7 +216,7 @@ static bool reach_all(Reach *r, const WrScene *scene, double turn_from, double t
                       WrError *err)
 {
     for (int i = 0; i < wr_scene_object_count(scene); i++) {
-        if (!wr_scene_fits(scene, i)) continue;
+        if (!wr_scene_fit_includes(scene, i)) continue;
         Turns turns;
         WrScene *part = wr_scene_object_alone(scene, i, 1);
         const bool good = place_turns(part, turn_from, turn_to, &turns, err);

@@ -203,8 +203,8 @@ WrImage *wr_normal_map_raised(const WrImage *map, int64_t *away, WrError *err)
     return to;
 }
 
-WrImage *wr_normal_map_read(const WrImage *from, WrGreen green, int channels, WrCoding coding,
-                            WrNormalMapReport *report, WrError *err)
+WrImage *wr_normal_map_decode(const WrImage *from, WrGreen green, int channels, WrCoding coding,
+                              WrNormalMapReport *report, WrError *err)
 {
     const int colours = from->channels > 3 ? 3 : from->channels;
     Reading r = { .from = from, .channels = channels ? channels : colours };

@@ -47,8 +47,8 @@ typedef struct WrNormalMapReport {
 /* Reads unit vectors, x along u, y along v, z >= about WR_NORMAL_MIN: a picture of three channels.
    channels: 2, 3, or 0: all, at most 3. NULL and an error if it has fewer, or if the coding does not
    match. */
-WrImage *wr_normal_map_read(const WrImage *from, WrGreen green, int channels, WrCoding coding,
-                            WrNormalMapReport *report, WrError *err);
+WrImage *wr_normal_map_decode(const WrImage *from, WrGreen green, int channels, WrCoding coding,
+                              WrNormalMapReport *report, WrError *err);
 /* Reads a map in the object's axes: three channels, all directions allowed. green_down: its second
  * number is inverted. */
 WrImage *wr_normal_map_read_object(const WrImage *from, bool green_down, WrCoding coding,

@@ -460,7 +460,7 @@ static double radius_of(const WrScene *scene, int i)
     return kept_radius(scene->others[i < scene->chosen ? i : i - 1]);
 }
 
-bool wr_scene_fits(const WrScene *scene, int i)
+bool wr_scene_fit_includes(const WrScene *scene, int i)
 {
     int shown = 0, turned = 0;
     for (int k = 0; k < wr_scene_object_count(scene); k++) {
@@ -485,7 +485,7 @@ double wr_scene_ball(const WrScene *scene, bool displaced)
     double ball = 0;
     for (int i = 0; i < wr_scene_object_count(scene); i++) {
         const WrScene *object = wr_scene_object(scene, i);
-        if (!wr_scene_fits(scene, i)) continue;
+        if (!wr_scene_fit_includes(scene, i)) continue;
         const double more = displaced ? scene_stands_out(object) : 0;
         ball = fmax(ball, v3_len(object->at) + object->size * (radius_of(scene, i) + more));
     }

@@ -46,7 +46,7 @@ WrScene *wr_scene_remove_object(const WrScene *scene, int i);
 
 /* True if a fitting camera includes object i: all visible turning ones; if there are none, all visible
  * ones; else all. */
-bool wr_scene_fits(const WrScene *scene, int i);
+bool wr_scene_fit_includes(const WrScene *scene, int i);
 /* Radius of the sphere about the world's origin that contains those objects for every turn of the
    turntable. displaced: including displacements; else only their bases. */
 double wr_scene_ball(const WrScene *scene, bool displaced);

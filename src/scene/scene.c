@@ -406,7 +406,7 @@ void wr_scene_set_shape(WrScene *scene, const WrShape *shape)
 {
     const WrSurfaceData *old = scene->shape.data, *shared = wr_surface_data_share(shape->data);
     scene->shape = *shape;
-    wr_shape_take_data(&scene->shape, shared);
+    wr_shape_borrow_data(&scene->shape, shared);
     wr_surface_data_free((WrSurfaceData *)old);
 }
 

@@ -26,7 +26,7 @@ static size_t texel_at(int i, int n, bool periodic)
     return (size_t)(i < 0 ? 0 : i >= n ? n - 1 : i);
 }
 
-WrTexels wr_texture_sample_texels(const WrScene *scene, const WrImage *image,
+WrTexels wr_texture_bilinear_taps(const WrScene *scene, const WrImage *image,
                                   const WrTextureSample *laid, bool periodic_u, bool periodic_v,
                                   double u, double v)
 {
@@ -137,7 +137,7 @@ void wr_texture_sample_add_normals(const WrScene *scene, bool periodic_u, bool p
     const WrNormalMap *map = &scene->normals;
     if (!map->image || map->strength == 0) return;
     const WrTexels texels =
-        wr_texture_sample_texels(scene, map->image, &map->laid, periodic_u, periodic_v, u, v);
+        wr_texture_bilinear_taps(scene, map->image, &map->laid, periodic_u, periodic_v, u, v);
     double ru, rv, p, q;
     wr_scene_repeat(scene, &map->laid, &ru, &rv);
     if (map->object) {

@@ -15,7 +15,7 @@ typedef struct WrTexels {
     bool in_u, in_v; /* false: beyond the end of a clamped axis, where the value is constant */
 } WrTexels;
 
-WrTexels wr_texture_sample_texels(const WrScene *scene, const WrImage *image,
+WrTexels wr_texture_bilinear_taps(const WrScene *scene, const WrImage *image,
                                   const WrTextureSample *laid, bool periodic_u, bool periodic_v,
                                   double u, double v);
 

@@ -77,7 +77,7 @@ const WrSurfaceData *wr_surface_data_default(WrSurfaceKind kind)
     return have;
 }
 
-void wr_shape_take_data(WrShape *shape, const WrSurfaceData *data)
+void wr_shape_borrow_data(WrShape *shape, const WrSurfaceData *data)
 {
     WR_ASSERT(!data || data->kind == shape->kind);
     shape->data = data;

@@ -31,4 +31,4 @@ void wr_surface_data_free(WrSurfaceData *data);
 /* The data of the default texts: created once, never freed. NULL for surfaces without texts. */
 const WrSurfaceData *wr_surface_data_default(WrSurfaceKind kind);
 /* Sets a borrowed reference in a shape of the same kind. */
-void wr_shape_take_data(WrShape *shape, const WrSurfaceData *data);
+void wr_shape_borrow_data(WrShape *shape, const WrSurfaceData *data);

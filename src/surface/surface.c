@@ -45,7 +45,7 @@ void wr_shape_default(WrSurfaceKind kind, WrShape *shape)
     memset(shape, 0, sizeof *shape);
     shape->kind = kind;
     shape->scale = 1;
-    wr_shape_take_data(shape, wr_surface_data_default(kind));
+    wr_shape_borrow_data(shape, wr_surface_data_default(kind));
     double *value = shape->value;
     const WrSurfaceParam *param = NULL;
     while ((param = next_param(wr_surfaces[kind], param))) {

@@ -506,7 +506,7 @@ static void what_is_no_file_is_neither_opened_nor_replaced(void **state)
     assert_int_equal(opened(watch), 0);
     assert_false(wr_file_write(path, "text", 4, &err));
     assert_non_null(strstr(err.text, "not a regular file"));
-    assert_int_equal(wr_file_create(path, &err), -1); /* no reader */
+    assert_int_equal(wr_file_open_truncate(path, &err), -1); /* no reader */
     alarm(0);
     struct stat info;
     assert_true(lstat(path, &info) == 0 && S_ISFIFO(info.st_mode));

@@ -363,10 +363,10 @@ static void help_shows_one_argument(void **state)
     (void)state;
     WrText text = { 0 };
     WrError err;
-    assert_true(wr_help_part(wr_command_find("bump"), "mode", &text, &err));
+    assert_true(wr_help_command_part(wr_command_find("bump"), "mode", &text, &err));
     assert_non_null(strstr(wr_text_get(&text), "mode="));
     assert_null(strstr(wr_text_get(&text), "scheme="));
-    assert_false(wr_help_part(wr_command_find("bump"), "moed", &text, &err));
+    assert_false(wr_help_command_part(wr_command_find("bump"), "moed", &text, &err));
     assert_non_null(strstr(err.text, "did you mean mode?"));
     wr_text_fini(&text);
 }
@@ -383,7 +383,7 @@ static void help_has_every_part(void **state)
             form.count = wr_command_specs(command, k, form.specs);
             for (int a = 0; a < form.count; a++) {
                 WrText text = { 0 };
-                assert_true(wr_help_part(command, form.specs[a].name, &text, &err));
+                assert_true(wr_help_command_part(command, form.specs[a].name, &text, &err));
                 assert_non_null(strstr(wr_text_get(&text), form.specs[a].name));
                 wr_text_fini(&text);
             }

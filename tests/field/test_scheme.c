@@ -541,13 +541,13 @@ static void fitted_coefficients_are_the_same_bits_in_any_rectangle(void **state)
     static float whole[W * H], part[W * H];
     for (int wrap = 0; wrap < 2; wrap++) {
         WrField *field = make_random(W, H, wrap ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC, 22);
-        wr_field_read_fitted(field, 0, 0, W, H, whole, W);
+        wr_field_read_bspline_coefficients(field, 0, 0, W, H, whole, W);
         const int boxes[][4] = {
             { 0, 0, 1, 1 }, { 500, 3, 37, 5 }, { 511, 39, 2, 1 }, { 7, 0, 593, 40 }
         };
         for (int b = 0; b < 4; b++) {
             const int *box = boxes[b];
-            wr_field_read_fitted(field, box[0], box[1], box[2], box[3], part, W);
+            wr_field_read_bspline_coefficients(field, box[0], box[1], box[2], box[3], part, W);
             for (int j = 0; j < box[3]; j++)
                 assert_memory_equal(part + j * W, whole + (box[1] + j) * W + box[0],
                                     sizeof(float) * (size_t)box[2]);

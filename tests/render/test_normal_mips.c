@@ -39,11 +39,11 @@ static void take_map(WrScene *scene, WrImage *file, bool down, bool found)
 {
     WrNormalMapReport told;
     wr_image_free(scene->normals.image);
-    scene->normals.image = wr_normal_map_read(file,
-                                              found  ? WR_GREEN_AUTO
-                                              : down ? WR_GREEN_DOWN
-                                                     : WR_GREEN_UP,
-                                              0, WR_CODING_AUTO, &told, NULL);
+    scene->normals.image = wr_normal_map_decode(file,
+                                                found  ? WR_GREEN_AUTO
+                                                : down ? WR_GREEN_DOWN
+                                                       : WR_GREEN_UP,
+                                                0, WR_CODING_AUTO, &told, NULL);
     assert_true(scene->normals.image && told.green_down == down);
     scene->normals.strength = 1;
     wr_image_free(file);

@@ -34,7 +34,7 @@ static WrImage *random_map(int w, int h, int bits, int channels, uint64_t seed)
 static void put_map(WrScene *scene, WrImage *file, WrGreen green, int channels)
 {
     WrNormalMapReport told;
-    scene->normals.image = wr_normal_map_read(file, green, channels, WR_CODING_AUTO, &told, NULL);
+    scene->normals.image = wr_normal_map_decode(file, green, channels, WR_CODING_AUTO, &told, NULL);
     assert_non_null(scene->normals.image);
     scene->normals.strength = 1;
     wr_image_free(file);
@@ -227,7 +227,7 @@ static void one_triangle_turns_the_map_as_by_hand(void **state)
         scene->normals.image =
             scene->normals.object
                 ? wr_normal_map_read_object(file, false, WR_CODING_AUTO, &told, NULL)
-                : wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, NULL);
+                : wr_normal_map_decode(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, NULL);
         scene->normals.strength = 1;
         if (k >= 10) scene->bump = WR_BUMP_INVARIANT, scene->dials.aa = WR_AA_FILTER;
         scene->posed = true, scene->rotate_deg = (WrVec3){ 0, -15, 0 };

@@ -190,7 +190,7 @@ static WrScene *scene_of_words(const char *surface, const char *const *text)
     WrSurfaceData *data = wr_surface_data_make(scene->shape.kind, text, &err);
     if (!data) fail_msg("%s", err.text);
     WrShape shape = scene->shape;
-    wr_shape_take_data(&shape, data);
+    wr_shape_borrow_data(&shape, data);
     wr_scene_set_shape(scene, &shape);
     wr_surface_data_free(data);
     return scene;

@@ -68,11 +68,11 @@ static void maps_of_all_formats_are_read_within_their_bound(void **state)
         const bool down = k / 8 % 2, found = k / 16;
         WrNormalMapReport told;
         WrImage *file = map_of(0, formats[f].bits, down, channels);
-        WrImage *map = wr_normal_map_read(file,
-                                          found  ? WR_GREEN_AUTO
-                                          : down ? WR_GREEN_DOWN
-                                                 : WR_GREEN_UP,
-                                          0, WR_CODING_AUTO, &told, NULL);
+        WrImage *map = wr_normal_map_decode(file,
+                                            found  ? WR_GREEN_AUTO
+                                            : down ? WR_GREEN_DOWN
+                                                   : WR_GREEN_UP,
+                                            0, WR_CODING_AUTO, &told, NULL);
         assert_non_null(map);
         assert_true(told.green_down == down && !told.undecided && told.channels == channels);
         assert_true(told.away == 0 && !told.centred && !told.converted);
@@ -100,7 +100,7 @@ static void of_a_sum_of_profiles_the_sign_is_undecided(void **state)
     for (int k = 0; k < 8; k++) {
         WrNormalMapReport told;
         WrImage *file = map_of(1, bits[k % 4], k / 4, 3);
-        WrImage *map = wr_normal_map_read(file, WR_GREEN_AUTO, 0, WR_CODING_AUTO, &told, NULL);
+        WrImage *map = wr_normal_map_decode(file, WR_GREEN_AUTO, 0, WR_CODING_AUTO, &told, NULL);
         if (!(told.undecided && !told.green_down)) fail_msg("%d bits", bits[k % 4]);
         wr_image_free(map);
         wr_image_free(file);
@@ -118,14 +118,14 @@ static void codes_that_are_flat_at_the_middle_are_centred(void **state)
         file->type = k ? WR_PIXEL_U16 : WR_PIXEL_U8;
         for (int i = 0; i < 48; i++) file->data[i] = (float)((i % 3 < 2 ? middle : last) / last);
         file->data[0] = 1, file->data[2] = (float)(middle / last); /* straight along u */
-        WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, NULL);
+        WrImage *map = wr_normal_map_decode(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, NULL);
         assert_true(told.centred && told.away == 1);
         assert_true(map->data[3] == 0 && map->data[4] == 0 && map->data[5] == 1);
         assert_true(map->data[0] > 0.99f && map->data[1] == 0);
         wr_image_free(map);
         for (int i = 0; i < 24; i++) /* half of them 127: now 0 is in between */
             if (i % 3 < 2) file->data[i] = (float)((middle - 1) / last);
-        map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, NULL);
+        map = wr_normal_map_decode(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, NULL);
         assert_false(told.centred);
         assert_near((double)map->data[3], -1 / last, 1e-7);
         wr_image_free(map);
@@ -176,14 +176,14 @@ static void floats_are_read_by_their_distribution(void **state)
                 file->data[3 * i + 2] *= 1.00002f, file->data[3 * i] -= 1e-5f;
             if (coded) file->data[2] = 1.00001f;
         }
-        WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, NULL);
+        WrImage *map = wr_normal_map_decode(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, NULL);
         assert_int_equal(told.own, !coded);
         /* only texel 0, with the stray blue, has another angle */
         if (!stray && worst_angle(map, lean) > 1e-3)
             fail_msg("case %d: off by %.3g degrees", k, worst_angle(map, lean));
         wr_image_free(map);
-        map = wr_normal_map_read(file, WR_GREEN_UP, 0, coded ? WR_CODING_UNIT : WR_CODING_SIGNED,
-                                 &told, NULL);
+        map = wr_normal_map_decode(file, WR_GREEN_UP, 0, coded ? WR_CODING_UNIT : WR_CODING_SIGNED,
+                                   &told, NULL);
         assert_int_equal(told.own, !coded);
         wr_image_free(map);
         wr_image_free(file);
@@ -197,23 +197,23 @@ static void a_coding_that_is_told_is_taken(void **state)
     WrNormalMapReport told;
     WrError err = { "" };
     WrImage *file = ring_of_floats(true, 0.2);
-    WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_SIGNED, &told, NULL);
+    WrImage *map = wr_normal_map_decode(file, WR_GREEN_UP, 0, WR_CODING_SIGNED, &told, NULL);
     assert_true(told.own && map->data[0] > 0.3f); /* 0.6, 0.5, 0.99 unchanged */
     wr_image_free(map);
     file->type = WR_PIXEL_U8;
-    assert_null(wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_SIGNED, &told, &err));
+    assert_null(wr_normal_map_decode(file, WR_GREEN_UP, 0, WR_CODING_SIGNED, &told, &err));
     assert_non_null(strstr(err.text, "coding=signed needs a file of floats"));
-    map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_UNIT, &told, NULL);
+    map = wr_normal_map_decode(file, WR_GREEN_UP, 0, WR_CODING_UNIT, &told, NULL);
     assert_false(told.own);
     wr_image_free(map);
     /* two channels: slopes of both signs are plain vectors, those around one half are codes */
     file->type = WR_PIXEL_F32;
-    map = wr_normal_map_read(file, WR_GREEN_UP, 2, WR_CODING_AUTO, &told, NULL);
+    map = wr_normal_map_decode(file, WR_GREEN_UP, 2, WR_CODING_AUTO, &told, NULL);
     assert_false(told.own);
     wr_image_free(map);
     wr_image_free(file);
     file = ring_of_floats(false, 0.2);
-    map = wr_normal_map_read(file, WR_GREEN_UP, 2, WR_CODING_AUTO, &told, NULL);
+    map = wr_normal_map_decode(file, WR_GREEN_UP, 2, WR_CODING_AUTO, &told, NULL);
     assert_true(told.own);
     wr_image_free(map);
     wr_image_free(file);
@@ -231,7 +231,8 @@ static void what_looks_away_is_clamped_and_counted(void **state)
         WrImage *file = wr_image_new(5, 1, 3, NULL);
         file->type = WR_PIXEL_U16;
         memcpy(file->data, texels, sizeof texels);
-        WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, channels, WR_CODING_AUTO, &told, NULL);
+        WrImage *map =
+            wr_normal_map_decode(file, WR_GREEN_UP, channels, WR_CODING_AUTO, &told, NULL);
         assert_int_equal(told.away, channels == 3 ? 4 : 2);
         for (int t = 0; t < 5; t++) {
             const float *n = map->data + 3 * t;
@@ -248,7 +249,7 @@ static void what_looks_away_is_clamped_and_counted(void **state)
     WrError err = { "" };
     WrNormalMapReport told;
     WrImage *grey = wr_image_new(2, 2, 1, NULL);
-    assert_null(wr_normal_map_read(grey, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, &err));
+    assert_null(wr_normal_map_decode(grey, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, &err));
     assert_non_null(strstr(err.text, "channels"));
     wr_image_free(grey);
 }
@@ -264,7 +265,7 @@ static void a_colour_conversion_is_told(void **state)
             const double x = (double)file->data[i];
             file->data[i] = (float)(k == 1 ? pow(x, 2.2) : pow(x, 1 / 2.2));
         }
-        WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, NULL);
+        WrImage *map = wr_normal_map_decode(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, NULL);
         assert_int_equal(told.converted, k > 0);
         wr_image_free(map);
         wr_image_free(file);

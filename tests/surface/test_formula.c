@@ -19,7 +19,7 @@ static WrShape formula(const char *x, const char *y, const char *z)
     WrSurfaceData *data = made(x, y, z, &err);
     if (!data) fail_msg("%s | %s | %s: %s", x, y, z, err.text);
     wr_shape_default(WR_SURFACE_formula, &shape);
-    wr_shape_take_data(&shape, data);
+    wr_shape_borrow_data(&shape, data);
     return shape;
 }
 
@@ -144,7 +144,7 @@ static void derivatives_of_random_expressions_meet_differences(void **state)
         if (data && data->radius < 100) {
             WrShape shape;
             wr_shape_default(WR_SURFACE_formula, &shape);
-            wr_shape_take_data(&shape, data);
+            wr_shape_borrow_data(&shape, data);
             for (int i = 0; i < 4; i++)
                 check_derivatives(&shape, 0.05 + 0.9 * test_random(&random),
                                   0.05 + 0.9 * test_random(&random), wr_text_get(&x));
@@ -264,7 +264,7 @@ static void noise_is_refused_or_finite(void **state)
         if (!data) continue;
         WrShape shape;
         wr_shape_default(WR_SURFACE_formula, &shape);
-        wr_shape_take_data(&shape, data);
+        wr_shape_borrow_data(&shape, data);
         if (taken++ % 20 == 0) assert_finite_everywhere(&shape, true);
         drop(&shape);
     }

@@ -14,7 +14,7 @@ static WrShape turned(const char *profile)
     wr_shape_default(WR_SURFACE_revolution, &shape);
     WrSurfaceData *data = wr_surface_data_make(WR_SURFACE_revolution, text, &err);
     if (!data) fail_msg("%s", err.text);
-    wr_shape_take_data(&shape, data);
+    wr_shape_borrow_data(&shape, data);
     return shape;
 }
 
@@ -236,7 +236,7 @@ static void noise_is_refused_or_finite(void **state)
         if (!data) continue;
         WrShape shape;
         wr_shape_default(WR_SURFACE_revolution, &shape);
-        wr_shape_take_data(&shape, data);
+        wr_shape_borrow_data(&shape, data);
         assert_finite_everywhere(&shape, true);
         drop(&shape);
         taken++;

@@ -161,10 +161,10 @@ static void a_rough_trial_is_near_and_then_the_exact_one_comes(void **state)
     WrEditPreviewRequest ask = { .line = line, .rough = true };
     wr_edit_preview_request(trial, wr_session_document(session), &ask);
     wait_until_done(trial);
-    assert_true(wr_edit_preview_rough(trial)); /* the exact one starts when this is fetched */
+    assert_true(wr_edit_preview_is_rough(trial)); /* the exact one starts when this is fetched */
     WrField *rough = wr_field_share(wr_edit_preview_field(trial));
     wait_until_done(trial);
-    assert_false(wr_edit_preview_rough(trial));
+    assert_false(wr_edit_preview_is_rough(trial));
     WrField *exact = wr_field_share(wr_edit_preview_field(trial));
     assert_true(wr_session_run(session, line, &err));
     assert_same_heights(exact, wr_document_field(wr_session_document(session)));

@@ -441,12 +441,12 @@ static void none_of_many_events_is_lost_however_late_they_are_taken(void **state
     while (wr_pen_next(pen, &e)) assert_near(e.seconds, next++, 0.0);
     assert_int_equal(next, 100000);
     for (int64_t i = 100000 - WR_PEN_KEEP; i < 100000; i++) {
-        assert_true(wr_pen_recent(pen, i, &e));
+        assert_true(wr_pen_event_at(pen, i, &e));
         assert_near(e.seconds, (double)i, 0.0);
     }
-    assert_false(wr_pen_recent(pen, 100000, &e));
-    assert_false(wr_pen_recent(pen, 0, &e));
-    assert_false(wr_pen_recent(pen, -1, &e));
+    assert_false(wr_pen_event_at(pen, 100000, &e));
+    assert_false(wr_pen_event_at(pen, 0, &e));
+    assert_false(wr_pen_event_at(pen, -1, &e));
     wr_pen_free(pen);
 }
 

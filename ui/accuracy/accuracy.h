@@ -159,7 +159,7 @@ void wr_accuracy_keep(WrApp *app);
 void wr_accuracy_words(const WrApp *app, int side, WrText *text);
 
 /* ---- accuracy_view.c: over the patch ---- */
-void wr_accuracy_show(WrApp *app, WrPatchLook look);
+void wr_accuracy_set_view(WrApp *app, WrPatchLook look);
 void wr_accuracy_draw(WrApp *app);    /* pictures over the preview */
 void wr_accuracy_overlay(WrApp *app); /* labels, divider, scale */
 /* the pointer can grasp the divider */

@@ -39,7 +39,7 @@ const char *const wr_patch_look_names[WR_PATCH_LOOKS] = {
 };
 WR_ROWS_END(wr_patch_look_names, WR_PATCH_LOOKS);
 
-void wr_accuracy_show(WrApp *app, WrPatchLook look)
+void wr_accuracy_set_view(WrApp *app, WrPatchLook look)
 {
     WrAccuracy *a = app->accuracy;
     a->look = look;

@@ -39,7 +39,7 @@ static void show(WrApp *app)
     int look = (int)a->look;
     wr_gui_label("Patch shows");
     if (wr_gui_choice("look", 0, wr_patch_look_names, WR_PATCH_LOOKS, &look))
-        wr_accuracy_show(app, (WrPatchLook)look);
+        wr_accuracy_set_view(app, (WrPatchLook)look);
     wr_gui_tip(
         "A is the scene with its own dials, B has dials of its own. Split has a line to drag. Maps "
         "lie over the patch: its distance from the reference, the error of the small-F "
@@ -301,7 +301,7 @@ static void chosen(WrApp *app)
     wr_gui_list_end();
     wr_gui_disable(!c->any);
     if (wr_gui_button("Keep these dials", false)) wr_accuracy_keep(app);
-    wr_gui_enable();
+    wr_gui_disable_end();
     wr_gui_tip("The finest of the chosen dials become the scene's own setting, for the whole "
                "picture, and the tolerance is switched off");
 }
@@ -362,7 +362,7 @@ static void number(WrApp *app, int side, int id, double reset)
                       .decimals = dial->whole ? 0 : -1 };
     WrEdit edit = wr_gui_number(dial->name, 0, &spec, &value);
     if (dial->whole) value = rint(value);
-    if (edit == WR_EDIT_LIVE && side == 0) dial->set(wr_app_live(app), value);
+    if (edit == WR_EDIT_LIVE && side == 0) dial->set(wr_app_live_begin(app), value);
     else if (edit != WR_EDIT_NONE) wr_accuracy_set_dial(app, side, id, value);
 }
 
@@ -386,7 +386,7 @@ static void axis_dials(WrApp *app, int side, WrAxis axis, const WrScene *scene,
         wr_gui_label(dial->label);
         if (dial->choices > 0) choose(app, side, d);
         else number(app, side, d, dial->get(plain));
-        wr_gui_enable();
+        wr_gui_disable_end();
         snprintf(tip, sizeof tip, "%s=: %s%s", dial->name, wr_words(dial->help),
                  chooses    ? wr_words(". The tolerance sets it.")
                  : !matters ? wr_words(". As the other dials stand it changes nothing.")

@@ -235,7 +235,7 @@ void wr_dialog_cases(WrApp *app)
     wr_gui_disable(!scene);
     open |=
         wr_gui_button("Open", true) || (scene && !app->dialog->fresh && wr_gui_return_pressed());
-    wr_gui_enable();
+    wr_gui_disable_end();
     wr_gui_tip(scene ? "As a new document" : "Nothing of it is to be seen on a patch");
     wr_gui_same_line(8);
     bool close = wr_gui_button("Close", false) || (!app->dialog->fresh && wr_gui_escape_pressed());

@@ -72,7 +72,7 @@ void wr_panel_illusion(WrApp *app)
         const bool shown = a->look == WR_PATCH_LACKS;
         wr_gui_next_id("map");
         if (wr_gui_button(shown ? "Picture" : "Map on the patch", false))
-            wr_accuracy_show(app, shown ? WR_PATCH_PLAIN : WR_PATCH_LACKS);
+            wr_accuracy_set_view(app, shown ? WR_PATCH_PLAIN : WR_PATCH_LACKS);
         wr_gui_tip("Lay the differences from bump over the patch: its outline red, shading green, "
                    "shadow blue");
     }

@@ -100,7 +100,7 @@ void wr_panel_inspector(WrApp *app)
     wr_gui_next_id("copy");
     if (wr_gui_chip(WR_ICON_COPY, in->copied ? "copied" : "copy"))
         wr_action_run(app, WR_ACT(inspector_copy));
-    wr_gui_enable();
+    wr_gui_disable_end();
     wr_gui_tip("All of it with all digits, as text");
     if (!in->have || !in->known) {
         wr_gui_space(4);

@@ -329,7 +329,7 @@ const WrAction wr_actions[] = {
     ROW(preset_save, "Save brush as a preset...", wr_act_preset_save, NULL, NULL),
     ROW(lock_size, "Keep the size when brushes change", wr_act_lock_size, NULL, wr_is_lock_size),
     ROW(symmetry, "Symmetry...", wr_act_symmetry, NULL, wr_is_symmetry),
-    ROW(symmetry_on, "Symmetry is on", wr_act_symmetry_on, NULL, wr_is_symmetry_on),
+    ROW(symmetry_on, "Symmetry is on", wr_act_symmetry_toggle, NULL, wr_is_symmetry_on),
     ROW(keys_paint, "Keys for painters: Ctrl picks, Shift sizes", wr_act_keys_paint, NULL,
         wr_is_keys_paint),
     ROW(keys_sculpt, "Keys for sculptors: Ctrl inverts, Shift smooths", wr_act_keys_sculpt, NULL,

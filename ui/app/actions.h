@@ -44,7 +44,7 @@ void wr_act_brush_curves(WrApp *app);
 void wr_act_preset_save(WrApp *app);
 void wr_act_brushes(WrApp *app);
 void wr_act_symmetry(WrApp *app);
-void wr_act_symmetry_on(WrApp *app);
+void wr_act_symmetry_toggle(WrApp *app);
 void wr_act_keys_paint(WrApp *app);
 void wr_act_keys_sculpt(WrApp *app);
 void wr_act_stamp_open(WrApp *app);

@@ -93,7 +93,7 @@ bool wr_is_compare_hold(const WrApp *app)
 #define LOOK(name, value)                                                                          \
     void wr_act_look_##name(WrApp *app)                                                            \
     {                                                                                              \
-        wr_accuracy_show(app, value);                                                              \
+        wr_accuracy_set_view(app, value);                                                          \
     }                                                                                              \
     bool wr_is_look_##name(const WrApp *app)                                                       \
     {                                                                                              \

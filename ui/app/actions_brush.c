@@ -237,7 +237,7 @@ bool wr_is_symmetry(const WrApp *app)
     return app->settings->symmetry_panel;
 }
 
-void wr_act_symmetry_on(WrApp *app)
+void wr_act_symmetry_toggle(WrApp *app)
 {
     app->settings->symmetric = !app->settings->symmetric;
     wr_symmetry_apply(app);

@@ -332,7 +332,7 @@ static void draw(WrApp *app, double now)
     wr_gui_frame_begin(app->gui, width, height, now - app->drawn_at);
     wr_app_draw_parts(app, true);
     wr_thumbs_update(app);
-    wr_input_take(app); /* these came while the previous frame was on the screen */
+    wr_input_collect(app); /* these came while the previous frame was on the screen */
     wr_gui_frame_end(app->gui);
     wr_input_shown(app);
     wr_input_router_look(app);
@@ -370,7 +370,7 @@ static int wait_time(WrApp *app, double now)
         double due = (*p)->next_time ? (*p)->next_time(app) : 0.0;
         if (due > 0.0 && due < next) next = due;
     }
-    double settings = wr_settings_next_time(app);
+    double settings = wr_settings_next_autosave(app);
     if (settings > 0.0 && settings < next) next = settings;
     if ((app->busy || works(app)) && app->drawn_at + BAR_SECONDS < next)
         next = app->drawn_at + BAR_SECONDS;
@@ -413,7 +413,7 @@ static bool handle_input(WrApp *app)
         handle(app, &event);
         wr_input_handled(app, &event);
         any = true;
-        wr_input_take(app);
+        wr_input_collect(app);
     }
     return any;
 }
@@ -424,7 +424,7 @@ static void take_events(WrApp *app)
     int wait = wait_time(app, wr_clock_seconds());
     if (wait < 0) SDL_WaitEvent(NULL);
     else if (wait > 0) SDL_WaitEventTimeout(NULL, wait);
-    wr_input_take(app);
+    wr_input_collect(app);
     bool came = handle_input(app);
     /* Pen events follow the waiting events. */
     if (!wr_input_waits(app) && take_pens(app)) came = true;

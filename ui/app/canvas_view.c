@@ -157,7 +157,7 @@ static void range_popup(WrApp *app)
     if (wr_gui_number("low", field, &low, &l) && l < look->high) look->low = l;
     wr_gui_label("White");
     if (wr_gui_number("high", field, &high, &h) && h > look->low) look->high = h;
-    wr_gui_enable();
+    wr_gui_disable_end();
     wr_gui_popup_end();
 }
 

@@ -51,7 +51,7 @@ bool wr_input_waits(const WrApp *app)
     return __atomic_load_n(&app->hand->input->waiting, __ATOMIC_ACQUIRE) > 0;
 }
 
-void wr_input_take(WrApp *app)
+void wr_input_collect(WrApp *app)
 {
     WrInput *input = app->hand->input;
     WrInputItem item = { .widget = 0 };

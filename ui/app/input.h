@@ -15,7 +15,7 @@ void wr_input_free(WrInput *input); /* NULL is allowed */
 
 /* Move all events of SDL's queue to the end of this one. Also called before a frame is shown, since events up to then
    belong to the previous frame. */
-void wr_input_take(WrApp *app);
+void wr_input_collect(WrApp *app);
 /* The next event to handle. False: there is none, or it must wait for a frame. Sets mods, x and y of app->hand to the
    state at that event, since SDL's own state is newer. */
 bool wr_input_next(WrApp *app, SDL_Event *event);

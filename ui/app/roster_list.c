@@ -93,9 +93,9 @@ static WrFileTake *const takes[] = {
     [WR_ROW(WR_FILE_FILM)] = wr_file_take_film,
     [WR_ROW(WR_FILE_IMPORT)] = wr_file_take_import,
     [WR_ROW(WR_FILE_HISTORY)] = wr_file_take_history,
-    [WR_ROW(WR_FILE_STAMP)] = wr_stamp_take,
+    [WR_ROW(WR_FILE_STAMP)] = wr_stamp_file_chosen,
     [WR_ROW(WR_FILE_GENERATE)] = wr_generate_file,
-    [WR_ROW(WR_FILE_TABLE)] = wr_object_table_take,
+    [WR_ROW(WR_FILE_TABLE)] = wr_object_table_file_chosen,
     [WR_ROW(WR_FILE_COLOUR)] = wr_map_take_colour,
     [WR_ROW(WR_FILE_NORMALS)] = wr_map_take_normals,
     [WR_ROW(WR_FILE_ROUGHNESS)] = wr_map_take_roughness,
@@ -103,9 +103,9 @@ static WrFileTake *const takes[] = {
     [WR_ROW(WR_FILE_SURROUND)] = wr_light_take_surround,
     [WR_ROW(WR_FILE_MESH)] = wr_surface_take_mesh,
     [WR_ROW(WR_FILE_PATCHES)] = wr_surface_take_patches,
-    [WR_ROW(WR_FILE_TERRAIN)] = wr_surface_take_terrain,
+    [WR_ROW(WR_FILE_TERRAIN)] = wr_surface_terrain_file_chosen,
     [WR_ROW(WR_FILE_GLTF)] = wr_file_take_gltf,
-    [WR_ROW(WR_FILE_PRESET)] = wr_preset_browser_take,
+    [WR_ROW(WR_FILE_PRESET)] = wr_preset_browser_overwrite,
 };
 WR_ROWS_END(takes, WR_FILE_PURPOSES);
 

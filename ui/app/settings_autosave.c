@@ -38,7 +38,7 @@ void wr_settings_begin(WrApp *app)
     *app->settings_known = wr_settings_copy(app->settings);
 }
 
-double wr_settings_next_time(const WrApp *app)
+double wr_settings_next_autosave(const WrApp *app)
 {
     /* A changed setting causes a frame, so without a newer frame nothing has changed. */
     bool due = app->settings_failed || app->drawn_at > app->settings_at;
@@ -48,7 +48,7 @@ double wr_settings_next_time(const WrApp *app)
 
 void wr_settings_autosave(WrApp *app)
 {
-    double due = wr_settings_next_time(app), now = wr_clock_seconds();
+    double due = wr_settings_next_autosave(app), now = wr_clock_seconds();
     if (due == 0.0 || now < due) return;
     app->settings_failed = !write_changes(app, false);
     app->settings_at = wr_clock_seconds();

@@ -226,7 +226,7 @@ static bool is_default(const WrParam *p, const WrGenerateValue *value)
     return true;
 }
 
-bool wr_generate_is_default(const WrGenerateState *hand, int param)
+bool wr_generate_param_is_default(const WrGenerateState *hand, int param)
 {
     return is_default(&hand->generator->params[param], &hand->value[param]);
 }
@@ -438,7 +438,7 @@ static bool is_awaited(WrApp *app)
 {
     double seconds;
     return app->trying && wr_edit_preview_busy(app->trial, NULL, &seconds) &&
-           !wr_edit_preview_rough(app->trial) && seconds < PATIENCE_SECONDS;
+           !wr_edit_preview_is_rough(app->trial) && seconds < PATIENCE_SECONDS;
 }
 
 static void look(WrApp *app)

@@ -110,7 +110,7 @@ int wr_generate_find(const WrGenerateState *hand, const char *const *names, WrPa
 int wr_generate_written(const WrGenerator *generator);
 /* The line of its defaults, with `written` as its text, if any. */
 void wr_generate_default_line(const WrGenerator *generator, const char *written, WrText *line);
-bool wr_generate_is_default(const WrGenerateState *hand, int param);
+bool wr_generate_param_is_default(const WrGenerateState *hand, int param);
 /* Find the parameter that err is about: sets blamed and blame. */
 void wr_generate_blame(WrGenerateState *hand);
 /* Set a text value, truncated if too long. */

@@ -261,7 +261,7 @@ static int count_changed(const WrGenerateState *hand, int first, const Group *gr
     for (int i = first; hand->generator->params[i].name; i++) {
         const Group *other = group_at(hand->generator, i);
         if (other && strcmp(other->title, group->title) != 0) break;
-        count += !wr_generate_is_default(hand, i);
+        count += !wr_generate_param_is_default(hand, i);
     }
     return count;
 }
@@ -440,7 +440,7 @@ static void presets(WrApp *app)
     wr_gui_disable(!own);
     if (wr_gui_glyph("delete", WR_ICON_DELETE, 24, own ? WR_COLOUR_LABEL : WR_COLOUR_OFF))
         wr_generate_preset_delete(app, hand->preset);
-    wr_gui_enable();
+    wr_gui_disable_end();
     wr_gui_tip(own ? "Delete this preset" : "Only presets of your own can be deleted");
     save_popup(app);
 }
@@ -541,7 +541,7 @@ static void foot(WrApp *app)
     wr_busy_hold(app);
     wr_gui_disable(hand->err.text[0] != '\0');
     if (wr_gui_button(hand->active ? "Apply" : "Apply again", true)) wr_generate_commit(app);
-    wr_gui_enable();
+    wr_gui_disable_end();
     wr_busy_hold_end();
     wr_gui_tip("Enter");
     wr_gui_same_line(8);

@@ -326,7 +326,7 @@ bool wr_pen_next_before(WrPen *pen, const SDL_Event *before, WrPenEvent *event)
 
 bool wr_pen_newest(const WrPen *pen, WrPenEvent *event)
 {
-    return wr_pen_recent(pen, wr_pen_total(pen) - 1, event);
+    return wr_pen_event_at(pen, wr_pen_total(pen) - 1, event);
 }
 
 int64_t wr_pen_total(const WrPen *pen)
@@ -339,7 +339,7 @@ int wr_pen_waiting(const WrPen *pen)
     return pen->queue.count - pen->taken;
 }
 
-bool wr_pen_recent(const WrPen *pen, int64_t number, WrPenEvent *event)
+bool wr_pen_event_at(const WrPen *pen, int64_t number, WrPenEvent *event)
 {
     if (number < pen->first || number >= wr_pen_total(pen)) return false;
     *event = pen->queue.data[number - pen->first];

@@ -80,7 +80,7 @@ bool wr_pen_newest(const WrPen *pen, WrPenEvent *event);
 int64_t wr_pen_total(const WrPen *pen);
 int wr_pen_waiting(const WrPen *pen);
 /* Event number 0..total - 1, read or not; false if it was dropped. The last 4096 are always kept. */
-bool wr_pen_recent(const WrPen *pen, int64_t number, WrPenEvent *event);
+bool wr_pen_event_at(const WrPen *pen, int64_t number, WrPenEvent *event);
 
 /* Record all events to a text file, one per line, as they arrive; "" ends it. And replay such a file in place of
  * devices: `speed` times as fast as recorded, 0: each one as soon as the previous was read. Devices of the file are

@@ -45,7 +45,7 @@ bool wr_pen_record(WrPen *pen, const char *path, WrError *err)
             return wr_fail(err, "the recording of the pen is not whole: it could not be written");
     }
     if (path[0] == '\0') return true;
-    int fd = wr_file_create(path, err);
+    int fd = wr_file_open_truncate(path, err);
     if (fd < 0) return false;
     FILE *file = wr_fd_stream(fd, "w");
     if (!file) {

@@ -417,7 +417,7 @@ bool wr_edit_preview_busy(WrEditPreview *trial, double *fraction, double *second
     return wr_job_busy(trial->job, fraction, seconds);
 }
 
-bool wr_edit_preview_rough(WrEditPreview *trial)
+bool wr_edit_preview_is_rough(WrEditPreview *trial)
 {
     take(trial);
     return trial->field && trial->rough;

@@ -57,7 +57,7 @@ const WrField *wr_edit_preview_field(WrEditPreview *trial);
 /* True while a computation runs; its progress (0..1) and elapsed seconds; either may be NULL. */
 bool wr_edit_preview_busy(WrEditPreview *trial, double *fraction, double *seconds);
 /* True if the newest result is a rough one of a generator and the exact one is being computed. */
-bool wr_edit_preview_rough(WrEditPreview *trial);
+bool wr_edit_preview_is_rough(WrEditPreview *trial);
 /* Notes of the newest result, one per line; "" if none. Valid until the next call except wr_edit_preview_busy. */
 const char *wr_edit_preview_notes(WrEditPreview *trial);
 /* Computation time of the newest exact result in seconds; 0: there is none. */

@@ -200,7 +200,7 @@ static void head(WrApp *app, const Groups *groups, bool both)
     wr_gui_same_line(6);
     wr_gui_disable(shelf->search[0] != '\0');
     wr_gui_choice("group", half, groups->labels, groups->count, &shelf->group);
-    wr_gui_enable();
+    wr_gui_disable_end();
 }
 
 static SDL_Rect cut_top(SDL_Rect *room, int height)
@@ -235,7 +235,7 @@ static void foot(WrApp *app)
     wr_gui_disable(!own);
     if (wr_gui_glyph("delete", WR_ICON_DELETE, 24, own ? WR_COLOUR_LABEL : WR_COLOUR_OFF))
         wr_preset_browser_delete(app, id);
-    wr_gui_enable();
+    wr_gui_disable_end();
     wr_gui_tip(own ? "Delete this preset" : "Only presets of your own can be deleted");
 }
 

@@ -76,6 +76,6 @@ void wr_panel_cell(WrApp *app)
     wr_gui_heading("REAL SIZE OF THE CELL");
     const WrEdit edit = rows(&cell);
     report_texel(&cell, wr_app_document(app)->layers[0].heights);
-    if (edit == WR_EDIT_LIVE) wr_app_live(app)->cell = cell;
+    if (edit == WR_EDIT_LIVE) wr_app_live_begin(app)->cell = cell;
     if (edit == WR_EDIT_DONE) run_cell(app, &cell);
 }

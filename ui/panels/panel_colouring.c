@@ -190,7 +190,7 @@ void wr_panel_colouring(WrApp *app)
     } else if (on) {
         const WrEdit edit = ramp_rows(app, &own);
         if (edit == WR_EDIT_LIVE)
-            wr_app_live(app)->colouring = own; /* the fields keep the value between
+            wr_app_live_begin(app)->colouring = own; /* the fields keep the value between
                                                                         frames */
         if (edit == WR_EDIT_DONE) run_ramp(app, &own);
     }

@@ -104,7 +104,7 @@ void wr_panel_history(WrApp *app)
     wr_gui_move_to(wr_gui_width() - wide);
     wr_gui_disable(!wr_action_can(app, wr_action_find(app, WR_ACT(save_history))));
     if (wr_gui_chip(NULL, "Save as script...")) wr_action_run(app, WR_ACT(save_history));
-    wr_gui_enable();
+    wr_gui_disable_end();
     static const char *const ways[] = { "In words", "As commands" };
     int way = app->settings->history_lines;
     if (wr_gui_segments("ways", ways, NULL, 2, &way)) app->settings->history_lines = way == 1;

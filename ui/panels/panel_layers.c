@@ -385,7 +385,7 @@ static void foot(WrApp *app)
         if (wr_gui_glyph(buttons[i].action, buttons[i].icon, 24,
                          enabled ? WR_COLOUR_TEXT : WR_COLOUR_OFF))
             wr_action_run(app, buttons[i].action);
-        wr_gui_enable();
+        wr_gui_disable_end();
         snprintf(tip, sizeof tip, "%s   %s", action->label,
                  wr_keys_label(app->keys, buttons[i].action, keys));
         wr_gui_tip(tip);

@@ -50,7 +50,7 @@ static bool one_light(WrApp *app, int i)
     wr_gui_tip("Objects throw shadows in this light, on one another and on themselves");
     light.colour = (WrVec3){ rgb[0], rgb[1], rgb[2] };
     if (a != WR_EDIT_NONE || b != WR_EDIT_NONE || c != WR_EDIT_NONE)
-        wr_app_live(app)->lights[i] = light;
+        wr_app_live_begin(app)->lights[i] = light;
     if (chosen && kind != (int)light.kind) {
         light.kind = (WrLightKind)kind;
         WrVec3 unit = v3_unit(light.where, (WrVec3){ 0, 0, 1 });

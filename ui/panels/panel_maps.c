@@ -161,7 +161,7 @@ static void repeat_row(WrApp *app, const Map *map, const WrTextureSample *laid)
     wr_gui_same_line(8);
     const WrEdit edit_v = wr_gui_number("rv", half, &spec, &rv);
     if (edit_u == WR_EDIT_NONE && edit_v == WR_EDIT_NONE) return;
-    WrTextureSample *own = map->laid(wr_app_live(app));
+    WrTextureSample *own = map->laid(wr_app_live_begin(app));
     own->ru = ru, own->rv = rv;
     if (edit_u != WR_EDIT_DONE && edit_v != WR_EDIT_DONE) return;
     WrText value = { 0 };
@@ -215,7 +215,7 @@ static void normal_rows(WrApp *app)
     double value = map.strength;
     wr_gui_label("Strength");
     const WrEdit edit = wr_gui_number("strength", 0, &strength, &value);
-    if (edit != WR_EDIT_NONE) wr_app_live(app)->normals.strength = value;
+    if (edit != WR_EDIT_NONE) wr_app_live_begin(app)->normals.strength = value;
     if (edit != WR_EDIT_DONE) return;
     WrText line = { 0 };
     wr_text_add(&line, normals.verb);

@@ -110,7 +110,7 @@ static void buttons(WrApp *app)
     if (wr_gui_icon_button("remove", WR_ICON_DELETE, 26, false))
         wr_app_run_linef(app, "object remove");
     wr_gui_tip("Remove the chosen object");
-    wr_gui_enable();
+    wr_gui_disable_end();
     wr_gui_same_line(12);
     wr_gui_next_id("ground");
     if (wr_gui_chip(NULL, ground ? "Ground off" : "Ground")) wr_action_run(app, WR_ACT(ground));
@@ -168,7 +168,7 @@ static void place(WrApp *app)
     if (scene->posed)
         turn[0] = scene->rotate_deg.x, turn[1] = scene->rotate_deg.y, turn[2] = scene->rotate_deg.z;
     WrEdit edit = wr_param_vector("Place", ids, &away, at);
-    if (edit != WR_EDIT_NONE) wr_app_live(app)->at = (WrVec3){ at[0], at[1], at[2] };
+    if (edit != WR_EDIT_NONE) wr_app_live_begin(app)->at = (WrVec3){ at[0], at[1], at[2] };
     if (edit == WR_EDIT_DONE) {
         WrText line = { 0 };
         wr_text_add(&line, "object set");
@@ -178,7 +178,7 @@ static void place(WrApp *app)
     }
     edit = wr_param_vector("Turn", turns, &deg, turn);
     if (edit != WR_EDIT_NONE) {
-        WrScene *live = wr_app_live(app);
+        WrScene *live = wr_app_live_begin(app);
         live->posed = true;
         live->rotate_deg = (WrVec3){ turn[0], turn[1], turn[2] };
     }
@@ -212,7 +212,7 @@ static void sizes(WrApp *app, bool always)
     const WrEdit edit = wr_param_vector("Along x, y, z", ids, &times, s);
     const double most = fmax(fabs(s[0]), fmax(fabs(s[1]), fabs(s[2])));
     if (edit != WR_EDIT_NONE && most >= 1e-3) {
-        WrScene *live = wr_app_live(app);
+        WrScene *live = wr_app_live_begin(app);
         live->size = most;
         live->sizes = (WrVec3){ s[0], s[1], s[2] };
     }
@@ -250,7 +250,7 @@ static void table(WrApp *app)
         "picture, which becomes a layer that only this object shows");
 }
 
-void wr_object_table_take(WrApp *app, const char *path)
+void wr_object_table_file_chosen(WrApp *app, const char *path)
 {
     WrText line = { 0 };
     wr_text_add(&line, "object set");

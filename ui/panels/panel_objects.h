@@ -10,4 +10,4 @@ typedef struct WrObjectsState {
 
 typedef struct WrApp WrApp;
 /* Handle the chosen file for the active object's table. */
-void wr_object_table_take(WrApp *app, const char *path);
+void wr_object_table_file_chosen(WrApp *app, const char *path);

@@ -164,7 +164,7 @@ static void wait_for_key(WrApp *app)
     p->waits[0] = '\0';
     p->key = (WrKey){ SDLK_UNKNOWN, 0 };
     if ((key.code == SDLK_BACKSPACE || key.code == SDLK_DELETE) && key.mods == 0) {
-        wr_keys_take(app->keys, action);
+        wr_keys_remove(app->keys, action);
         settle(app, action, NULL, NULL);
     } else {
         give(app, action, key);

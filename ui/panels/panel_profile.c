@@ -94,9 +94,9 @@ static void show(WrApp *app, WrProfileState *hand)
     WrSurfaceData *data = wr_surface_data_make(WR_SURFACE_revolution, texts, NULL);
     hand->wrong = !data;
     if (data) {
-        WrScene *live = wr_app_live(app);
+        WrScene *live = wr_app_live_begin(app);
         WrShape shape = live->shape;
-        wr_shape_take_data(&shape, data);
+        wr_shape_borrow_data(&shape, data);
         wr_scene_set_shape(live, &shape);
         wr_surface_data_free(data);
     }

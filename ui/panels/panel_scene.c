@@ -138,7 +138,7 @@ void wr_surface_take_patches(WrApp *app, const char *path)
     take_file(app, WR_SURFACE_patches, path);
 }
 
-void wr_surface_take_terrain(WrApp *app, const char *path)
+void wr_surface_terrain_file_chosen(WrApp *app, const char *path)
 {
     take_file(app, WR_SURFACE_terrain, path);
 }
@@ -272,7 +272,7 @@ static void surface_params(WrApp *app)
             }
             WrEdit edit = wr_gui_number(label, 0, &spec, &shape.value[offset + i]);
             if (edit == WR_EDIT_LIVE && wr_shape_check(&shape, NULL))
-                wr_app_live(app)->shape = shape;
+                wr_app_live_begin(app)->shape = shape;
             if (edit == WR_EDIT_DONE)
                 wr_surface_run(app, &shape,
                                shape.data ? (const char *const *)shape.data->text : NULL);
@@ -311,7 +311,7 @@ static void surface(WrApp *app)
     if (edit_u == WR_EDIT_LIVE) ru = rint(ru);
     if (edit_v == WR_EDIT_LIVE) rv = rint(rv);
     if (edit_u != WR_EDIT_NONE || edit_v != WR_EDIT_NONE)
-        wr_scene_param_set(param, wr_app_live(app), (const double[]){ ru, rv });
+        wr_scene_param_set(param, wr_app_live_begin(app), (const double[]){ ru, rv });
     if (edit_u != WR_EDIT_DONE && edit_v != WR_EDIT_DONE) return;
     WrText line = { 0 };
     wr_text_add(&line, "replicate ");

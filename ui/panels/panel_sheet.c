@@ -631,7 +631,7 @@ static void buttons(WrApp *app, WrSheetState *sheet)
     } else {
         wr_gui_disable(!good);
         if (wr_gui_button("Write all", true)) sheet_write(app, true);
-        wr_gui_enable();
+        wr_gui_disable_end();
     }
     wr_gui_same_line(8);
     if (wr_gui_button("Close", false) || (!app->dialog->fresh && wr_gui_escape_pressed()))

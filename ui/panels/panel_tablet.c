@@ -71,7 +71,7 @@ static void tester_follow(WrApp *app)
     int64_t total = wr_pen_total(app->pen);
     WrPenEvent event;
     for (; t->seen < total; t->seen++) {
-        if (!wr_pen_recent(app->pen, t->seen, &event)) continue;
+        if (!wr_pen_event_at(app->pen, t->seen, &event)) continue;
         if (event.device != t->chosen && event.kind == WR_PEN_DOWN) t->chosen_own = false;
         if (!t->chosen_own) t->chosen = event.device;
         add_point(t, &event);
@@ -123,7 +123,8 @@ static bool newest_of(const WrApp *app, WrPenEvent *event)
 {
     int64_t total = wr_pen_total(app->pen);
     for (int64_t i = total - 1; i >= 0 && i > total - 256; i--)
-        if (wr_pen_recent(app->pen, i, event) && event->device == app->tester->chosen) return true;
+        if (wr_pen_event_at(app->pen, i, event) && event->device == app->tester->chosen)
+            return true;
     *event = (WrPenEvent){ .kind = WR_PEN_MOTION };
     return false;
 }

@@ -25,7 +25,7 @@ void wr_light_take_surround(WrApp *app, const char *path); /* handler of a chose
 /* Handlers of a chosen file: the active object becomes that mesh, patch set or terrain. */
 void wr_surface_take_mesh(WrApp *app, const char *path);
 void wr_surface_take_patches(WrApp *app, const char *path);
-void wr_surface_take_terrain(WrApp *app, const char *path);
+void wr_surface_terrain_file_chosen(WrApp *app, const char *path);
 void wr_map_take_normals(WrApp *app, const char *path);
 void wr_map_take_roughness(WrApp *app, const char *path);
 void wr_map_take_metalness(WrApp *app, const char *path);

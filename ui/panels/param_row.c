@@ -41,7 +41,7 @@ void wr_param_row(WrApp *app, const WrSceneParam *param)
     wr_gui_label(param->label);
     const WrEdit edit = param->components == 1 ? wr_gui_number(param->name, 0, &spec, values)
                                                : wr_gui_colour(param->name, 0, values);
-    if (edit != WR_EDIT_NONE) wr_scene_param_set(param, wr_app_live(app), values);
+    if (edit != WR_EDIT_NONE) wr_scene_param_set(param, wr_app_live_begin(app), values);
     if (edit == WR_EDIT_DONE) run(app, param, values);
 }
 
@@ -65,6 +65,6 @@ void wr_param_vector_row(WrApp *app, const WrSceneParam *param, const char *labe
     double values[3];
     wr_scene_param_get(param, wr_app_scene(app), values);
     const WrEdit edit = wr_param_vector(label, id, spec, values);
-    if (edit != WR_EDIT_NONE) wr_scene_param_set(param, wr_app_live(app), values);
+    if (edit != WR_EDIT_NONE) wr_scene_param_set(param, wr_app_live_begin(app), values);
     if (edit == WR_EDIT_DONE) run(app, param, values);
 }

@@ -81,7 +81,7 @@ void wr_patch_wheel_angle(WrApp *app, double steps);
 /* Run a pending wheel zoom as a command; now false: discard it. */
 void wr_patch_commit_zoom(WrApp *app, bool now);
 /* Run the camera, or the object's rotation, of the live scene as a command. */
-void wr_patch_commit_camera(WrApp *app);
+void wr_viewport_commit_camera(WrApp *app);
 void wr_patch_commit_turn(WrApp *app);
 /* Handle an event while a command runs, true if it moved the view; and at the end of the
    command. */

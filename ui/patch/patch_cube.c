@@ -108,7 +108,7 @@ void wr_patch_cube_click(WrApp *app, const WrPointer *at)
     p->from = cube.stands;
     p->to = wr_cube_facing(side);
     p->began = wr_clock_seconds();
-    wr_app_live(app);
+    wr_app_live_begin(app);
     wr_app_redraw(app);
 }
 
@@ -118,7 +118,7 @@ static void place_camera(WrApp *app, const WrRotation *stands)
     const WrRotation turn = turntable(app), back = wr_rotation_inverse(stands),
                      world = wr_rotation_times(&turn, &back);
     WrPlacement at;
-    WrCamera *camera = &wr_app_live(app)->camera;
+    WrCamera *camera = &wr_app_live_begin(app)->camera;
     if (!wr_patch_place(app, &at)) return;
     const double away = v3_len(v3_sub(at.eye, camera->target));
     camera->eye = v3_mad(camera->target, wr_rotation_apply(&world, (WrVec3){ 0, 0, 1 }), away);
@@ -130,7 +130,7 @@ static void place_object(WrApp *app, const WrRotation *stands)
 {
     WrPlacement at;
     if (!wr_patch_place(app, &at)) return;
-    WrScene *scene = wr_app_live(app);
+    WrScene *scene = wr_app_live_begin(app);
     const WrRotation camera = of_camera(&at), turn = turntable(app), pose = pose_of(scene);
     const WrRotation seen = wr_rotation_times(&camera, &turn), back = wr_rotation_inverse(&seen);
     const WrRotation own = wr_rotation_times(&back, stands), whole = wr_rotation_times(&own, &pose);
@@ -156,7 +156,7 @@ void wr_patch_cube_update(WrApp *app, bool now)
         return;
     }
     p->began = 0.0;
-    if (camera) wr_patch_commit_camera(app);
+    if (camera) wr_viewport_commit_camera(app);
     else wr_patch_commit_turn(app);
 }
 

@@ -99,7 +99,7 @@ void wr_patch_commit_late(WrApp *app)
     const WrPatchLate late = p->meanwhile;
     p->meanwhile = WR_PATCH_NOTHING;
     if (!app->live) return;
-    if (late == WR_PATCH_CAMERA) wr_patch_commit_camera(app);
+    if (late == WR_PATCH_CAMERA) wr_viewport_commit_camera(app);
     if (late == WR_PATCH_TURNED) wr_patch_commit_turn(app);
 }
 
@@ -170,7 +170,7 @@ static void move_light(WrApp *app, double x, double y)
     WrVec3 d = wr_light_from_pad((x - cx) / rx, (cy - y) / ry);
     WrVec3 world =
         v3_add(v3_add(v3_scale(at.right, d.x), v3_scale(at.up, d.y)), v3_scale(at.forward, -d.z));
-    WrLight *light = &wr_app_live(app)->lights[app->patch->light];
+    WrLight *light = &wr_app_live_begin(app)->lights[app->patch->light];
     double length = wr_light_kinds[light->kind].placed ? v3_len(light->where) : 1.0;
     world = v3_scale(world, length > 0.0 ? length : 1.0);
     light->where = wr_line_round_vec(world, 3);
@@ -195,7 +195,7 @@ static void turn_surroundings(WrApp *app, const WrPointer *at)
     const double dx = at->x - app->hand->start.x;
     if (!app->live && fabs(dx) < CLICK) return;
     const double deg = app->patch->from_turn + 180 * dx / app->layout->patch.w;
-    wr_app_live(app)->environment.turn_deg = wr_line_round(deg - 360 * rint(deg / 360), 1);
+    wr_app_live_begin(app)->environment.turn_deg = wr_line_round(deg - 360 * rint(deg / 360), 1);
 }
 
 static void commit_surroundings(WrApp *app)
@@ -240,7 +240,7 @@ static void orbit_camera(WrApp *app, double dx, double dy, double span)
     const double round = atan2(back.x, back.z) - turn * dx;
     const double up = fmin(most, fmax(-most, asin(back.y / away) + turn * dy));
     const WrVec3 to = { cos(up) * sin(round), sin(up), cos(up) * cos(round) };
-    WrCamera *camera = &wr_app_live(app)->camera;
+    WrCamera *camera = &wr_app_live_begin(app)->camera;
     camera->eye = v3_mad(from->target, to, away);
     camera->up = (WrVec3){ 0, 1, 0 };
 }
@@ -251,7 +251,7 @@ static void pan_camera(WrApp *app, const WrPlacement *at, double dx, double dy)
     const double away = v3_len(v3_sub(from->eye, from->target));
     const double pixel = 2 * at->half_height * (at->orthographic ? 1 : away) / app->layout->patch.h;
     const WrVec3 by = v3_mad(v3_scale(at->right, -dx * pixel), at->up, dy * pixel);
-    WrCamera *camera = &wr_app_live(app)->camera;
+    WrCamera *camera = &wr_app_live_begin(app)->camera;
     if (camera->fit) camera->frame = 0;
     camera->fit = false; /* "fit" would recompute the target's distance */
     camera->eye = v3_add(from->eye, by);
@@ -284,13 +284,13 @@ static void orbit(WrApp *app, const WrPointer *p)
     WrRotation now =
         wr_rotation_dragged(&app->patch->from, app->patch->turn_deg, at.right, at.up, dx, dy, span);
     WrVec3 deg = wr_rotation_to_deg(&now);
-    WrScene *scene = wr_app_live(app);
+    WrScene *scene = wr_app_live_begin(app);
     scene->posed = true;
     scene->rotate_deg = wr_line_round_vec(deg, 2);
 }
 
 /* Run eye, target and size of the dragged camera as a command. */
-void wr_patch_commit_camera(WrApp *app)
+void wr_viewport_commit_camera(WrApp *app)
 {
     const WrCamera *camera = &app->live->camera;
     WrText line = { 0 };
@@ -317,7 +317,7 @@ static void commit_orbit(WrApp *app)
         return;
     }
     if (app->patch->pans || app->patch->rounds) {
-        wr_patch_commit_camera(app);
+        wr_viewport_commit_camera(app);
         return;
     }
     wr_patch_commit_turn(app);
@@ -404,7 +404,7 @@ void wr_patch_wheel(WrApp *app, double steps)
     if (app->hand->grab != WR_GRAB_NONE || !wr_patch_place(app, &at)) return;
     if (app->patch->zoom_angle && !app->busy) wr_patch_commit_zoom(app, true);
     double factor = exp2(-steps / 6.0);
-    WrScene *scene = wr_app_live(app);
+    WrScene *scene = wr_app_live_begin(app);
     WrCamera *camera = &scene->camera;
     WrVec3 back = v3_sub(at.eye, camera->target);
     double far_off = 400.0 * at.ball, near_by = 1.02 * at.ball;
@@ -424,7 +424,7 @@ void wr_patch_wheel_angle(WrApp *app, double steps)
     if (app->hand->grab != WR_GRAB_NONE || wr_app_scene(app)->camera.orthographic) return;
     if (app->patch->zoom_commit_at > 0.0 && !app->patch->zoom_angle && !app->busy)
         wr_patch_commit_zoom(app, true);
-    double *deg = &wr_app_live(app)->camera.fov_deg;
+    double *deg = &wr_app_live_begin(app)->camera.fov_deg;
     /* Six steps of the wheel halve the angle. */
     *deg = fmin(fov->soft_high, fmax(fov->soft_low, *deg * exp2(-steps / 6.0)));
     app->patch->zoom_angle = true;

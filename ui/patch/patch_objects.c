@@ -155,7 +155,7 @@ void wr_patch_handle_drag(WrApp *app, const WrPointer *at)
     const double dx = at->x - app->hand->start.x, dy = at->y - app->hand->start.y;
     Ball ball;
     if (!find_ball(app, &ball)) return;
-    WrScene *scene = wr_app_live(app);
+    WrScene *scene = wr_app_live_begin(app);
     if (p->handle == WR_HANDLE_MOVE) {
         WrVec3 by = v3_mad(v3_scale(ball.at.right, dx * ball.pixel), ball.at.up, -dy * ball.pixel);
         by = turned_back(by, p->turn_deg);

@@ -137,7 +137,7 @@ WrPatchPick *wr_patch_pick_new(const WrScene *scene, double turn_deg, int width,
     if (!wr_scene_place(scene, turn_deg, aspect, &at, err)) return NULL;
     WrPatchPick *pick = wr_alloc(1, sizeof *pick);
     pick->shape = scene->shape;
-    wr_shape_take_data(&pick->shape, wr_surface_data_share(scene->shape.data));
+    wr_shape_borrow_data(&pick->shape, wr_surface_data_share(scene->shape.data));
     pick->info = wr_surfaces[scene->shape.kind];
     pick->orthographic = at.orthographic;
     pick->radius = at.radius * at.size;

@@ -80,7 +80,7 @@ int wr_dialog_buttons(WrApp *app, const char *done, bool enabled)
     wr_gui_space(8);
     wr_gui_disable(!enabled);
     if (wr_gui_button(done, true)) answer = 1;
-    wr_gui_enable();
+    wr_gui_disable_end();
     wr_gui_same_line(8);
     if (wr_gui_button("Cancel", false)) answer = -1;
     if (enabled && !app->dialog->fresh && wr_gui_return_pressed()) answer = 1;

@@ -293,7 +293,7 @@ const char *wr_keys_owner(const WrKeyMap *map, WrKey key)
     return find(map, key.code, key.mods);
 }
 
-void wr_keys_take(WrKeyMap *map, const char *action)
+void wr_keys_remove(WrKeyMap *map, const char *action)
 {
     drop_action(&map->bindings, action);
 }

@@ -73,7 +73,7 @@ bool wr_app_unsaved(const WrApp *app)
            (now != wr_session_saved_revision(app->session) && now != app->file->clean_revision);
 }
 
-WrScene *wr_app_live(WrApp *app)
+WrScene *wr_app_live_begin(WrApp *app)
 {
     WrScene *fresh = wr_scene_clone(wr_app_scene(app));
     if (app->live) wr_scene_free(app->live);

@@ -23,7 +23,7 @@ void wr_app_try_end(WrApp *app);
 const WrScene *wr_app_scene(const WrApp *app); /* `live` if a value is being dragged */
 bool wr_app_unsaved(const WrApp *app);
 /* A scene that the caller may change directly; the preview shows it until wr_app_live_end. */
-WrScene *wr_app_live(WrApp *app);
+WrScene *wr_app_live_begin(WrApp *app);
 void wr_app_live_end(WrApp *app);
 void wr_app_title(WrApp *app);
 const char *wr_app_name(const WrApp *app); /* file name without folders */

@@ -140,8 +140,8 @@ double wr_gui_place(void);       /* present x position */
 double wr_gui_width(void);       /* width of the area in pixels */
 void wr_gui_push_id(int id);
 void wr_gui_pop_id(void);
-void wr_gui_disable(bool disabled); /* disable the following widgets until wr_gui_enable */
-void wr_gui_enable(void);
+void wr_gui_disable(bool disabled); /* disable the following widgets until wr_gui_disable_end */
+void wr_gui_disable_end(void);
 /* Disable the following widgets with a reason, which becomes their tip; NULL: not disabled. */
 void wr_gui_hold(const char *why);
 void wr_gui_hold_end(void);

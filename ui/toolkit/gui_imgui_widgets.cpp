@@ -128,7 +128,7 @@ extern "C" void wr_gui_disable(bool disabled)
     ImGui::BeginDisabled(disabled);
 }
 
-extern "C" void wr_gui_enable(void)
+extern "C" void wr_gui_disable_end(void)
 {
     ImGui::EndDisabled();
 }

@@ -302,7 +302,7 @@ bool wr_preset_browser_save(WrApp *app, const char *name)
     return ok;
 }
 
-void wr_preset_browser_take(WrApp *app, const char *path)
+void wr_preset_browser_overwrite(WrApp *app, const char *path)
 {
     (void)path; /* of that name, as typed */
     wr_preset_browser_save(app, app->shelf->name);

@@ -64,7 +64,8 @@ bool wr_preset_browser_tip(WrApp *app, const char *path);
 bool wr_preset_browser_save(WrApp *app, const char *name);
 /* the same, with a question if the name exists */
 void wr_preset_browser_open_save(WrApp *app, const char *name);
-void wr_preset_browser_take(WrApp *app, const char *path); /* after a yes: save the typed name */
+void wr_preset_browser_overwrite(WrApp *app,
+                                 const char *path); /* after a yes: save the typed name */
 /* Delete a user preset. */
 bool wr_preset_browser_delete(WrApp *app, const char *id);
 /* Switch to the previously used one; to the next or previous favourite. */

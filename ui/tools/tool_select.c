@@ -235,7 +235,7 @@ static void options(WrApp *app)
         const WrAction *action = wr_action_find(app, names[i]);
         wr_gui_disable(!wr_action_can(app, action));
         if (wr_gui_chip(NULL, action->label)) wr_action_run(app, names[i]);
-        wr_gui_enable();
+        wr_gui_disable_end();
         wr_gui_same_line(6);
     }
     if (app->width < wr_gui_px(1100)) return;

@@ -435,7 +435,7 @@ const WrTool wr_tool_stamp = {
     .meanwhile = true
 };
 
-void wr_stamp_take(WrApp *app, const char *path)
+void wr_stamp_file_chosen(WrApp *app, const char *path)
 {
     stamp_choose(app, path);
 }

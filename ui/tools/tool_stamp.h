@@ -24,8 +24,8 @@ typedef struct WrStampState {
     bool stamps_known;
 } WrStampState;
 
-void wr_stamp_take(WrApp *app, const char *path); /* handler of a chosen file */
-void wr_stamp_forget(WrApp *app);                 /* free it */
+void wr_stamp_file_chosen(WrApp *app, const char *path); /* handler of a chosen file */
+void wr_stamp_forget(WrApp *app);                        /* free it */
 
 extern const WrPart wr_part_stamp;
 

@@ -476,7 +476,7 @@ static void buttons(WrApp *app, double width)
     wr_gui_same_line(6);
     if (wr_gui_chip(WR_ICON_CLOSE, "Cancel")) cancel(app);
     wr_gui_tip("Escape: nothing was changed");
-    wr_gui_enable();
+    wr_gui_disable_end();
 }
 
 static void options(WrApp *app)

@@ -97,7 +97,8 @@ static bool walk_object(const WrReferenceRequest *request, int i, Row *rows, WrP
     return good;
 }
 
-bool wr_reference_moved(const WrReferenceRequest *request, WrPool *pool, WrMoved *out, WrError *err)
+bool wr_reference_displacement_difference(const WrReferenceRequest *request, WrPool *pool,
+                                          WrMoved *out, WrError *err)
 {
     Row *rows = wr_alloc((size_t)request->height, sizeof *rows), all = { 0 };
     bool good = true;

@@ -16,5 +16,5 @@ typedef struct WrMoved {
 } WrMoved;
 
 /* Measures the scene's displaced objects; others are ignored and hide nothing. Errors: as wr_reference_render. */
-bool wr_reference_moved(const WrReferenceRequest *request, WrPool *pool, WrMoved *out,
-                        WrError *err);
+bool wr_reference_displacement_difference(const WrReferenceRequest *request, WrPool *pool,
+                                          WrMoved *out, WrError *err);

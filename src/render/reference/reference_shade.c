@@ -501,7 +501,7 @@ static void note_roughness(WrReferenceStage *stage)
 static double facet_at(const WrReferenceStage *stage, WrFacetKind kind, double u, double v)
 {
     const WrFacetMap *map = &stage->scene->facets[kind];
-    const WrTexels at = wr_texture_sample_texels(stage->scene, map->image, &map->laid,
+    const WrTexels at = wr_texture_bilinear_taps(stage->scene, map->image, &map->laid,
                                                  stage->periodic_u, stage->periodic_v, u, v);
     double sum = 0;
     for (int k = 0; k < 4; k++) sum += at.weight[k] * (double)at.texel[k][0];
@@ -679,7 +679,7 @@ static void picture_colour(const WrReferenceStage *stage, double u, double v, do
 {
     const WrScene *scene = stage->scene;
     const bool colours = scene->colour->channels >= 3;
-    const WrTexels at = wr_texture_sample_texels(scene, scene->colour, &scene->colour_laid,
+    const WrTexels at = wr_texture_bilinear_taps(scene, scene->colour, &scene->colour_laid,
                                                  stage->periodic_u, stage->periodic_v, u, v);
     rgb[0] = rgb[1] = rgb[2] = 0;
     for (int k = 0; k < 4; k++)

@@ -14,7 +14,7 @@ static WrField *coefficients_of(const WrField *field, WrError *err)
     float *values = wr_try_alloc((size_t)w * (size_t)h, sizeof *values, "heights", err);
     WrField *made = values ? wr_field_new(w, h, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, err) : NULL;
     if (made) {
-        wr_field_read_fitted(field, 0, 0, w, h, values, (size_t)w);
+        wr_field_read_bspline_coefficients(field, 0, 0, w, h, values, (size_t)w);
         wr_field_write(made, 0, 0, w, h, values, (size_t)w);
     }
     wr_free(values);

@@ -160,8 +160,9 @@ static const struct {
     const char *what;
 } kinds[WR_COPY_COUNT] = {
     [WR_ROW(WR_COPY_HEIGHTS)] = { wr_field_read, NULL, 1, 0, "heights for the picture" },
-    [WR_ROW(WR_COPY_FITTED)] = { wr_field_read_fitted, wr_field_read_fitted_double, 1,
-                                 WR_PREFILTER_REACH, "spline coefficients" },
+    [WR_ROW(WR_COPY_FITTED)] = { wr_field_read_bspline_coefficients,
+                                 wr_field_read_bspline_coefficients_double, 1, WR_PREFILTER_REACH,
+                                 "spline coefficients" },
     [WR_ROW(WR_COPY_GRADIENT)] = { fill_gradient, fine_gradient, 2, 1, "gradient table" },
 };
 WR_ROWS_END(kinds, WR_COPY_COUNT);
