@@ -429,7 +429,7 @@ static void difference_comes_back_as_subtract(void **state)
     drop(&loaded);
 }
 
-/* Each layer is a picture that is read back, which takes ten times as long with sanitizers: there are fewer there. */
+/* Each layer is a picture that is read back, ten times slower with sanitizers: there are fewer there. */
 #ifdef __SANITIZE_ADDRESS__
 enum { MANY_LAYERS = 40 };
 #else
