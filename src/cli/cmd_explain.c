@@ -138,13 +138,13 @@ static void add_json_costs(WrText *text, const WrPlan *plan)
 }
 
 /* Optional parts of the output. */
-typedef struct Told {
+typedef struct Explanation {
     const WrPlan *plan;
     const WrChoice *choice;
     const WrFrame *frame;
     const WrSaving *savings;    /* [WR_EFFECT_COUNT]; NULL: not requested */
     const WrHeatmapCounts *map; /* NULL: not requested */
-} Told;
+} Explanation;
 
 static void add_json_seconds(WrText *text, const char *name, bool there, double seconds)
 {
@@ -181,10 +181,10 @@ static void add_json_saving(WrText *text, const WrSaving *saving)
     wr_text_add(text, "]}");
 }
 
-static void add_json(WrText *text, const Told *told)
+static void add_json(WrText *text, const Explanation *explanation)
 {
-    const WrPlan *plan = told->plan;
-    const WrFrame *frame = told->frame;
+    const WrPlan *plan = explanation->plan;
+    const WrFrame *frame = explanation->frame;
     wr_text_add(text, "{\"effects\":[");
     for (int i = 0; i < WR_EFFECT_COUNT; i++) {
         const WrPlanRow *e = &plan->rows[i];
@@ -200,17 +200,17 @@ static void add_json(WrText *text, const Told *told)
         wr_text_add_json_number(text, e->ns_per_pixel);
         wr_text_add(text, ",\"seconds\":");
         wr_text_add_json_number(text, e->seconds);
-        if (told->savings) add_json_saving(text, &told->savings[i]);
+        if (explanation->savings) add_json_saving(text, &explanation->savings[i]);
         wr_text_add(text, "}");
     }
     add_json_costs(text, plan);
     wr_text_addf(text, ",\"width\":%d,\"height\":%d,\"covered\":%lld,\"samples\":%lld,\"seconds\":",
                  frame->width, frame->height, (long long)frame->covered, (long long)frame->shaded);
     wr_text_add_json_number(text, frame->times.total);
-    if (told->choice->count > 0) add_json_choice(text, told->choice);
-    if (told->map) {
+    if (explanation->choice->count > 0) add_json_choice(text, explanation->choice);
+    if (explanation->map) {
         wr_text_add(text, ",\"map\":[");
-        map_legend_json(told->map, text);
+        map_legend_json(explanation->map, text);
         wr_text_add(text, "]");
     }
     wr_text_add(text, "}\n");
@@ -244,13 +244,13 @@ static void add_saving(WrText *text, const WrSaving *saving)
     }
 }
 
-static void add_savings(WrText *text, const Told *told)
+static void add_savings(WrText *text, const Explanation *explanation)
 {
     wr_text_addf(text, "\n%-5s %-24s %-4s %9s %9s %9s %7s %9s  %s\n", "rule", "effect", "run",
                  "costs ms", "saved ms", "spread", "tiles", "pixels", "measured");
     for (int i = 0; i < WR_EFFECT_COUNT; i++) {
-        const WrPlanRow *e = &told->plan->rows[i];
-        const WrSaving *saving = &told->savings[i];
+        const WrPlanRow *e = &explanation->plan->rows[i];
+        const WrSaving *saving = &explanation->savings[i];
         wr_text_addf(text, "%-5s %-24s %-4s", e->rule, e->name, e->run ? "yes" : "no");
         if (saving->why_not)
             wr_text_addf(text, " %9s %9s %9s %7s %9s  %s", "-", "-", "-", "-", "-",
@@ -260,11 +260,11 @@ static void add_savings(WrText *text, const Told *told)
     }
 }
 
-static void add_table(WrText *text, const Told *told)
+static void add_table(WrText *text, const Explanation *explanation)
 {
-    const WrPlan *plan = told->plan;
-    const WrChoice *choice = told->choice;
-    const WrFrame *frame = told->frame;
+    const WrPlan *plan = explanation->plan;
+    const WrChoice *choice = explanation->choice;
+    const WrFrame *frame = explanation->frame;
     wr_text_addf(text, "%-5s %-24s %-4s %-5s %9s  %s\n", "rule", "effect", "run", "class",
                  "ns/pixel", "reason");
     for (int i = 0; i < WR_EFFECT_COUNT; i++) {
@@ -275,12 +275,12 @@ static void add_table(WrText *text, const Told *told)
                      e->run ? "yes" : "no", wr_proof_letter(e->proof), price, e->reason);
     }
     add_costs(text, plan);
-    if (told->savings) add_savings(text, told);
+    if (explanation->savings) add_savings(text, explanation);
     if (choice->count > 0) {
         wr_text_addf(text, "\n%s\n", choice->reason);
         wr_choice_print(choice, text);
     }
-    if (told->map) map_legend(told->map, text);
+    if (explanation->map) map_legend(explanation->map, text);
     wr_text_addf(text, "\n%dx%d pixels, %lld covered, %lld samples shaded, %.2f ms\n", frame->width,
                  frame->height, (long long)frame->covered, (long long)frame->shaded,
                  frame->times.total * 1e3);
@@ -298,10 +298,10 @@ static bool explain(const WrCli *cli, WrSession *session, WrText *text, WrError 
     if (cli->measure && !wr_session_savings(session, cli->width, cli->height, 0, savings, err))
         return false;
     if (cli->map && !map_write(cli, session, &map, err)) return false;
-    const Told told = { &plan, wr_session_choice(session), &frame, cli->measure ? savings : NULL,
-                        cli->map ? &map : NULL };
-    if (cli->json) add_json(text, &told);
-    else add_table(text, &told);
+    const Explanation explanation = { &plan, wr_session_choice(session), &frame,
+                                      cli->measure ? savings : NULL, cli->map ? &map : NULL };
+    if (cli->json) add_json(text, &explanation);
+    else add_table(text, &explanation);
     return true;
 }
 

@@ -12,7 +12,7 @@
 #define STEP_SECONDS 0.2
 
 static struct {
-    double began, told; /* clock readings */
+    double began, printed_at; /* clock readings */
     bool shown;
     WrTimeLeft left;
     WrProgress *progress; /* progress that is reported */
@@ -23,12 +23,12 @@ static void report(void *ctx, double fraction)
     (void)ctx;
     double now = wr_clock_seconds();
     const double left = wr_time_left(&line.left, fraction, now - line.began);
-    if (now - line.began < SILENT_SECONDS || now - line.told < STEP_SECONDS) return;
+    if (now - line.began < SILENT_SECONDS || now - line.printed_at < STEP_SECONDS) return;
     char time[24] = "";
     if (left < 60000.0)
         snprintf(time, sizeof time, "%d:%02d left", (int)rint(left) / 60, (int)rint(left) % 60);
     fprintf(stderr, "\r%3.0f %%  %-16s", 100.0 * fraction, time);
-    line.told = now;
+    line.printed_at = now;
     line.shown = true;
 }
 
@@ -43,7 +43,7 @@ void wr_cli_progress_begin(WrProgress *progress)
 void wr_cli_report_resume(void)
 {
     wr_cli_report_end();
-    line.began = line.told = wr_clock_seconds();
+    line.began = line.printed_at = wr_clock_seconds();
 }
 
 void wr_cli_report_end(void)

@@ -252,7 +252,7 @@ static void take_words(const WrCall *call, Words *out)
 static bool run_set(WrSession *session, const WrCall *call, const WrSet *set, WrError *err)
 {
     Words words = { 0 };
-    WrText name = { 0 }, told = { 0 };
+    WrText name = { 0 }, list = { 0 };
     if (wr_call_given(call, "name")) wr_text_add(&name, wr_call_arg(call, "name")->text);
     else wr_set_cell_name(session->state.path, &name);
     take_words(call, &words);
@@ -261,15 +261,15 @@ static bool run_set(WrSession *session, const WrCall *call, const WrSet *set, Wr
                                .name = wr_text_get(&name),
                                .words = (const char *const *)words.words,
                                .word_count = words.count };
-    bool good = wr_export_set(&order, session->state.document, session->options.pool, &told, err);
-    for (const char *at = wr_text_get(&told); good && *at;) {
+    bool good = wr_export_set(&order, session->state.document, session->options.pool, &list, err);
+    for (const char *at = wr_text_get(&list); good && *at;) {
         const size_t length = strcspn(at, "\n");
         wr_session_note(session, "%.*s", (int)length, at);
         at += length + (at[length] == '\n');
     }
     for (int i = 0; i < words.count; i++) wr_free(words.words[i]);
     wr_text_fini(&name);
-    wr_text_fini(&told);
+    wr_text_fini(&list);
     return good;
 }
 

@@ -705,20 +705,20 @@ static bool take_numbers(WrSession *session, const WrGltfLook *look, WrError *er
 }
 
 /* Counts for the note: used and unused parts of the file. */
-typedef struct Told {
+typedef struct GltfReport {
     WrText taken, left;
-} Told;
+} GltfReport;
 
-static void list(WrText *text, const char *what)
+static void list(WrText *text, const char *part)
 {
     if (text->length > 0) wr_text_add(text, ", ");
-    wr_text_add(text, what);
+    wr_text_add(text, part);
 }
 
 /* Load a picture of the file by running another command; -1: no picture, which removes the present one. An unreadable
    picture is skipped with a note. */
 static bool take_picture(WrSession *session, const char *file, int image, const char *verb,
-                         const char *rest, const char *what, Told *report, WrError *err)
+                         const char *rest, const char *part, GltfReport *report, WrError *err)
 {
     WrText line = { 0 }, name = { 0 };
     WrError why = { "" };
@@ -732,18 +732,18 @@ static bool take_picture(WrSession *session, const char *file, int image, const 
     wr_text_fini(&name);
     if (!good && wr_progress_stopped()) return wr_fail(err, "cancelled");
     if (!good && image < 0) return wr_fail(err, "%s", wr_error_message(&why));
-    if (good && image >= 0) list(&report->taken, what);
+    if (good && image >= 0) list(&report->taken, part);
     if (!good) {
         WrText both = { 0 };
-        wr_text_addf(&both, "the picture of %s (%s)", what, why.text);
+        wr_text_addf(&both, "the picture of %s (%s)", part, why.text);
         list(&report->left, wr_text_get(&both));
         wr_text_fini(&both);
     }
-    return good || take_picture(session, file, -1, verb, "", what, report, err);
+    return good || take_picture(session, file, -1, verb, "", part, report, err);
 }
 
 /* Note roughness and metalness factors that a picture replaces. */
-static void note_factors(const WrScene *scene, const WrGltfLook *look, Told *report)
+static void note_factors(const WrScene *scene, const WrGltfLook *look, GltfReport *report)
 {
     const double factor[WR_FACET_KINDS] = {
         [WR_FACET_ROUGHNESS] = look->roughness, [WR_FACET_METALNESS] = look->metalness
@@ -763,7 +763,7 @@ static void note_factors(const WrScene *scene, const WrGltfLook *look, Told *rep
 }
 
 static bool take_pictures(WrSession *session, const char *file, const WrGltfLook *look,
-                          Told *report, WrError *err)
+                          GltfReport *report, WrError *err)
 {
     WrText strength = { 0 };
     /* a factor of 0 cancels the picture */
@@ -781,7 +781,8 @@ static bool take_pictures(WrSession *session, const char *file, const WrGltfLook
     return good;
 }
 
-static void note(WrSession *session, const char *path, const WrGltfLook *look, const Told *report)
+static void note(WrSession *session, const char *path, const WrGltfLook *look,
+                 const GltfReport *report)
 {
     WrText text = { 0 };
     char shown[WR_EXCERPT_SIZE];
@@ -804,7 +805,7 @@ static void note(WrSession *session, const char *path, const WrGltfLook *look, c
 static bool take(WrSession *session, const char *name, const char *path, const WrGltfLook *look,
                  WrError *err)
 {
-    Told report = { 0 };
+    GltfReport report = { 0 };
     WrScene *before = wr_scene_clone(session->state.document->scene);
     const bool good =
         take_numbers(session, look, err) && take_pictures(session, name, look, &report, err);

@@ -474,7 +474,7 @@ static bool check_names(const WrSetOrder *order, WrError *err)
 }
 
 static bool write_map(const WrSetOrder *order, int map, const WrExportOptions *options,
-                      const WrDocument *document, WrPool *pool, WrText *told, WrError *err)
+                      const WrDocument *document, WrPool *pool, WrText *list, WrError *err)
 {
     WrText path = { 0 };
     WrExportReport report;
@@ -482,23 +482,23 @@ static bool write_map(const WrSetOrder *order, int map, const WrExportOptions *o
     bool good = wr_export(order->set->maps.data[map].kind, document, options, pool,
                           wr_text_get(&path), &report, err);
     if (good) {
-        wr_text_addf(told, "%s: ", wr_text_get(&path));
-        wr_export_report_text(&report, told);
-        wr_text_add(told, "\n");
+        wr_text_addf(list, "%s: ", wr_text_get(&path));
+        wr_export_report_text(&report, list);
+        wr_text_add(list, "\n");
     }
     wr_text_fini(&path);
     return good;
 }
 
 static bool write_maps(const WrSetOrder *order, const WrExportOptions *options,
-                       const WrDocument *document, WrPool *pool, WrText *told, WrError *err)
+                       const WrDocument *document, WrPool *pool, WrText *list, WrError *err)
 {
     const int count = order->set->maps.count;
     bool good = true;
     for (int i = 0; i < count && good; i++) {
         WrProgressPart share;
         const WrProgress *whole = wr_progress_enter(&share, (double)i / count, (i + 1.0) / count);
-        good = write_map(order, i, &options[i], document, pool, told, err);
+        good = write_map(order, i, &options[i], document, pool, list, err);
         wr_progress_set(whole);
     }
     return good && (!wr_progress_stopped() || wr_fail(err, "cancelled"));
@@ -545,7 +545,7 @@ static bool is_map(const WrSetOrder *order, const char *name)
 }
 
 static bool write_contact(const WrSetOrder *order, const WrExportOptions *options,
-                          const WrDocument *document, WrPool *pool, WrText *told, WrError *err)
+                          const WrDocument *document, WrPool *pool, WrText *list, WrError *err)
 {
     int shown[WR_SET_MAPS];
     const int count = shown_of(order->set, shown);
@@ -561,26 +561,26 @@ static bool write_contact(const WrSetOrder *order, const WrExportOptions *option
         good = add_map(contact, order, shown[i], &options[shown[i]], document, pool, err) &&
                (!wr_progress_stopped() || wr_fail(err, "cancelled"));
     good = good && wr_contact_write(contact, err);
-    if (good) wr_text_addf(told, "%s: contact sheet of %d maps\n", path, count);
+    if (good) wr_text_addf(list, "%s: contact sheet of %d maps\n", path, count);
     wr_contact_free(contact);
     wr_free(path);
     return good;
 }
 
-bool wr_export_set(const WrSetOrder *order, const WrDocument *document, WrPool *pool, WrText *told,
+bool wr_export_set(const WrSetOrder *order, const WrDocument *document, WrPool *pool, WrText *list,
                    WrError *err)
 {
     WrExportOptions options[WR_SET_MAPS];
-    const size_t before = told->length;
+    const size_t before = list->length;
     if (!check_names(order, err) || !settle(order, options, err)) return false;
     WrFileGroup *group = wr_file_group_begin();
-    bool good = write_maps(order, options, document, pool, told, err) &&
-                (!contact_of(order) || write_contact(order, options, document, pool, told, err));
+    bool good = write_maps(order, options, document, pool, list, err) &&
+                (!contact_of(order) || write_contact(order, options, document, pool, list, err));
     if (good) good = wr_file_group_commit(group, err);
     else wr_file_group_abort(group);
-    if (!good && told->length > before) { /* nothing was written */
-        told->length = before;
-        told->data[before] = '\0';
+    if (!good && list->length > before) { /* nothing was written */
+        list->length = before;
+        list->data[before] = '\0';
     }
     return good;
 }

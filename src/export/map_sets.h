@@ -83,10 +83,10 @@ void wr_set_file(const WrSetOrder *order, int map, WrText *path);
 /* Writes all files of a set, or replaces none (base/file.h, wr_file_group_begin): each is written and verified,
    then all are renamed.
 
-   told    list of the written files, one per line
+   list    list of the written files, one per line
    Errors  those of wr_export; a word that no map of the set accepts; a read-only folder; a cell's name with
            a slash or a control character */
-bool wr_export_set(const WrSetOrder *order, const WrDocument *document, WrPool *pool,
-                   WrText *report, WrError *err);
+bool wr_export_set(const WrSetOrder *order, const WrDocument *document, WrPool *pool, WrText *list,
+                   WrError *err);
 /* The cell's name from a file's name, without folder and extension; NULL or "": "wrinkle". */
 void wr_set_cell_name(const char *path, WrText *name);

@@ -349,8 +349,8 @@ static bool check(const WrExportJob *job, WrError *err)
 /* A tube is filled unless a thickness is given; a sheet must have one. */
 static double thickness_of(const WrExportJob *job)
 {
-    const double told = job->options.solid_thickness;
-    return told > 0.0 || !wr_surfaces[job->scene->shape.kind]->open ? told : SHEET;
+    const double requested = job->options.solid_thickness;
+    return requested > 0.0 || !wr_surfaces[job->scene->shape.kind]->open ? requested : SHEET;
 }
 
 /* ---- the export ---- */

@@ -38,9 +38,9 @@ typedef struct Facets {
 
 /* Variant of a model, known at compile time. */
 typedef struct Form {
-    bool kept, spread, round, told, /* told: `left` is given */
-        facing,                     /* n' faces the viewer: it is not bent */
-        dull;                       /* and no highlight is as bright as `least` */
+    bool kept, spread, round, known_left, /* known_left: `left` is given */
+        facing,                           /* n' faces the viewer: it is not bent */
+        dull;                             /* and no highlight is as bright as `least` */
 } Form;
 
 /* A sample that reflects a lamp's light. */
@@ -48,7 +48,7 @@ typedef struct Incidence {
     VEC n, l, v;
     Facets facets;
     REAL spread; /* of slopes: trace of their covariance; 0 unless form.spread */
-    REAL left;   /* form.told: fraction of diffuse light left by highlights */
+    REAL left;   /* form.known_left: fraction of diffuse light left by highlights */
 } Incidence;
 
 /* reflect_FORMULA(Incidence, Form, const MATTER *) are the formulas of shade/reflection_models.h. */
@@ -243,7 +243,7 @@ R_INLINE REAL reflect_albedo(REAL mu, const MATTER *m)
     return reflect_least(reflect_terms(m->albedo, reflect_root(mu)), K_(1));
 }
 
-/* told: the fraction of diffuse light left by highlights is at.left; else, kept, it follows from the
+/* known_left: the fraction of diffuse light left by highlights is at.left; else, kept, it follows from the
    material's albedo. A highlight that is nowhere as bright as `least` is 0. */
 R_INLINE Reflected reflect_ggx(Incidence at, Form form, const MATTER *m)
 {
@@ -266,7 +266,7 @@ R_INLINE Reflected reflect_ggx(Incidence at, Form form, const MATTER *m)
     const bool shows = there && nl > K_(0) && lit > K_(0) && lobe * most >= m->least && !form.dull;
     const REAL shown = shows ? lobe : K_(0);
     const REAL left =
-        form.told   ? at.left
+        form.known_left ? at.left
         : form.kept ? (K_(1) - reflect_albedo(lit, m)) * (K_(1) - reflect_albedo(nv, m)) * m->again
                     : K_(1) - f;
     /* metal: f0 is the colour, c + (1 - c) p = c (1 - p) + p */

@@ -122,13 +122,13 @@ static double time_start(const char *program, const char *folder)
     const bool ran = system(wr_text_get(&line)) == 0;
     wr_text_clear(&line);
     wr_text_addf(&line, "%s/told", folder);
-    char *told = NULL;
+    char *output = NULL;
     size_t length;
     WrError err;
-    if (!ran || !wr_file_read(wr_text_get(&line), 65536, &told, &length, &err) ||
-        sscanf(told, "first picture after %lf", &ms) != 1)
+    if (!ran || !wr_file_read(wr_text_get(&line), 65536, &output, &length, &err) ||
+        sscanf(output, "first picture after %lf", &ms) != 1)
         ms = -1;
-    wr_free(told);
+    wr_free(output);
     wr_text_fini(&line);
     return ms;
 }

@@ -1,4 +1,3 @@
-
 #include "ui/accuracy/accuracy_work.h"
 #include "ui/accuracy/accuracy_plan.h"
 #include "ui/jobs/job.h"
@@ -32,7 +31,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ----  ---- */
+/* ---- inspector ---- */
 
 #define SAME_PLACE                                                                                 \
     1e-3 /* of the patch: at a smaller distance the pixel shows the requested position */
@@ -217,7 +216,7 @@ void wr_accuracy_probe_text(const WrProbe *probe, bool seen, WrText *text)
     }
 }
 
-/* ---- accuracy work ---- */
+/* ---- creation and destruction ---- */
 
 #define REFERENCE_SAMPLES 8 /* along a side, for the error of the static view */
 #define LADDER_SAMPLES 16   /* along a side, for the ladder's reference */
@@ -326,7 +325,7 @@ static bool pair(WrWork *work, WrPool *pool, const WrProgress *progress)
     return true;
 }
 
-/* ---- the error ---- */
+/* ---- measurements ---- */
 
 /* Largest error of R, G and B in each pixel; NAN where both pictures are empty. */
 static bool keep_errors(WrWork *work, const float *rgba, const WrReference *reference)

@@ -35,7 +35,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ----  ---- */
+/* ---- range popup: displays and range of greys ---- */
 
 const WrCanvasMapRow wr_canvas_maps[WR_CANVAS_SHOWN] = {
     [WR_CANVAS_HEIGHTS] = { .name = "Heights" },
@@ -49,8 +49,6 @@ const WrCanvasMapRow wr_canvas_maps[WR_CANVAS_SHOWN] = {
 };
 
 #define LOOKS 3 /* displays of heights */
-
-/* ---- range popup ---- */
 
 /* Colour ramp over all existing or displayed heights, lowest first, in the canvas colours: heights beyond the range
    are visible at its ends. */
@@ -227,7 +225,7 @@ static void canvas_chip(WrApp *app)
     if (app->map_shown && look->shown == WR_CANVAS_LIT) light(app);
 }
 
-/* ---- canvas view ---- */
+/* ---- picture of the table ---- */
 
 #define MEANS_BUDGET 0.012 /* time limit in seconds for averaging a large table in one frame */
 #define GRID_FROM 8.0      /* zoom from which a pixel grid is drawn */

@@ -8,16 +8,12 @@
 
 #include <stdbool.h>
 
-void wr_app_place_view(WrApp *app);
-void wr_canvas_view_overlay(WrApp *app); /* overlays */
+void wr_app_place_view(WrApp *app); /* fits the cell into the view unless the user has moved it */
+void wr_canvas_view_overlay(WrApp *app); /* chips and popups over the picture */
 
 extern const WrPart wr_part_canvas;
 
-/* ---- canvas chip ---- */
-
-/* The displayed map and its range, with a popup; light direction of relief shading. */
-
-typedef struct WrApp WrApp;
+/* ---- displayed map ---- */
 
 /* A map that can be shown instead of the table. */
 typedef struct WrCanvasMapRow {

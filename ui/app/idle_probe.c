@@ -1,4 +1,3 @@
-
 #include "ui/app/idle_probe.h"
 #include "ui/accuracy/accuracy.h"
 #include "ui/app/input.h"

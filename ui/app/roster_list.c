@@ -109,27 +109,23 @@ static WrFileTake *const takes[] = {
 };
 WR_ROWS_END(takes, WR_FILE_PURPOSES);
 
-const WrRoster wr_roster = { .tools = wr_tools,
-                             .tool_count = WR_TOOL_COUNT,
-                             .actions = wr_actions,
-                             .helps = wr_action_helps,
-                             .families = families,
-                             .dialogs = dialogs,
-                             .tabs = tabs,
-                             .tab_count = (int)(sizeof tabs / sizeof *tabs),
-                             .parts = parts,
-                             .takes = takes,
-                             .step = wr_app_step };
-
-/* ---- the list of tools, in the order of the tool strip ---- */
-
-/* A new tool is a file with its row, and a line here. */
-
-const WrTool *const wr_tools[] = {
+/* Tools in the order of the tool strip. */
+static const WrTool *const tools[] = {
     &wr_tool_brush,         &wr_tool_smooth,      &wr_tool_smear,          &wr_tool_clone,
     &wr_tool_flood,         &wr_tool_ramp,        &wr_tool_shape_rect,     &wr_tool_shape_ellipse,
     &wr_tool_shape_polygon, &wr_tool_shape_path,  &wr_tool_stamp,          &wr_tool_generate,
     &wr_tool_pick,          &wr_tool_select_rect, &wr_tool_select_ellipse, &wr_tool_select_lasso,
     &wr_tool_transform,     &wr_tool_pan,         &wr_tool_zoom,
 };
-_Static_assert(sizeof wr_tools / sizeof *wr_tools == WR_TOOL_COUNT, "tool_rows.h counts them");
+
+const WrRoster wr_roster = { .tools = tools,
+                             .tool_count = WR_LENGTH(tools),
+                             .actions = wr_actions,
+                             .helps = wr_action_helps,
+                             .families = families,
+                             .dialogs = dialogs,
+                             .tabs = tabs,
+                             .tab_count = WR_LENGTH(tabs),
+                             .parts = parts,
+                             .takes = takes,
+                             .step = wr_app_step };

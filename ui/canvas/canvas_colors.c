@@ -1,4 +1,3 @@
-
 #include "ui/canvas/canvas_colors.h"
 
 #include "field/field.h"
@@ -156,7 +155,7 @@ void wr_canvas_ink_slopes(const WrCanvasInk *ink, const float *p, const float *q
     }
 }
 
-/* ----  ---- */
+/* ---- range of greys ---- */
 
 #define LEVEL_REACH 0.5 /* least range on each side of zero for a level table */
 #define ROOM 0.25       /* margin, as a fraction of the range */
@@ -187,7 +186,7 @@ void wr_range_follow(double range[2], double low, double high, WrRangeHold hold)
     if (high > range[1]) range[1] = high + more;
 }
 
-/* ----  ---- */
+/* ---- thumbnails ---- */
 
 #define NOTHING 0x48 /* grey of uncovered areas */
 

@@ -1,4 +1,3 @@
-
 #include "ui/canvas/view.h"
 
 #include "base/exactmath.h"
@@ -232,7 +231,7 @@ int wr_view_outline_copies(const WrCanvasView *view, bool wraps_u, bool wraps_v,
     return count;
 }
 
-/* ----  ---- */
+/* ---- rotated picture ---- */
 
 #define PARTS 256 /* subdivisions of a pixel in the weights */
 

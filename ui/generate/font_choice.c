@@ -1,4 +1,3 @@
-
 #include "ui/generate/font_choice.h"
 #include "ui/state/app_state.h"
 #include "ui/state/roster.h"

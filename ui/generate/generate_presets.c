@@ -191,7 +191,7 @@ bool wr_generate_preset_delete(WrApp *app, int index)
     return good;
 }
 
-/* ----  ---- */
+/* ---- gallery of generators and presets ---- */
 
 #define ITEMS_MAX 128
 #define TILE_UNITS 76

@@ -239,9 +239,9 @@ void wr_generate_line(const WrGenerateState *hand, WrText *line)
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; g->params[i].name; i++) {
             const WrParam *p = &g->params[i];
-            bool told = !is_default(p, &hand->value[i]) ||
-                        (p->positional && !(is_written(p->kind) && !hand->value[i].text[0]));
-            if (p->positional == (pass == 0) && told) add_value(line, p, &hand->value[i]);
+            bool stated = !is_default(p, &hand->value[i]) ||
+                          (p->positional && !(is_written(p->kind) && !hand->value[i].text[0]));
+            if (p->positional == (pass == 0) && stated) add_value(line, p, &hand->value[i]);
         }
     if (hand->blend != wr_blend_find(g->blend))
         wr_text_addf(line, " %s=%s", wr_generator_argument(g, "blend"),
@@ -264,7 +264,7 @@ void wr_generate_default_line(const WrGenerator *generator, const char *written,
     generate_free_values(&hand);
 }
 
-/* ---- generate state ---- */
+/* ---- creation and destruction ---- */
 
 #define PATIENCE_SECONDS 0.25 /* an outdated result that is due this soon is still awaited */
 #define QUICK_SECONDS 0.12    /* slower generators show a rough result first */
@@ -456,7 +456,8 @@ static void look(WrApp *app)
     }
 }
 
-/* ---- preview ---- */
+/* ---- component ---- */
+
 static void generate_update(WrApp *app)
 {
     WrGenerateState *hand = app->generate;

@@ -27,11 +27,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- the middle of the Generate tab ---- */
-
-/* Values of the current generator and its blending. Errors are shown below their value. */
-
-/* ---- parameters ---- */
+/* ---- values of the current generator and its blending, with errors below them ---- */
 
 #define SEED_LAST 999.0 /* largest seed of the button for the next seed */
 
@@ -323,11 +319,9 @@ void wr_panel_generate_values(WrApp *app)
     wr_generate_changed(app);
 }
 
-/* ---- panel generate ---- */
+/* ---- choice of the generator ---- */
 
 #define CHOICES_MAX 64
-
-/* ---- choice of the generator ---- */
 
 static const WrFamily *family_of(const WrGenerator *generator)
 {

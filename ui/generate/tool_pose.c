@@ -159,7 +159,7 @@ bool wr_pose_points_marks(const WrApp *app)
     return true;
 }
 
-/* ---- tool pose ---- */
+/* ---- parameters for position, size and rotation ---- */
 
 #define NEAR_UNITS 9.0
 #define LEAST_UNITS 26.0 /* least distance of the corner from the centre */

@@ -1,4 +1,3 @@
-
 #include "ui/help/guide.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
@@ -400,7 +399,7 @@ static void guide_show(WrApp *app, double tall)
     if (asked && guide->proposed) show_proposal(app, guide, again);
 }
 
-/* ----  ---- */
+/* ---- running of examples ---- */
 
 bool wr_guide_is_command(const char *line)
 {

@@ -1,4 +1,3 @@
-
 #include "ui/help/guide_flow.h"
 #include "ui/toolkit/gui_sdl.h"
 #include "ui/jobs/job.h"
@@ -21,7 +20,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ----  ---- */
+/* ---- pictures of a page ---- */
 
 #define PICTURES_FOLDER "ui/guide/" /* base folder of relative paths */
 
@@ -159,7 +158,7 @@ static int guide_pictures_made(const WrGuidePictures *pictures)
     return pictures->made;
 }
 
-/* ---- guide flow ---- */
+/* ---- layout of words ---- */
 
 #define MARGIN 16    /* units on both sides of the text */
 #define INDENT 18    /* of items */

@@ -1,4 +1,3 @@
-
 #include "ui/jobs/edit_preview.h"
 #include "ui/jobs/job.h"
 
@@ -23,7 +22,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ----  ---- */
+/* ---- the edited table ---- */
 
 #define ROUGH_TEXELS 262144.0 /* approximate size of a rough table */
 #define ROUGH_MIN 16          /* least texels along a side */
@@ -157,7 +156,7 @@ static bool edit_preview_transform(WrDocument *document, const char *line, WrPoo
     return good;
 }
 
-/* ---- edit preview ---- */
+/* ---- requests ---- */
 
 typedef struct Work {
     WrDocument *document; /* own snapshot, changed by the work */

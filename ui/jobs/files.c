@@ -1,4 +1,3 @@
-
 #include "ui/jobs/files.h"
 #include "ui/jobs/portal.h"
 #include "ui/toolkit/desktop.h"
@@ -449,7 +448,7 @@ int wr_files_panel(WrFiles *files, const char *note, char *const recent[])
     return answer;
 }
 
-/* ----  ---- */
+/* ---- places: folders in the panel ---- */
 
 /* Takes ownership of both strings. */
 static void add(WrFilePlace *places, int *count, char *label, char *path, bool named)

@@ -1,4 +1,3 @@
-
 #include "ui/jobs/job.h"
 
 #include "base/array.h"
@@ -170,7 +169,7 @@ void wr_job_free(WrJob *job)
     wr_free(job);
 }
 
-/* ----  ---- */
+/* ---- start of threads ---- */
 
 static int refused; /* atomic; 1: not yet reported, 2: reported */
 
@@ -184,7 +183,7 @@ bool wr_thread_start(WrThread *thread, void *(*run)(void *), void *arg)
 
 bool wr_thread_refused(void)
 {
-    int untold = 1;
-    return __atomic_compare_exchange_n(&refused, &untold, 2, false, __ATOMIC_RELAXED,
+    int unreported = 1;
+    return __atomic_compare_exchange_n(&refused, &unreported, 2, false, __ATOMIC_RELAXED,
                                        __ATOMIC_RELAXED);
 }

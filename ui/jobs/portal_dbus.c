@@ -335,7 +335,8 @@ static DBusMessage *call_bus(const Bus *bus, const char *what, const char *argum
     return message;
 }
 
-static bool told(Bus *bus, DBusMessage *message, double deadline, char *answer, size_t size)
+static bool call_answered(Bus *bus, DBusMessage *message, double deadline, char *answer,
+                          size_t size)
 {
     DBusMessageIter at;
     DBusMessage *heard = message ? exchange(bus, message, deadline) : NULL;
@@ -357,14 +358,15 @@ static bool introduce(Bus *bus, const char *token, double deadline)
     static const char answers[] = "type='signal',interface='" REQUEST "',member='Response'";
     static const char ends[] = "type='signal',sender='" BUS "',interface='" BUS
                                "',member='NameOwnerChanged',arg0='" DESKTOP "'";
-    if (!told(bus, call_bus(bus, "Hello", NULL), deadline, bus->unique, sizeof bus->unique))
+    if (!call_answered(bus, call_bus(bus, "Hello", NULL), deadline, bus->unique,
+                       sizeof bus->unique))
         return false;
     snprintf(sender, sizeof sender, "%s", bus->unique[0] == ':' ? bus->unique + 1 : bus->unique);
     for (char *c = sender; *c; c++)
         if (*c == '.') *c = '_';
     snprintf(bus->handle, sizeof bus->handle, DESKTOP_PATH "/request/%s/%s", sender, token);
-    return told(bus, call_bus(bus, "AddMatch", answers), deadline, NULL, 0) &&
-           told(bus, call_bus(bus, "AddMatch", ends), deadline, NULL, 0);
+    return call_answered(bus, call_bus(bus, "AddMatch", answers), deadline, NULL, 0) &&
+           call_answered(bus, call_bus(bus, "AddMatch", ends), deadline, NULL, 0);
 }
 
 static void close_request(const Bus *bus)
@@ -386,7 +388,7 @@ static WrPortalEnd ask_bus(Bus *bus, const WrPortalRequest *ask)
              __atomic_add_fetch(&count, 1, __ATOMIC_RELAXED));
     if (!connect_to_bus(bus) || !introduce(bus, token, deadline)) return WR_PORTAL_NONE;
     /* Use the portal's name of the request, which differs from ours only in old portals. */
-    if (!told(bus, question(bus, ask, token), deadline, bus->handle, sizeof bus->handle)) {
+    if (!call_answered(bus, question(bus, ask, token), deadline, bus->handle, sizeof bus->handle)) {
         if (!bus->gone) close_request(bus); /* a late portal must not open a second dialog */
         return wr_cancel_requested(bus->stop) ? WR_PORTAL_CANCELLED : WR_PORTAL_NONE;
     }

@@ -228,7 +228,7 @@ WrSheetWrite *wr_sheet_write_new(WrDocument *document, const WrSheetRequest *ask
 void wr_sheet_write_free(WrSheetWrite *write)
 {
     if (!write) return;
-    wr_text_fini(&write->told);
+    wr_text_fini(&write->report);
     wr_document_free(write->document);
     wr_free(write);
 }
@@ -250,7 +250,7 @@ static void run_write(void *work, WrPool *pool, const WrProgress *progress)
         const WrSetOrder order = { set, ask->folder, ask->name, NULL, 0 };
         wr_sheet_size(ask->size, &w, &h);
         write->ok = resize(write->document, w, h, pool, &write->err) &&
-                    wr_export_set(&order, write->document, pool, &write->told, &write->err);
+                    wr_export_set(&order, write->document, pool, &write->report, &write->err);
         write->files = set->maps.count;
     }
     write->cancelled = !write->ok && wr_progress_cancelled(progress);

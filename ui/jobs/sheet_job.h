@@ -38,7 +38,7 @@ typedef struct WrSheetLook {
 typedef struct WrSheetWrite {
     WrDocument *document; /* owned */
     WrSheetRequest ask;
-    WrText told; /* one line per file */
+    WrText report; /* one line per file */
     int files;
     double seconds;
     bool ok, cancelled;

@@ -115,8 +115,8 @@ static void tell(WrPreferences *p, const WrError *err, const char *format, const
                  const char *what, const char *other)
 {
     p->bad = err != NULL;
-    if (err) wr_words_message(wr_error_message(err), p->told, sizeof p->told);
-    else snprintf(p->told, sizeof p->told, format, key, what, other);
+    if (err) wr_words_message(wr_error_message(err), p->message, sizeof p->message);
+    else snprintf(p->message, sizeof p->message, format, key, what, other);
 }
 
 /* Apply the written keys of both actions; after a failed write, restore the map. */
@@ -214,7 +214,7 @@ static void key_list(WrApp *app)
     if (shown == 0) wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "No action has these words.");
     wr_gui_list_end();
     wr_gui_text_wrapped(WR_FONT_SMALL, p->bad ? WR_COLOUR_BAD : WR_COLOUR_LABEL,
-                        p->told[0] ? p->told : "Click an action, then press its new key.");
+                        p->message[0] ? p->message : "Click an action, then press its new key.");
 }
 
 void wr_dialog_preferences(WrApp *app)

@@ -10,8 +10,8 @@ typedef struct WrPreferences {
     char waits[64]; /* action that waits for the next key; "": none */
     /* key pressed for it, with the modifiers at that time; SDLK_UNKNOWN: none yet */
     WrKey key;
-    char told[200]; /* message of the last change */
-    bool bad;       /* the change failed */
+    char message[200]; /* message of the last change */
+    bool bad;          /* the change failed */
 } WrPreferences;
 
 void wr_dialog_preferences(WrApp *app);

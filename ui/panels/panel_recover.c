@@ -25,16 +25,16 @@
 struct WrRecovery {
     WrRecoverable *list; /* owned */
     int count, chosen;
-    bool sure;  /* Discard was pressed once */
-    char *told; /* report of a partial recovery of the chosen journal; owned; else NULL */
-    bool more;  /* continuing past the damage might recover more */
+    bool sure;            /* Discard was pressed once */
+    char *partial_report; /* report of a partial recovery of the chosen journal; owned; else NULL */
+    bool more;            /* continuing past the damage might recover more */
 };
 
 void wr_recovery_free(WrRecovery *recovery)
 {
     if (!recovery) return;
     wr_recovery_list_free(recovery->list, recovery->count);
-    wr_free(recovery->told);
+    wr_free(recovery->partial_report);
     wr_free(recovery);
 }
 
@@ -108,7 +108,7 @@ static void ask_about_rest(WrApp *app, const Call *call)
     for (int i = 0; recovery && i < recovery->count; i++) {
         if (strcmp(recovery->list[i].journal, call->journal) != 0) continue;
         recovery->chosen = i;
-        recovery->told = wr_strdup(wr_text_get(&call->recovered.report));
+        recovery->partial_report = wr_strdup(wr_text_get(&call->recovered.report));
         recovery->more = call->recovered.more;
     }
 }
@@ -183,8 +183,8 @@ static void discard(WrApp *app)
 static void tell(const WrRecovery *recovery)
 {
     const WrRecoverable *r = &recovery->list[recovery->chosen];
-    if (recovery->told) {
-        wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, recovery->told);
+    if (recovery->partial_report) {
+        wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, recovery->partial_report);
         wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
                             "The rest of it stays until it is discarded.");
         return;
@@ -217,13 +217,14 @@ static void recover_buttons(WrApp *app, bool key)
     const WrRecoverable *r = &recovery->list[recovery->chosen];
     bool parts = r->headless || r->beyond > 0;
     bool now = false, beyond = false;
-    if (!r->error && !recovery->told && !r->headless) {
+    if (!r->error && !recovery->partial_report && !r->headless) {
         now = wr_gui_button(parts ? "Up to the damage" : "Recover", true) ||
               (key && wr_gui_return_pressed());
         wr_gui_same_line(8);
     }
-    if (!r->error && (recovery->told ? recovery->more : parts)) {
-        beyond = wr_gui_button("With the lines that follow", r->headless && !recovery->told);
+    if (!r->error && (recovery->partial_report ? recovery->more : parts)) {
+        beyond =
+            wr_gui_button("With the lines that follow", r->headless && !recovery->partial_report);
         wr_gui_tip("Steps that need missing parts are left out");
         wr_gui_same_line(8);
     }
@@ -239,11 +240,12 @@ void wr_dialog_recover(WrApp *app)
         wr_dialog_close(app);
         return;
     }
-    const char *told = recovery->told;
-    if (!wr_gui_dialog_begin(told ? "Not everything came back" : "Work that was not saved", 500))
+    const char *partial_report = recovery->partial_report;
+    if (!wr_gui_dialog_begin(
+            partial_report ? "Not everything came back" : "Work that was not saved", 500))
         return;
     bool key = !app->dialog->fresh;
-    if (!told)
+    if (!partial_report)
         wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT,
                             "Wrinkle ended before this was saved. It can be brought back.");
     tell(recovery);
@@ -251,13 +253,13 @@ void wr_dialog_recover(WrApp *app)
     wr_busy_hold(app); /* the document of the command line may still be opening */
     recover_buttons(app, key && !wr_busy_refuses(app));
     wr_busy_hold_end();
-    bool lose = wr_gui_button(recovery->sure ? "Discard for good"
-                              : told         ? "Discard the rest"
-                                             : "Discard",
+    bool lose = wr_gui_button(recovery->sure   ? "Discard for good"
+                              : partial_report ? "Discard the rest"
+                                               : "Discard",
                               false);
     wr_gui_same_line(8);
-    bool later = wr_gui_button(told ? "Keep it" : "Later", told) ||
-                 (key && (wr_gui_escape_pressed() || (told && wr_gui_return_pressed())));
+    bool later = wr_gui_button(partial_report ? "Keep it" : "Later", partial_report) ||
+                 (key && (wr_gui_escape_pressed() || (partial_report && wr_gui_return_pressed())));
     wr_gui_tip("It is offered again the next time");
     if (app->dialog->now != WR_DIALOG_RECOVER) lose = later = false;
     if (lose) discard(app);

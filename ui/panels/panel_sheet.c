@@ -29,10 +29,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- background work of the export sheet ---- */
-
-/* Pictures while it is open; files after the button or, in live export, after each pause in editing. Live
-   export ends at the first error. */
+/* Background work: pictures while the dialog is open; files after the button or, in live export, after each pause in
+   editing. Live export ends at the first error. */
 
 #define PAUSE_SECONDS 0.5 /* pause in editing before files are written again */
 
@@ -234,7 +232,7 @@ static void take_write(WrApp *app)
     WrSheetWrite *write = sheet->write ? wr_job_take(sheet->write) : NULL;
     if (!write) return;
     if (write->ok) {
-        if (sheet->loud) wr_app_say_lines(app, wr_text_get(&write->told));
+        if (sheet->loud) wr_app_say_lines(app, wr_text_get(&write->report));
         wr_app_say(app,
                    write->files == 1 ? "%s: wrote %d file to %s in %.2g s%s"
                                      : "%s: wrote %d files to %s in %.2g s%s",
@@ -323,15 +321,13 @@ const WrPart wr_part_sheet = {
     .update = update, .next_time = next_time, .works = works, .another = another, .forget = forget
 };
 
-/* ---- panel sheet ---- */
+/* ---- the dialog: choice of maps ---- */
 
 #define WIDE_UNITS 760
 #define PICTURE_UNITS 72
 #define OTHERS_UNITS 372 /* height of everything except the list of maps */
 #define GREEN_SIDE 48    /* texels of the pictures for the green direction */
 #define MAX_CHOICES (WR_SET_ROWS + WR_SETS_MAX + WR_EXPORT_KIND_COUNT)
-
-/* ---- choice of maps ---- */
 
 /* Sets first, then single maps. */
 static int list_choices(const WrSheetState *sheet, const char **labels, const char **words)

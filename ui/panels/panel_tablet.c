@@ -18,10 +18,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- drawing of the tablet tester ---- */
-
-/* Scribble, newest values, curve. */
-
 #define MAX_POINTS 3000
 #define POINT_STEP 1.5    /* pixels between points of the scribble */
 #define RATE_SECONDS 0.5  /* interval of the event rate */
@@ -299,8 +295,6 @@ static WrEdit tester_curve(WrApp *app, double side, WrPenCurve *curve)
     if (pad.released || (changed && !pad.held)) return WR_EDIT_DONE;
     return changed ? WR_EDIT_LIVE : WR_EDIT_NONE;
 }
-
-/* ---- panel tablet ---- */
 
 /* ---- curves are stored in the settings as lines "CURVE NAME" ---- */
 

@@ -1,4 +1,4 @@
-/* panel_tablet.h - shared state of the two files of the tablet tester. */
+/* panel_tablet.h - tablet tester: its state, its dialog, and the stored pressure curves. */
 #pragma once
 #include "ui/state/app_state.h"
 #include "ui/toolkit/gui.h"
@@ -32,8 +32,8 @@ struct WrTester {
     double newest_at; /* clock */
 };
 
-/* panel_tablet.c: apply the stored pressure curves to the pens; create the tester. */
+/* Applies the pressure curves of the settings to the pens. */
 void wr_tablet_start(WrApp *app);
 void wr_tablet_free(WrApp *app);
-void wr_dialog_tablet_open(WrApp *app);
+void wr_dialog_tablet_open(WrApp *app); /* creates the tester */
 void wr_dialog_tablet(WrApp *app);

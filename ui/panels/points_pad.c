@@ -1,4 +1,3 @@
-
 #include "ui/panels/points_pad.h"
 #include "ui/toolkit/theme.h"
 #include "ui/state/app_state.h"

@@ -1,4 +1,3 @@
-
 #include "ui/preview/patch_pick.h"
 
 #include "base/array.h"
@@ -350,7 +349,7 @@ bool wr_patch_pick_slopes(const WrPatchPick *pick, const WrPatchSpot *at, double
     return spot_at(pick, at->face, at->u, at->v, &spot, slopes) && invert(slopes, jacobian);
 }
 
-/* ----  ---- */
+/* ---- picking among all objects ---- */
 
 struct WrPatchPicks {
     WrPatchPick *pick[WR_OBJECTS_MAX]; /* one per object; NULL: hidden. Owned */

@@ -1,4 +1,3 @@
-
 #include "ui/preview/picture.h"
 #include "ui/preview/preview.h"
 #include "ui/toolkit/words.h"
@@ -16,7 +15,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ----  ---- */
+/* ---- heat map of an effect ---- */
 
 static bool make_room(WrPictureRan *ran, int width, int height, WrError *err)
 {
@@ -105,7 +104,7 @@ void wr_picture_words(const WrPreviewPicture *picture, char text[WR_PICTURE_WORD
         total, picture->width, picture->height, wr_words(how[picture->level]), moving);
 }
 
-/* ----  ---- */
+/* ---- checkerboard behind transparency ---- */
 
 #define SQUARE 8.0 /* pixels of the window */
 
@@ -144,7 +143,7 @@ static void chequer_behind(const WrFrame *frame, const WrTone *tone, double scal
     }
 }
 
-/* ----  ---- */
+/* ---- upload of a picture ---- */
 
 bool wr_preview_look_same(const WrPreviewLook *a, const WrPreviewLook *b)
 {

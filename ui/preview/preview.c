@@ -1,4 +1,3 @@
-
 #include "ui/preview/preview.h"
 #include "ui/preview/picture.h"
 #include "ui/jobs/job.h"
@@ -484,7 +483,7 @@ bool wr_preview_error(WrPreview *preview, WrError *err)
     return failed;
 }
 
-/* ----  ---- */
+/* ---- moving: settings of a moving patch ---- */
 
 /* Rank from cheap to accurate. */
 static int scheme_rank(WrScheme scheme)

@@ -1,4 +1,3 @@
-
 #include "ui/preview/rotation.h"
 
 #include "base/exactmath.h"
@@ -158,7 +157,7 @@ double wr_rotation_rock(double *way, double turn_deg, double seconds)
     return deg < 0.0 ? deg + 360.0 : deg;
 }
 
-/* ----  ---- */
+/* ---- faces of the view cube ---- */
 
 /* Intersect a ray along the view with the slabs of the three axes; the last one entered is the face. */
 bool wr_cube_at(const WrRotation *cube, double x, double y, int side[3])

@@ -1,4 +1,3 @@
-
 #include "ui/state/keys.h"
 #include "ui/toolkit/words.h"
 #include "ui/state/action_list.h"

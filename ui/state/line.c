@@ -1,4 +1,3 @@
-
 #include "ui/state/line.h"
 
 #include "base/enum_rows.h"
@@ -55,7 +54,7 @@ WrVec3 wr_line_round_vec(WrVec3 v, int digits)
                      wr_line_round(v.z, digits) };
 }
 
-/* ----  ---- */
+/* ---- lines of a new document ---- */
 
 #define LENGTHS_FOR 512.0 /* table size that the starters' lengths refer to */
 

@@ -21,16 +21,16 @@
 #include <string.h>
 
 typedef struct Line {
-    char *text, *words, *told; /* owned; told: notes of the preview that computed it, or NULL */
-    WrDocument *made;          /* owned; NULL: still to be computed */
-    double since;              /* clock */
+    char *text, *words, *notes; /* owned; notes: notes of the preview that computed it, or NULL */
+    WrDocument *made;           /* owned; NULL: still to be computed */
+    double since;               /* clock */
 } Line;
 
 static void free_line(Line *line)
 {
     wr_free(line->text);
     wr_free(line->words);
-    wr_free(line->told);
+    wr_free(line->notes);
     wr_document_free(line->made);
     wr_free(line);
 }
@@ -50,7 +50,7 @@ static void is_done(WrApp *app, void *ctx, bool ok, const WrError *err)
     else wr_busy_fail(app, line->words, err);
     wr_app_try_end(app);
     wr_app_take_notes(app);
-    if (ok && line->told) wr_app_say_lines(app, line->told);
+    if (ok && line->notes) wr_app_say_lines(app, line->notes);
     wr_app_title(app);
     wr_app_redraw(app);
     free_line(line);
@@ -96,8 +96,8 @@ static bool put_off(WrApp *app, const char *line)
 
 /* ---- running ---- */
 
-/* told, made: as in Line, or NULL. */
-static bool run_command(WrApp *app, const char *text, const WrDocument *made, const char *told)
+/* notes, made: as in Line, or NULL. */
+static bool run_command(WrApp *app, const char *text, const WrDocument *made, const char *notes)
 {
     if (app->busy) return put_off(app, text);
     WrError err = { "" };
@@ -108,7 +108,7 @@ static bool run_command(WrApp *app, const char *text, const WrDocument *made, co
     Line *line = wr_alloc(1, sizeof *line);
     *line = (Line){ .text = wr_strdup(text),
                     .words = wr_strdup(wr_text_get(&words)),
-                    .told = wr_strdup(told),
+                    .notes = wr_strdup(notes),
                     .made = made ? wr_document_share(made) : NULL,
                     .since = wr_clock_seconds() };
     wr_text_fini(&words);

@@ -1,4 +1,3 @@
-
 #include "ui/state/settings.h"
 #include "ui/canvas/canvas.h"
 #include "ui/input/stroke_smoothing.h"

@@ -1,4 +1,3 @@
-
 #include "ui/toolkit/display.h"
 #include "ui/toolkit/desktop.h"
 
@@ -61,7 +60,7 @@ const char *wr_display_driver_note(const WrDisplayEnv *env, const char *opened)
                : "There is no XWayland (DISPLAY is not set); on Wayland itself pens act as mice.";
 }
 
-/* ----  ---- */
+/* ---- presentation on the screen ---- */
 
 /* True if SDL's driver can show a window surface without acceleration. Wayland's cannot, and a window that requires
  * it is never shown. */

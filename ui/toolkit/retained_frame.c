@@ -148,7 +148,7 @@ void wr_retained_frame_fill(WrRetainedFrame *kept, const SDL_Rect *place, uint32
 }
 
 static void note_copy(WrRetainedFrame *kept, SDL_Texture *texture, const SDL_Rect *of,
-                      const SDL_Rect *to, bool told)
+                      const SDL_Rect *to, bool notifies)
 {
     int w = 0, h = 0;
     uint8_t r, g, b, a;
@@ -163,7 +163,7 @@ static void note_copy(WrRetainedFrame *kept, SDL_Texture *texture, const SDL_Rec
     Words words = { .count = 0 };
     say(&words, COPY);
     say(&words, (uint32_t)a << 24 | (uint32_t)r << 16 | (uint32_t)g << 8 | b);
-    print_texture(&words, texture, told && !scaled ? 0 : wr_gui_sdl_revision(texture));
+    print_texture(&words, texture, notifies && !scaled ? 0 : wr_gui_sdl_revision(texture));
     print_rect(&words, &item.piece.of);
     print_rect(&words, to);
     if (scaled) wr_array_push(&kept->whole, *to);

@@ -1,4 +1,3 @@
-
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/gui.h"
 
@@ -30,7 +29,7 @@ WrColour wr_theme_colour(WrThemeColour name)
 const WrColour wr_series[WR_SERIES] = { 0xff3a7bd5u, 0xffda9c58u, 0xff288462u, 0xffc9a8ecu,
                                         0xffc6452au, 0xfff0e08cu, 0xff7d849du };
 
-/* ----  ---- */
+/* ---- words for missing icons ---- */
 
 static const struct {
     const char *icon, *word;

@@ -278,7 +278,7 @@ static void another(WrApp *app)
 
 const WrPart wr_part_strokes = { .another = another };
 
-/* ----  ---- */
+/* ---- strength of strokes ---- */
 
 bool wr_paints_mask(const WrApp *app)
 {

@@ -46,9 +46,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- pictures of the stamp tool ---- */
-
-/* Those in the brush folders that are not thumbnails of presets. */
+/* ---- pictures: those in the brush folders that are not thumbnails of presets ---- */
 
 #define DEPTH_MAX 3     /* depth of nested folders */
 #define STAMPS_MAX 2000 /* limit for all folders */
@@ -141,7 +139,7 @@ static void stamps_free(WrApp *app)
     wr_array_free(&app->stamp->stamps);
 }
 
-/* ---- tool stamp ---- */
+/* ---- the stamp ---- */
 
 #define DRAG_PIXELS 8.0
 #define FIRST_RADIUS 48.0

@@ -1,4 +1,4 @@
-/* marks.h - selection outlines on the canvas. */
+/* marks.h - selection outlines, lines, handles and labels on the canvas. */
 #pragma once
 #include "ui/canvas/marching_ants.h"
 #include "ui/canvas/outline.h"
