@@ -6,6 +6,7 @@
 
 #include "export/check.h"
 #include "field/seam.h"
+#include "generate/generator.h"
 
 /* Cells with several features in each direction, so that no single one is only at the edge. */
 static const char *const cells[] = {
@@ -215,9 +216,23 @@ static void a_check_says_what_the_export_said(void **state)
     assert_true(torn > 60);
 }
 
+static void every_pattern_has_a_cell(void **state)
+{
+    (void)state;
+    for (const WrGenerator *row = wr_patterns; row->family; row++) {
+        char line[80];
+        bool found = false;
+        const int length = snprintf(line, sizeof line, "pattern %s", row->name);
+        for (size_t k = 0; k < sizeof cells / sizeof *cells && !found; k++)
+            found = strncmp(cells[k], line, (size_t)length) == 0 && strchr(" ;", cells[k][length]);
+        if (!found) fail_msg("add cells of '%s'", line);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_pattern_has_a_cell),
         cmocka_unit_test(whole_cells_have_no_seam),
         cmocka_unit_test(most_cuts_have_one_in_every_lay),
         cmocka_unit_test(a_check_says_what_the_export_said),

@@ -561,7 +561,7 @@ static void check_set(const WrKernels *set, const WrKernels *ref)
     Bench *b = wr_alloc(1, sizeof *b), *r = wr_alloc(1, sizeof *r);
     bench_init(b, &random);
     for (int f = 0; f < FAMILIES; f++)
-        for (int member = 0; member < 64; member++) {
+        for (int member = 0;; member++) {
             bool any = true;
             for (int count = 0; count <= 68 && any; count++) {
                 char what[80];
@@ -660,7 +660,7 @@ static void unknown_sets_are_refused(void **state)
 static void print_speed(const WrKernels *set, Bench *b, TestRandom *random)
 {
     for (int f = 0; f < FAMILIES; f++)
-        for (int member = 0; member < 64; member++) {
+        for (int member = 0;; member++) {
             double best = 1e9;
             bool any = true;
             for (int round = 0; round < 7 && any; round++) {

@@ -132,13 +132,15 @@ static void a_white_furnace_never_shows_more_than_white(void **state)
         for (int r = 0; r <= 3; r++)
             for (int k = 0; k < 12; k++) {
                 const double nv = .02 + .98 * k / 11, rough = .15 + .85 * r / 3;
-                const bool own = model == WR_REFLECT_OREN_NAYAR || model == WR_REFLECT_GGX;
+                const WrReflectInfo *info = &wr_reflects[model];
+                const bool own = info->diffuse != WR_DIFFUSE_LAMBERT || !info->shines;
+                const bool power = info->highlight == WR_HIGHLIGHT_POWER;
                 WrReflectance of = { (WrReflect)model, WR_ENERGY_KEPT, 20 * r, rough, 0, 1.5 };
-                double e = albedo(&of, own, model == WR_REFLECT_PHONG, nv, false, 120);
-                if (model != WR_REFLECT_PHONG) e += albedo(&of, 0, 1, nv, true, 120);
+                double e = albedo(&of, own, power, nv, false, 120);
+                if (!power) e += albedo(&of, 0, 1, nv, true, 120);
                 if (!(e <= 1 + 1e-3 && e > 0)) fail_msg("model %d %g %g: %g", model, rough, nv, e);
                 if (own && !(e > .96)) fail_msg("model %d %g %g loses: %g", model, rough, nv, e);
-                if (model != WR_REFLECT_TORRANCE_SPARROW) continue;
+                if (info->highlight != WR_HIGHLIGHT_CAVITIES) continue;
                 of.ior = 1e4;
                 e = albedo(&of, 0, 1, nv, true, 120);
                 if (!(e <= 1 + 1e-3 && e > .3)) fail_msg("mirrors %g %g: %g", rough, nv, e);
@@ -154,7 +156,8 @@ static void light_and_eye_can_change_places(void **state)
             const WrReflectance of = { (WrReflect)model, (WrEnergy)energy, 3.7, .63, .41, 1.7 };
             const double there = at_once(&of, 0.8, 0.6, b, a) / b.z;
             const double back = at_once(&of, 0.8, 0.6, a, b) / a.z;
-            const bool is = model != WR_REFLECT_PHONG || energy == WR_ENERGY_KEPT;
+            const bool is =
+                wr_reflects[model].highlight != WR_HIGHLIGHT_POWER || energy == WR_ENERGY_KEPT;
             if ((fabs(there - back) <= 1e-12 * there) != is)
                 fail_msg("%s %s: %.17g, %.17g", wr_reflects[model].name, wr_energies[energy], there,
                          back);

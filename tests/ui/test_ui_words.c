@@ -5,6 +5,7 @@
 
 #include "command/command_table.h"
 
+#include "shade/reflection.h"
 #include "ui/app/roster_list.h"
 #include "ui/state/action_list.h"
 #include "ui/state/keys.h"
@@ -162,12 +163,25 @@ static void every_action_has_a_help_line(void **state)
     assert_int_equal(lacking, 0);
 }
 
-static const char *told_of;
-static bool told;
+static const char *searched_help;
+static bool requested;
 
-static void note_told(const char *english)
+static void note_request(const char *english)
 {
-    told = told || strcmp(english, told_of) == 0;
+    requested = requested || strcmp(english, searched_help) == 0;
+}
+
+/* Only the help of the current model is shown, as a tip: no walk through the panels requests the others. */
+static void every_reflection_model_has_a_help_line(void **state)
+{
+    (void)state;
+    Walk walk;
+    walk_open(&walk, "de");
+    if (strcmp(wr_words_language(), "de") == 0)
+        for (int i = 0; i < wr_reflect_count; i++)
+            if (wr_words(wr_reflects[i].help) == wr_reflects[i].help)
+                fail_msg("%s: \"%s\" has no German text", wr_reflects[i].name, wr_reflects[i].help);
+    walk_close(&walk);
 }
 
 /* The search finds commands by verb and then accepts the line; in German their help is German. */
@@ -185,13 +199,13 @@ static void every_command_is_reached_by_the_search(void **state)
         walk_frame(&walk);
         snprintf(walk.app->finder->text, sizeof walk.app->finder->text, "%s ", (*c)->name);
         walk.app->finder->line = true; /* as by its row in the list */
-        told_of = (*c)->help;
-        told = false;
-        wr_words_requested = note_told;
+        searched_help = (*c)->help;
+        requested = false;
+        wr_words_requested = note_request;
         walk_frame(&walk);
         walk_frame(&walk);
         wr_words_requested = NULL;
-        if (!told) fail_msg("the search says nothing about '%s'", (*c)->name);
+        if (!requested) fail_msg("the search says nothing about '%s'", (*c)->name);
         wr_dialog_close(walk.app);
         walk_frame(&walk);
     }
@@ -292,6 +306,7 @@ int main(void)
         cmocka_unit_test(every_page_of_the_guide_has_a_title_in_german),
         cmocka_unit_test(every_action_stands_in_a_menu),
         cmocka_unit_test(every_action_has_a_help_line),
+        cmocka_unit_test(every_reflection_model_has_a_help_line),
         cmocka_unit_test(every_command_is_reached_by_the_search),
         cmocka_unit_test(no_key_does_two_things),
         cmocka_unit_test(no_text_is_cut),
