@@ -1,4 +1,4 @@
-/* test_saving.c - costs and savings of effects are measured on frames in which they did and did not run. Times are
+/* test_effect_savings.c - costs and savings of effects are measured on frames in which they did and did not run. Times are
    not checked. */
 #include "test.h"
 #include "render/render_scenes.h"

@@ -1,4 +1,4 @@
-/* test_session_help.h - command lines that must succeed or fail. Include after test.h. */
+/* session_help.h - command lines that must succeed or fail. Include after test.h. */
 #pragma once
 #include "base/error.h"
 #include "document/document.h"

@@ -1,4 +1,4 @@
-/* test_sheets.c - cells arranged for other programs: every texel of repeats, half-drops, bricks and atlases computed
+/* test_cell_sheets.c - cells arranged for other programs: every texel of repeats, half-drops, bricks and atlases computed
    from the table's, hexagonal lattices and n + 1 samples against a formula, mip levels as files against recomputed
    means. */
 #include "test.h"

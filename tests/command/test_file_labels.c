@@ -1,4 +1,4 @@
-/* test_labels.c - labels of exported files are read back: heights of any range, signed ones, normal maps; forged
+/* test_file_labels.c - labels of exported files are read back: heights of any range, signed ones, normal maps; forged
    labels are ignored. */
 #include "test.h"
 #include "test_folder.h"

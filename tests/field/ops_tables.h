@@ -1,4 +1,4 @@
-/* test_ops_tables.h - tables for the tests of table operations. */
+/* ops_tables.h - tables for the tests of table operations. */
 #pragma once
 #include "base/error.h"
 #include "base/hash.h"

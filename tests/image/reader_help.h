@@ -1,4 +1,4 @@
-/* helper_help.h - shared helpers of the tests of the reader process: process queries, and pictures that must or must
+/* reader_help.h - shared helpers of the tests of the reader process: process queries, and pictures that must or must
    not be readable. */
 #pragma once
 #include "base/error.h"

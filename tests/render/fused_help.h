@@ -1,4 +1,4 @@
-/* kern_wide_help.h - shared helpers of the tests of fused kernels: instruction sets, spheres seen from outside,
+/* fused_help.h - shared helpers of the tests of fused kernels: instruction sets, spheres seen from outside,
    comparison of two strips. */
 #pragma once
 #include "test.h"

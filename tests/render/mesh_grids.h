@@ -1,4 +1,4 @@
-/* test_mesh_grids.h - meshes sampled from surfaces, for the renderer tests. Include after test_render_scenes.h. */
+/* mesh_grids.h - meshes sampled from surfaces, for the renderer tests. Include after render_scenes.h. */
 #pragma once
 #include "base/error.h"
 #include "base/exactmath.h"

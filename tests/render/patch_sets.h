@@ -1,4 +1,4 @@
-/* test_patch_sets.h - sets of bicubic patches for tests, and an independent computation of their edges. Include after
+/* patch_sets.h - sets of bicubic patches for tests, and an independent computation of their edges. Include after
    test.h. */
 #pragma once
 #include "base/error.h"

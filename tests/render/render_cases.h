@@ -1,4 +1,4 @@
-/* test_render_cases.h - scenes that together cover all paths through the renderer, for tests of common properties.
+/* render_cases.h - scenes that together cover all paths through the renderer, for tests of common properties.
    Include after test.h. */
 #pragma once
 #include "render_scenes.h"

@@ -1,4 +1,4 @@
-/* test_render_scenes.h - scenes, their pictures and comparisons, for the renderer tests. Include after test.h. */
+/* render_scenes.h - scenes, their pictures and comparisons, for the renderer tests. Include after test.h. */
 #pragma once
 #include "base/error.h"
 #include "field/field.h"

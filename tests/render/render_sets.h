@@ -1,4 +1,4 @@
-/* test_render_sets.h - several random objects, separately and together, for tests of multi-object pictures. Include
+/* render_sets.h - several random objects, separately and together, for tests of multi-object pictures. Include
    after test.h. */
 #pragma once
 #include "scene/objects.h"

@@ -1,4 +1,4 @@
-/* test_render_tint.c - colour texture over the footprints of pixels: its means against pictures with many samples per
+/* test_color_mips.c - colour texture over the footprints of pixels: its means against pictures with many samples per
    pixel; tiling. */
 #include "test.h"
 #include "render_scenes.h"

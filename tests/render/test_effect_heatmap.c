@@ -1,4 +1,4 @@
-/* test_map.c - the effect map of a picture matches the effects that ran: compared with the counts of the plan's rows
+/* test_effect_heatmap.c - the effect map of a picture matches the effects that ran: compared with the counts of the plan's rows
    and with pictures known pixel by pixel. */
 #include "test.h"
 #include "render_scenes.h"

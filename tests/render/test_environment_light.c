@@ -1,4 +1,4 @@
-/* test_surround.c - environment light: its picture and spherical harmonics against closed forms, pictures against the
+/* test_environment_light.c - environment light: its picture and spherical harmonics against closed forms, pictures against the
    integral over all directions. */
 #include "test.h"
 #include "field/scheme_list.h"

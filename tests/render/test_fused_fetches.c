@@ -1,4 +1,4 @@
-/* test_kern_wide_look.c - table and texture fetches of fused kernels, against the stages in the plain C of "ref". */
+/* test_fused_fetches.c - table and texture fetches of fused kernels, against the stages in the plain C of "ref". */
 #include "fused_help.h"
 #include "field/scheme_list.h"
 

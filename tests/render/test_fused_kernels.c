@@ -1,5 +1,5 @@
-/* test_kern_wide.c - fused kernels against the separate stages in the plain C of "ref": codes are equal, other values
-   within the bound of fast arithmetic. Fetches of tables and textures: test_kern_wide_look.c. */
+/* test_fused_kernels.c - fused kernels against the separate stages in the plain C of "ref": codes are equal, other values
+   within the bound of fast arithmetic. Fetches of tables and textures: test_fused_fetches.c. */
 #include "fused_help.h"
 
 #include "render/frame/srgb_encode.h"

@@ -1,4 +1,4 @@
-/* test_render_relief.c - slopes of a normal map are added to the table's: the map of a table produces the picture of
+/* test_normal_mips.c - slopes of a normal map are added to the table's: the map of a table produces the picture of
    that table, alone and beside another; filtered like the table. */
 #include "test.h"
 #include "field/scheme_list.h"

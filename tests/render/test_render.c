@@ -342,7 +342,7 @@ static int samples_apart(const Shot *a, const Shot *b, float most)
     return count;
 }
 
-/* Spheres have special kernels there (kern_wide.h): with one light, before other stages, and fallback where these do
+/* Spheres have special kernels there (sphere_rows.h): with one light, before other stages, and fallback where these do
    not apply, as from inside. Rounding may decide whether a sample at the silhouette is a hit. */
 static void fast_spheres_stay_near_the_exact_ones(void **state)
 {

@@ -1,4 +1,4 @@
-/* test_grain.c - solid textures: pictures against the reference, which has separate formulas and noise, in single and
+/* test_solid_textures.c - solid textures: pictures against the reference, which has separate formulas and noise, in single and
    double precision, on surfaces at random rotations; as colours and as bumps; filtered ones against its many samples.
    All samples agree, except five of a thousand on the torus: its hits come from Newton's method, and a point within
    rounding of a step's edge may be on either side. */

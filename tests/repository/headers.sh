@@ -23,6 +23,10 @@ by_cpp=$(included '*.cpp') by_c=$(included '*.[ch]')
 proved=$(sed -nE "s|^ *\"file\": \"$PWD/((src\|ui)/[^\"]*\.c)\".*|\1|p" "$commands" | sort -u |
     xargs awk 'FNR == 1 { header = FILENAME; sub(/\.c$/, ".h", header); name = header; sub(/^src\//, "", name) }
         /^[ \t]*#/ { if ($0 == "#include \"" name "\"") print header; nextfile }')
+# Heads that name a file: it is this one.
+misnamed=$(find src ui tests -name '*.[ch]' -exec awk 'FNR == 1 && $2 ~ /\.[ch]$/ && $3 == "-" {
+    name = FILENAME; sub(/.*\//, "", name); if ($2 != name) print FILENAME ": its head names " $2 }' {} +)
+[[ -z $misnamed ]] || { printf '%s\n' "$misnamed"; bad=1; }
 without_once=$(find src ui tests -name '*.h' -exec grep -L '^#pragma once' {} +)
 # has LINES LINE: one of the lines is exactly that one; without a process.
 has() { [[ $'\n'$1$'\n' == *$'\n'"$2"$'\n'* ]]; }

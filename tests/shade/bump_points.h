@@ -1,4 +1,4 @@
-/* test_bump_points.h - shared helpers of the tests of the normal formulas. */
+/* bump_points.h - shared helpers of the tests of the normal formulas. */
 #pragma once
 #include "base/exactmath.h"
 #include "shade/bump.h"

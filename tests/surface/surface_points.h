@@ -1,4 +1,4 @@
-/* test_surface_points.h - shared helpers of the surface tests: the formulas in both precisions, and members of a
+/* surface_points.h - shared helpers of the surface tests: the formulas in both precisions, and members of a
    point by index. */
 #pragma once
 #include "surface/precision.h"

@@ -1,4 +1,4 @@
-/* test_app.h - a complete window without a display, for tests that send events. Include after test.h. */
+/* app.h - a complete window without a display, for tests that send events. Include after test.h. */
 #pragma once
 #include "window.h"
 

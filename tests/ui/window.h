@@ -1,4 +1,4 @@
-/* test_window.h - group of tests with a hidden window: cmocka_run_group_tests(tests, enter_window, remove_folder).
+/* window.h - group of tests with a hidden window: cmocka_run_group_tests(tests, enter_window, remove_folder).
    Include after test.h. */
 #pragma once
 #include "test_folder.h"

@@ -128,13 +128,9 @@ WrProbeMap wr_accuracy_map_of(WrPatchLook look);
 /* ---- accuracy_input.c ---- */
 void wr_accuracy_new(WrApp *app);
 void wr_accuracy_free(WrApp *app);
-/* Fetch finished work and start due work; once before each frame. */
-void wr_accuracy_update(WrApp *app);
 /* True if a measurement is running or due; alternating pictures do not count. */
 bool wr_accuracy_pending(const WrApp *app);
 /* clock of the next necessary update; 0: only after events */
-double wr_accuracy_next_time(const WrApp *app);
-bool wr_accuracy_works(WrApp *app);       /* a progress bar is visible */
 void wr_accuracy_forget(WrApp *app);      /* drop textures, which were lost */
 bool wr_accuracy_rests(const WrApp *app); /* nothing is dragged, drawn or rotating */
 /* True if there is a ladder for the table and the scene, except for the dials. */
@@ -170,13 +166,10 @@ void wr_accuracy_lay(WrApp *app, const WrWork *work);
 
 /* ---- panels ---- */
 void wr_panel_accuracy(WrApp *app);
-void wr_panel_accuracy_dials(WrApp *app);     /* panel_accuracy_dials.c */
-void wr_panel_accuracy_tolerance(WrApp *app); /* panel_accuracy_dials.c */
-void wr_panel_illusion(WrApp *app);           /* panel_illusion.c */
-void wr_panel_accuracy_plot(WrApp *app);      /* panel_accuracy_plot.c */
-void wr_panel_inspector(WrApp *app);          /* panel_inspector.c */
-void wr_inspector_follow(WrApp *app);         /* update its position, before each frame */
-void wr_dialog_cases(WrApp *app);             /* panel_cases.c */
+void wr_panel_illusion(WrApp *app);
+void wr_panel_inspector(WrApp *app);
+void wr_inspector_follow(WrApp *app); /* update its position, before each frame */
+void wr_dialog_cases(WrApp *app);
 void wr_dialog_cases_open(WrApp *app);
 
 /* ---- actions_accuracy.c ---- */

@@ -326,7 +326,8 @@ static void note_times(WrApp *app)
     app->accuracy->full_times.kept = NULL;
 }
 
-void wr_accuracy_update(WrApp *app)
+/* Fetch finished work and start due work; once before each frame. */
+static void accuracy_update(WrApp *app)
 {
     WrAccuracy *a = app->accuracy;
     if (app->drawn_at == 0.0) return;
@@ -367,7 +368,7 @@ bool wr_accuracy_pending(const WrApp *app)
            wr_job_busy(a->prober, NULL, NULL) || next_work(app) > 0.0;
 }
 
-double wr_accuracy_next_time(const WrApp *app)
+static double accuracy_next_time(const WrApp *app)
 {
     const WrAccuracy *a = app->accuracy;
     double due = next_work(app), next;
@@ -385,16 +386,17 @@ bool wr_accuracy_busy(WrApp *app, WrWorkKind kind, double *fraction)
     return a->measuring && a->measures == kind && wr_job_busy(a->measure, fraction, NULL);
 }
 
-bool wr_accuracy_works(WrApp *app)
+/* a progress bar is visible */
+static bool accuracy_works(WrApp *app)
 {
     return wr_accuracy_busy(app, WR_WORK_LADDER, NULL) ||
            wr_accuracy_busy(app, WR_WORK_ILLUSION, NULL) ||
            wr_accuracy_busy(app, WR_WORK_CASES, NULL);
 }
 
-const WrPart wr_part_accuracy = { .update = wr_accuracy_update,
-                                  .next_time = wr_accuracy_next_time,
-                                  .works = wr_accuracy_works,
+const WrPart wr_part_accuracy = { .update = accuracy_update,
+                                  .next_time = accuracy_next_time,
+                                  .works = accuracy_works,
                                   .draw = wr_accuracy_draw,
                                   .forget = wr_accuracy_forget };
 

@@ -44,8 +44,7 @@ static void show(WrApp *app)
         "A is the scene with its own dials, B has dials of its own. Split has a line to drag. Maps "
         "lie over the patch: its distance from the reference, the error of the small-F "
         "approximation of the paper, the angle by which the normal turns, the number of texels in "
-        "a "
-        "pixel. The patch stands still for all of them. Effects that ran have the colours of the "
+        "a pixel. The patch stands still for all of them. Effects that ran have the colours of the "
         "plan, and are as live as the picture.");
 }
 
@@ -207,35 +206,6 @@ static void stages(WrApp *app)
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_MUTED, words);
 }
 
-/* ---- whole tab ---- */
-
-void wr_panel_accuracy(WrApp *app)
-{
-    WrAccuracy *a = app->accuracy;
-    a->error_open = true;
-    show(app);
-    wr_gui_space(8);
-    error(app);
-    stages(app);
-    wr_gui_space(8);
-    wr_panel_accuracy_plot(app);
-    wr_gui_space(8);
-    wr_panel_accuracy_dials(app);
-    wr_gui_space(8);
-    wr_panel_illusion(app);
-    wr_gui_space(8);
-    wr_gui_heading("HARD CASES");
-    if (wr_gui_button("Hard cases...", false)) wr_action_run(app, WR_ACT(hard_cases));
-    wr_gui_tip("120 inputs at which a naive program fails: the required result, and the error of "
-               "this one");
-    if (a->inspector.shown && app->layout->lower.w <= 0) {
-        wr_gui_space(8);
-        wr_gui_heading("INSPECTOR");
-        wr_panel_inspector(app);
-    }
-    wr_gui_space(8);
-}
-
 /* ---- dials of the scene or of the compared side, built from their table ---- */
 
 /* And the tolerance, which sets them by measurement. */
@@ -306,7 +276,7 @@ static void chosen(WrApp *app)
                "picture, and the tolerance is switched off");
 }
 
-void wr_panel_accuracy_tolerance(WrApp *app)
+static void panel_accuracy_tolerance(WrApp *app)
 {
     WR_ROWS(fresh);
     static const struct {
@@ -409,14 +379,14 @@ static void which_side(WrApp *app)
     wr_gui_tip("The scene gets B's dials, B the scene's");
 }
 
-void wr_panel_accuracy_dials(WrApp *app)
+static void panel_accuracy_dials(WrApp *app)
 {
     wr_gui_heading("DIALS");
     which_side(app);
     const int side = app->accuracy->chooses;
     if (side == 0) {
         wr_busy_hold(app);
-        wr_panel_accuracy_tolerance(app);
+        panel_accuracy_tolerance(app);
     }
     WrScene *scene = wr_accuracy_scene(app, side), *plain = wr_scene_new();
     for (int axis = 0; axis < WR_AXIS_COUNT; axis++) {
@@ -641,11 +611,40 @@ static void field(WrApp *app)
     if (clicked >= 0) wr_accuracy_take_rung(app, a->chooses, clicked);
 }
 
-void wr_panel_accuracy_plot(WrApp *app)
+static void panel_accuracy_plot(WrApp *app)
 {
     WrAccuracy *a = app->accuracy;
     wr_gui_heading("WHAT IT COSTS");
     a->plot_open = wr_gui_will_see(wr_gui_px(PLOT_UNITS));
     field(app);
     foot(app);
+}
+
+/* ---- whole tab ---- */
+
+void wr_panel_accuracy(WrApp *app)
+{
+    WrAccuracy *a = app->accuracy;
+    a->error_open = true;
+    show(app);
+    wr_gui_space(8);
+    error(app);
+    stages(app);
+    wr_gui_space(8);
+    panel_accuracy_plot(app);
+    wr_gui_space(8);
+    panel_accuracy_dials(app);
+    wr_gui_space(8);
+    wr_panel_illusion(app);
+    wr_gui_space(8);
+    wr_gui_heading("HARD CASES");
+    if (wr_gui_button("Hard cases...", false)) wr_action_run(app, WR_ACT(hard_cases));
+    wr_gui_tip("120 inputs at which a naive program fails: the required result, and the error of "
+               "this one");
+    if (a->inspector.shown && app->layout->lower.w <= 0) {
+        wr_gui_space(8);
+        wr_gui_heading("INSPECTOR");
+        wr_panel_inspector(app);
+    }
+    wr_gui_space(8);
 }

@@ -17,7 +17,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-double wr_window_scale(SDL_Window *window)
+/* scale set by the desktop, or by its display, in steps of 1/4 */
+static double window_scale(SDL_Window *window)
 {
     float dpi = (float)wr_desktop_dpi(window);
     int display = SDL_GetWindowDisplayIndex(window);
@@ -124,11 +125,11 @@ bool wr_window_open(WrApp *app)
     SDL_SetWindowMinimumSize(app->window, 640, 420);
     SDL_SetRenderDrawBlendMode(app->renderer, SDL_BLENDMODE_BLEND);
     SDL_EventState(SDL_DROPFILE, SDL_ENABLE);
-    app->display_scale = wr_window_scale(app->window);
+    app->display_scale = window_scale(app->window);
     return true;
 }
 
-void wr_window_keep(WrApp *app)
+static void window_keep(WrApp *app)
 {
     SDL_Rect room, now, fits;
     int top, left, bottom, right, display = SDL_GetWindowDisplayIndex(app->window);
@@ -154,9 +155,9 @@ static void window_event(WrApp *app, const SDL_WindowEvent *event)
     case SDL_WINDOWEVENT_EXPOSED:
     case SDL_WINDOWEVENT_RESTORED:
         app->visible = true;
-        wr_window_keep(app);
+        window_keep(app);
         break;
-    case SDL_WINDOWEVENT_MOVED: wr_window_keep(app); break;
+    case SDL_WINDOWEVENT_MOVED: window_keep(app); break;
     case SDL_WINDOWEVENT_MAXIMIZED:
         app->visible = true;
         app->settings->maximized = true;
@@ -174,7 +175,7 @@ static void window_event(WrApp *app, const SDL_WindowEvent *event)
             app->settings->maximized = false;
         break;
     case SDL_WINDOWEVENT_FOCUS_GAINED: /* the desktop's scale may have changed */
-    case SDL_WINDOWEVENT_DISPLAY_CHANGED: app->display_scale = wr_window_scale(app->window); break;
+    case SDL_WINDOWEVENT_DISPLAY_CHANGED: app->display_scale = window_scale(app->window); break;
     default: break;
     }
 }

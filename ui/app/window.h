@@ -7,9 +7,6 @@
 
 /* hidden, with its renderer; false: the cause is in SDL_GetError */
 bool wr_window_open(WrApp *app);
-double wr_window_scale(
-    SDL_Window *window); /* scale set by the desktop, or by its display, in steps of 1/4 */
 /* Keep the window with its decoration inside the desktop's usable area, so that the status line is visible. The
    decoration is known only after the window is shown; checked until the first user input. */
-void wr_window_keep(WrApp *app);
 void wr_window_event(WrApp *app, const SDL_Event *event);

@@ -134,16 +134,11 @@ bool wr_generate_preset_delete(WrApp *app, int index);
 
 /* ---- panel_generate.c ---- */
 void wr_panel_generate(WrApp *app, SDL_Rect room);
-void wr_panel_generate_values(WrApp *app); /* panel_generate_values.c */
 
 /* ---- tool_pose.c ---- */
 
 /* ---- points of generators with several positions ---- */
 /* handled: the generator has points now */
-bool wr_pose_points_press(WrApp *app, const WrPointer *at);
-void wr_pose_points_drag(WrApp *app, const WrPointer *at);
-bool wr_pose_points_marks(const WrApp *app);            /* it has points */
-bool wr_pose_points_taken(const WrGenerateState *hand); /* it may have points */
 
 extern const WrPart wr_part_generate;
 

@@ -307,7 +307,7 @@ static bool parameters(WrApp *app)
     return changed;
 }
 
-void wr_panel_generate_values(WrApp *app)
+static void panel_generate_values(WrApp *app)
 {
     WrGenerateState *hand = app->generate;
     bool changed = parameters(app);
@@ -566,7 +566,7 @@ void wr_panel_generate(WrApp *app, SDL_Rect room)
         char name[40]; /* each generator has its own scroll position */
         snprintf(name, sizeof name, "##generate_values%d", hand->opened % 64);
         wr_gui_area_begin(name, WR_AREA_PANEL, room, WR_COLOUR_LIST);
-        wr_panel_generate_values(app);
+        panel_generate_values(app);
         wr_gui_area_end();
     }
     wr_gui_area_begin("##generate_foot", WR_AREA_BAR, low, WR_COLOUR_BAR);

@@ -44,7 +44,8 @@ static int points_param(const WrGenerateState *hand)
     return -1;
 }
 
-bool wr_pose_points_taken(const WrGenerateState *hand)
+/* it may have points */
+static bool pose_points_taken(const WrGenerateState *hand)
 {
     return points_param(hand) >= 0;
 }
@@ -108,7 +109,7 @@ static WrSelectPoint place(const WrApp *app, const Points *points, const WrPoint
     return (WrSelectPoint){ at->u + home.u, at->v + home.v };
 }
 
-bool wr_pose_points_press(WrApp *app, const WrPointer *at)
+static bool pose_points_press(WrApp *app, const WrPointer *at)
 {
     WrGenerateState *hand = app->generate;
     Points points;
@@ -134,7 +135,7 @@ bool wr_pose_points_press(WrApp *app, const WrPointer *at)
     return points.count > 0 || (at->mods & WR_MOD_CTRL);
 }
 
-void wr_pose_points_drag(WrApp *app, const WrPointer *at)
+static void pose_points_drag(WrApp *app, const WrPointer *at)
 {
     WrGenerateState *hand = app->generate;
     Points points;
@@ -146,7 +147,8 @@ void wr_pose_points_drag(WrApp *app, const WrPointer *at)
     write_points(app, param, &points);
 }
 
-bool wr_pose_points_marks(const WrApp *app)
+/* it has points */
+static bool pose_points_marks(const WrApp *app)
 {
     const WrGenerateState *hand = app->generate;
     Points points;
@@ -315,7 +317,7 @@ static void press(WrApp *app, const WrPointer *at)
     app->hints = false;
     if (!hand->generator) return;
     Pose pose = pose_of(hand);
-    bool took = wr_pose_points_press(app, at);
+    bool took = pose_points_press(app, at);
     hand->held = took ? WR_POSE_POINT : WR_POSE_NONE;
     if (took || pose.place < 0) return;
     double x, y;
@@ -373,7 +375,7 @@ static void drag(WrApp *app, const WrPointer *at)
     if (!hand->generator || hand->held == WR_POSE_NONE || !moved) return;
     Pose pose = pose_of(hand);
     if (hand->held == WR_POSE_POINT) {
-        wr_pose_points_drag(app, at);
+        pose_points_drag(app, at);
         return;
     }
     if (hand->held == WR_POSE_SIZE) resize(app, &pose, at);
@@ -444,7 +446,7 @@ static void marks(WrApp *app)
     const WrGenerateState *hand = app->generate;
     double x, y;
     if (!is_shown(app)) return;
-    bool points = wr_pose_points_marks(app); /* the points then set the position */
+    bool points = pose_points_marks(app); /* the points then set the position */
     Pose pose = pose_of(hand);
     if (pose.place < 0 || points) return;
     middle(app, &pose, &x, &y);
@@ -490,7 +492,7 @@ static void options(WrApp *app)
                 pose.turn >= 0   ? "Drag it on the table; the corner sizes it, the ring turns it"
                 : pose.size >= 0 ? "Drag it on the table; the corner sizes it"
                                  : "Drag it on the table");
-    bool path = wr_pose_points_taken(hand);
+    bool path = pose_points_taken(hand);
     if (!path || app->width < wr_gui_px(1400)) return;
     wr_gui_same_line(0);
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "; Ctrl and a click begins a path");

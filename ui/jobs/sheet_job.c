@@ -107,7 +107,9 @@ static WrSet *set_of_kind(const WrExportKind *kind, WrError *err)
     return set;
 }
 
-WrSet *wr_sheet_set(const WrSheetRequest *ask, WrError *err)
+/* The requested maps: the set with its depth and range, or a kind as a set of one map. The caller frees it; NULL on
+   failure. */
+static WrSet *sheet_set(const WrSheetRequest *ask, WrError *err)
 {
     const WrExportKind *kind = wr_export_find(ask->as);
     WrSet *set = kind ? set_of_kind(kind, err) : wr_set_find(ask->as, err);
@@ -195,7 +197,7 @@ static void measure(WrSheetLook *look, WrPool *pool)
 static void run_look(void *work, WrPool *pool, const WrProgress *progress)
 {
     WrSheetLook *look = work;
-    look->set = wr_sheet_set(&look->ask, &look->err);
+    look->set = sheet_set(&look->ask, &look->err);
     if (!look->set) return;
     measure(look, pool);
     int w = look->width, h = look->height;
@@ -243,7 +245,7 @@ static void run_write(void *work, WrPool *pool, const WrProgress *progress)
     WrSheetWrite *write = work;
     const WrSheetRequest *ask = &write->ask;
     const double began = wr_clock_seconds();
-    WrSet *set = wr_sheet_set(ask, &write->err);
+    WrSet *set = sheet_set(ask, &write->err);
     if (set) {
         const WrField *field = wr_document_composite(write->document, pool);
         int w = wr_field_width(field), h = wr_field_height(field);

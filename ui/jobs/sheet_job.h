@@ -15,9 +15,6 @@ typedef struct WrDocument WrDocument;
 
 #define WR_SHEET_PICTURE 96 /* largest size of a picture's longer side, texels */
 
-/* The requested maps: the set with its depth and range, or a kind as a set of one map. The caller frees it; NULL on
-   failure. */
-WrSet *wr_sheet_set(const WrSheetRequest *ask, WrError *err);
 /* Change w x h to the requested export size. */
 void wr_sheet_size(int size, int *w, int *h);
 /* Bits per channel of the map. */

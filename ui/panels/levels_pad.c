@@ -49,7 +49,7 @@ static void count(WrHeightCounts *h, const WrField *field)
         h->most = h->count[k] > h->most ? h->count[k] : h->most;
 }
 
-double wr_height_x(const WrPad *pad, WrHeightSpan span, double height)
+static double height_x(const WrPad *pad, WrHeightSpan span, double height)
 {
     return pad->x + pad->w * (height - span.low) / (span.high - span.low);
 }
@@ -60,8 +60,8 @@ void wr_height_bars(const WrPad *pad, WrHeightSpan span, const WrHeightCounts *h
     for (int k = 0; k < WR_HEIGHT_BINS; k++) {
         /* square root, to show rare heights */
         double tall = pad->h * sqrt((double)h->count[k] / h->most);
-        double x = wr_height_x(pad, span, h->low + k * bin),
-               right = wr_height_x(pad, span, h->low + (k + 1) * bin);
+        double x = height_x(pad, span, h->low + k * bin),
+               right = height_x(pad, span, h->low + (k + 1) * bin);
         if (tall > 0.0)
             wr_gui_draw_fill(x, pad->y + pad->h - tall, fmax(right - x, 1.0), tall, 0xff6a6a6au, 0);
     }
@@ -74,8 +74,7 @@ static void curve(const WrPad *pad, WrHeightSpan span, double low, double high, 
     for (int k = 0; k <= STEPS; k++) {
         double height = span.low + (span.high - span.low) * k / STEPS;
         double t = high > low ? fmin(fmax((height - low) / (high - low), 0.0), 1.0) : 0.0;
-        double x = wr_height_x(pad, span, height),
-               y = pad->y + pad->h * (1.0 - pow(t, 1.0 / gamma));
+        double x = height_x(pad, span, height), y = pad->y + pad->h * (1.0 - pow(t, 1.0 / gamma));
         if (k) wr_gui_draw_line(before_x, before_y, x, y, WR_COLOUR_CELL, wr_gui_px(1));
         before_x = x;
         before_y = y;
@@ -103,7 +102,7 @@ bool wr_levels_pad(WrApp *app)
     wr_height_bars(&pad, span, h);
     curve(&pad, span, *low, *high, adjust->param[index_of(adjust->op, "gamma")]);
     for (int k = 0; k < 2; k++) {
-        double x = wr_height_x(&pad, span, k ? *high : *low);
+        double x = height_x(&pad, span, k ? *high : *low);
         wr_gui_draw_line(x, pad.y, x, pad.y + pad.h, k ? 0xfff4f4f4u : WR_COLOUR_ACCENT,
                          wr_gui_px(2));
     }
@@ -112,8 +111,8 @@ bool wr_levels_pad(WrApp *app)
         wr_gui_tip("Histogram of the heights. Drag the blue line to the height that becomes low, "
                    "the white one to the height that becomes high");
     if (pad.pressed) {
-        bool nearer_high = fabs(pad.pointer_x - wr_height_x(&pad, span, *high)) <
-                           fabs(pad.pointer_x - wr_height_x(&pad, span, *low));
+        bool nearer_high = fabs(pad.pointer_x - height_x(&pad, span, *high)) <
+                           fabs(pad.pointer_x - height_x(&pad, span, *low));
         adjust->held = nearer_high ? 2 : 1;
         adjust->held_span = span;
     }

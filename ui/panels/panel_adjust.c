@@ -26,7 +26,7 @@
 
 static const char prefix[] = "adjust_";
 
-const WrOpInfo *wr_action_op(const char *name)
+static const WrOpInfo *action_op(const char *name)
 {
     size_t length = sizeof prefix - 1;
     return strncmp(name, prefix, length) == 0 ? wr_op_find(name + length) : NULL;
@@ -96,7 +96,7 @@ static void ask_values(WrApp *app, const WrFilter *filter, bool filters, int lay
     ask(app);
 }
 
-void wr_dialog_adjust_open(WrApp *app, const WrOpInfo *op)
+static void dialog_adjust_open(WrApp *app, const WrOpInfo *op)
 {
     if (wr_busy_refuse(app)) return;
     WrFilter filter = wr_filter_of(op);
@@ -105,7 +105,7 @@ void wr_dialog_adjust_open(WrApp *app, const WrOpInfo *op)
     ask_values(app, &filter, false, -1);
 }
 
-void wr_dialog_filter_open(WrApp *app, const WrOpInfo *op)
+static void dialog_filter_open(WrApp *app, const WrOpInfo *op)
 {
     if (wr_busy_refuse(app)) return;
     const WrFilter filter = wr_filter_of(op);
@@ -314,8 +314,8 @@ void wr_dialog_adjust(WrApp *app)
 
 bool wr_adjust_by_name(WrApp *app, const char *name)
 {
-    const WrOpInfo *op = wr_action_op(name);
-    if (op) wr_dialog_adjust_open(app, op);
+    const WrOpInfo *op = action_op(name);
+    if (op) dialog_adjust_open(app, op);
     return op != NULL;
 }
 
@@ -337,6 +337,6 @@ bool wr_filter_by_name(WrApp *app, const char *name)
     const bool ours = strncmp(name, start, sizeof start - 1) == 0;
     const WrOpInfo *op = ours ? wr_op_find(name + sizeof start - 1) : NULL;
     if (op && op->reshapes) op = NULL;
-    if (op) wr_dialog_filter_open(app, op);
+    if (op) dialog_filter_open(app, op);
     return op != NULL;
 }

@@ -44,11 +44,8 @@ typedef struct WrAdjust {
 } WrAdjust;
 
 /* The operation of an action "adjust_NAME", or NULL. */
-const WrOpInfo *wr_action_op(const char *name);
-void wr_dialog_adjust_open(WrApp *app, const WrOpInfo *op);
 void wr_dialog_adjust(WrApp *app);
 /* Open the dialog for a new filter layer; and for the values of the active layer, if it is a filter. */
-void wr_dialog_filter_open(WrApp *app, const WrOpInfo *op);
 void wr_filter_edit(WrApp *app);
 /* Component that frees the composite below a filter when the document is replaced, and reports once a filter that
    cannot be computed. */
@@ -61,7 +58,6 @@ bool wr_curves_pad(WrApp *app);
 /* Histogram of the heights that the dialog changes; valid until the next call. */
 const WrHeightCounts *wr_height_counts(WrApp *app);
 /* Position of a height in the pad, in pixels of the window. */
-double wr_height_x(const WrPad *pad, WrHeightSpan span, double height);
 void wr_height_bars(const WrPad *pad, WrHeightSpan span, const WrHeightCounts *h);
 
 /* ---- actions "adjust_NAME" and "filter_NAME"; see WrActionFamily ---- */

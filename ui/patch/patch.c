@@ -293,7 +293,7 @@ void wr_patch_free(WrApp *app)
 
 /* ---- drawing ---- */
 
-void wr_patch_draw(WrApp *app)
+static void patch_draw(WrApp *app)
 {
     const SDL_Rect *room = &app->layout->patch;
     WrPatch *p = app->patch;
@@ -396,7 +396,7 @@ static void forget(WrApp *app)
 const WrPart wr_part_patch = { .update = wr_patch_update,
                                .next_time = wr_patch_next_time,
                                .look = wr_patch_look,
-                               .draw = wr_patch_draw,
+                               .draw = patch_draw,
                                .settle = settle,
                                .another = another,
                                .forget = forget };

@@ -162,7 +162,8 @@ void wr_busy_fail(WrApp *app, const char *what, const WrError *err)
     else wr_app_fail(app, err);
 }
 
-void wr_busy_cancel(WrBusy *busy)
+/* Cancel for the user: the work ends soon. */
+static void busy_cancel(WrBusy *busy)
 {
     busy->cancelled = true;
     wr_job_interrupt(busy->job);
@@ -278,7 +279,7 @@ bool wr_busy_event(WrApp *app, const SDL_Event *event)
         return true;
     }
     if (!gives_up(app, event)) return false;
-    wr_busy_cancel(busy);
+    busy_cancel(busy);
     return true;
 }
 
@@ -361,7 +362,7 @@ static void bar(WrApp *app, bool refused, double now)
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, busy->cancelled ? "cancelling" : left);
     wr_gui_same_line(12);
     wr_gui_move_to(end + wr_gui_px(160));
-    if (wr_gui_chip(NULL, "Cancel")) wr_busy_cancel(busy);
+    if (wr_gui_chip(NULL, "Cancel")) busy_cancel(busy);
     wr_gui_tip("Escape");
     if (waits) drop_button(app);
 }

@@ -45,8 +45,6 @@ struct WrBusy {
 bool wr_busy_begin(WrApp *app, const WrBusy *busy);
 /* Wait until the work is done; not inside a frame, except if it began there. */
 void wr_busy_wait(WrApp *app);
-/* Cancel for the user: the work ends soon. */
-void wr_busy_cancel(WrBusy *busy);
 /* Finish completed work: the window gets the session back. Returns the result; err may be NULL. */
 bool wr_busy_end(WrApp *app, WrError *err);
 

@@ -35,7 +35,7 @@ typedef enum WrGrab {
     WR_GRAB_HANDLE    /* handle of the active object on the patch */
 } WrGrab;
 
-/* True for a drag handled by patch_hand.c. */
+/* True for a drag handled by patch_input.c. */
 static inline bool wr_grab_on_patch(WrGrab grab)
 {
     return grab == WR_GRAB_ORBIT || grab == WR_GRAB_LIGHT || grab == WR_GRAB_SURROUND ||

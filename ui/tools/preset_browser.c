@@ -32,7 +32,8 @@ const WrLibrary *wr_preset_browser_library(WrApp *app)
     return app->shelf->library;
 }
 
-void wr_preset_browser_refresh(WrApp *app)
+/* Scan again after presets were saved or removed. */
+static void preset_browser_refresh(WrApp *app)
 {
     wr_library_free(app->shelf->library);
     app->shelf->library = NULL;
@@ -153,7 +154,8 @@ void wr_preset_browser_tune(WrApp *app, const char *name, double value)
     wr_text_fini(&set);
 }
 
-bool wr_preset_browser_tip(WrApp *app, const char *path)
+/* Use a picture as tip, NULL: none. Deselects the preset. */
+static bool preset_browser_tip(WrApp *app, const char *path)
 {
     WrTip *tip = NULL;
     WrError err;
@@ -295,7 +297,7 @@ bool wr_preset_browser_save(WrApp *app, const char *name)
     if (!ok) return false;
     WrText id = { 0 };
     wr_text_addf(&id, "user/%s", name);
-    wr_preset_browser_refresh(app);
+    preset_browser_refresh(app);
     ok = wr_preset_browser_choose(app, wr_text_get(&id));
     if (ok) wr_app_say(app, "Saved the brush as %s", name);
     wr_text_fini(&id);
@@ -322,7 +324,7 @@ bool wr_preset_browser_delete(WrApp *app, const char *id)
     wr_app_say(app, "Removed %s", entry->name);
     wr_settings_set_favourite(app->settings, id, false);
     if (strcmp(id, wr_preset_browser_chosen(app)) == 0) wr_preset_browser_choose(app, WR_ROUND);
-    wr_preset_browser_refresh(app);
+    preset_browser_refresh(app);
     return true;
 }
 
@@ -348,7 +350,7 @@ void wr_preset_browser_start(WrApp *app)
         values.tip = NULL;
     }
     s->brush = values;
-    if (s->tip) wr_preset_browser_tip(app, s->tip);
+    if (s->tip) preset_browser_tip(app, s->tip);
     if (!s->used[0]) wr_settings_note_used(s, wr_preset_browser_chosen(app));
     wr_symmetry_apply(app);
 }

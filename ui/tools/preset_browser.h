@@ -44,8 +44,6 @@ typedef struct WrPresetBrowser {
 
 /* The library; scans the folders at the first call. */
 const WrLibrary *wr_preset_browser_library(WrApp *app);
-/* Scan again after presets were saved or removed. */
-void wr_preset_browser_refresh(WrApp *app);
 /* Index in the library, or -1: the round brush, or missing. */
 int wr_preset_browser_find(WrApp *app, const char *id);
 /* Id of the chosen preset, WR_ROUND without one. */
@@ -58,8 +56,6 @@ WrBrush wr_preset_browser_own(const WrApp *app);
 void wr_preset_browser_tune(WrApp *app, const char *name, double value);
 /* override all at once; NULL: restore all */
 void wr_preset_browser_tune_all(WrApp *app, const char *set);
-/* Use a picture as tip, NULL: none. Deselects the preset. */
-bool wr_preset_browser_tip(WrApp *app, const char *path);
 /* Save the brush as a user preset, and choose it. */
 bool wr_preset_browser_save(WrApp *app, const char *name);
 /* the same, with a question if the name exists */

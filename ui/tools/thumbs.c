@@ -226,7 +226,7 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
 
 /* ---- on the window's thread ---- */
 
-void wr_thumbs_forget(WrApp *app)
+static void thumbs_forget(WrApp *app)
 {
     WrThumbs *thumbs = app->shelf->thumbs;
     if (!thumbs) return;
@@ -242,7 +242,7 @@ static WrThumbs *thumbs_of(WrApp *app)
     static const WrJobKind kind = { run, drop };
     WrThumbs *there = app->shelf->thumbs;
     if (there && there->of != app->shelf->serial) { /* another library */
-        wr_thumbs_forget(app);
+        thumbs_forget(app);
         there->of = app->shelf->serial;
     }
     if (there) return there;
@@ -256,7 +256,7 @@ void wr_thumbs_free(WrApp *app)
 {
     WrThumbs *thumbs = app->shelf->thumbs;
     if (!thumbs) return;
-    wr_thumbs_forget(app);
+    thumbs_forget(app);
     wr_job_free(thumbs->job);
     wr_array_free(&thumbs->slots);
     wr_array_free(&thumbs->wishes);
@@ -269,7 +269,7 @@ static SDL_Texture *picture_of(WrApp *app, int place, int side)
     WrThumbs *thumbs = thumbs_of(app);
     side = side < 8 ? 8 : side > WR_THUMB_MAX ? WR_THUMB_MAX : side;
     if (side > thumbs->side || side < thumbs->side / 2) { /* another scale */
-        wr_thumbs_forget(app);
+        thumbs_forget(app);
         thumbs->side = side;
     }
     while (thumbs->slots.count <= place) wr_array_push(&thumbs->slots, ((Slot){ 0 }));
@@ -348,4 +348,4 @@ void wr_thumbs_update(WrApp *app)
     thumbs->wishes.count = 0;
 }
 
-const WrPart wr_part_thumbs = { .forget = wr_thumbs_forget };
+const WrPart wr_part_thumbs = { .forget = thumbs_forget };

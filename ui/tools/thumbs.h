@@ -9,7 +9,6 @@
 SDL_Texture *wr_thumb_of(WrApp *app, int index, int side);
 SDL_Texture *wr_thumb_of_stamp(WrApp *app, int index, int side); /* index into stamp.stamps */
 void wr_thumbs_update(WrApp *app); /* once per frame, after the requests */
-void wr_thumbs_forget(WrApp *app);
 void wr_thumbs_free(WrApp *app);
 
 extern const WrPart wr_part_thumbs;
