@@ -170,7 +170,7 @@ void wr_guide_keys(const WrApp *app, WrText *text)
         text, "# %s\n\n%s", wr_words("Keys"),
         wr_words("On the left is the table of heights F(u,v): light is high. On the right the "
                  "same heights wrinkle a surface. The table repeats; paint on any copy. The pages "
-                 "beside this one tell the rest."));
+                 "beside this one describe the rest."));
     if (strcmp(wr_words_language(), "en") != 0)
         wr_text_addf(text, " %s", wr_words("They are in English."));
     wr_text_add(text, "\n");
