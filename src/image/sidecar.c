@@ -160,9 +160,10 @@ static bool check_hash(const Sidecar *sidecar, const char *path, const char *byt
     if (!want) return true;
     wr_sha256_bytes(bytes, length, have);
     return strcmp(want, have) == 0 ||
-           wr_fail(err,
-                   "%s: file has changed since %s was written (SHA-256 differs); export both again",
-                   path, sidecar->name);
+           wr_fail(
+               err,
+               "%s: file has changed since %s was written (its sha256 differs); export both again",
+               path, sidecar->name);
 }
 
 static WrImage *read_numbers(const Sidecar *sidecar, const char *path, WrError *err)
