@@ -6,7 +6,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "render/frame/frame.h"
-#include "render/reference/reference_displacement_difference.h"
+#include "render/reference/reference_relief.h"
 #include "render/visibility/view.h"
 #include "scene/objects.h"
 #include "scene/scene.h"

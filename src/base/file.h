@@ -1,6 +1,6 @@
 /* file.h - whole-file reading and atomic file writes. */
 #pragma once
-#include "base/sink.h"
+#include "base/spool.h"
 #include "system/fd.h"
 
 #include <stdbool.h>
@@ -129,3 +129,20 @@ char *wr_config_path(const char *name);
 bool wr_data_find(const char *name, WrText *path);
 /* Folder of the running program. Caller frees with wr_free. */
 char *wr_program_folder(void);
+
+/* ---- identity ---- */
+
+/* Identity of the file under a path, to detect that it was replaced or changed since
+   it was read. */
+
+typedef struct WrFileIdentity {
+    bool there; /* false: no such file; the other members are 0 */
+    uint64_t device, inode;
+    int64_t bytes;
+    int64_t seconds, nanoseconds; /* of the last content change, since 1970 */
+} WrFileIdentity;
+
+/* Returns the identity of the file under this path; symbolic links are followed. */
+WrFileIdentity wr_file_identity(const char *path);
+/* True for the same unchanged file, or if both are missing. */
+bool wr_file_identity_same(const WrFileIdentity *a, const WrFileIdentity *b);

@@ -1,7 +1,6 @@
 #include "base/memory.h"
 
 #include "base/error.h"
-#include "base/memory_count.h"
 #include "system/large_pages.h"
 #include "system/thread.h"
 

@@ -4,6 +4,7 @@
    user return an error. */
 #pragma once
 #include <stddef.h>
+#include <stdint.h>
 
 typedef struct WrError WrError;
 
@@ -34,3 +35,20 @@ void wr_free(void *block); /* NULL is fine */
 
 char *wr_strdup(const char *text);                 /* caller frees with wr_free; NULL for NULL */
 char *wr_strndup(const char *text, size_t length); /* copies exactly length bytes and a NUL */
+
+/* ---- bytes in use ---- */
+
+/* The number of bytes in use by wr_alloc and by tiles; tests use it to bound the memory of a command.
+
+   Exact and independent of the system: blocks below WR_MEMORY_COUNTED bytes, free memory that is cached for reuse, and
+   memory of libraries are not counted. Any thread. */
+
+#define WR_MEMORY_COUNTED 4096 /* bytes; smaller blocks are not worth an atomic addition */
+
+int64_t wr_memory_bytes(void); /* in use now */
+/* Largest number in use since the last call of wr_memory_peak_begin, or since the start. */
+int64_t wr_memory_peak(void);
+void wr_memory_peak_begin(void);
+
+/* For allocators on top of wr_alloc: adds the bytes of a piece, below 0 when it is freed. */
+void wr_memory_count(int64_t bytes);

@@ -1,7 +1,6 @@
 #include "base/slab.h"
 
 #include "base/memory.h"
-#include "base/memory_count.h"
 
 #include <stdbool.h>
 

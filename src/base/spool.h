@@ -1,12 +1,26 @@
-/* spool.h - a memory file for libraries that can write only to a file name, forwarded to a byte sink
-   (sink.h).
+/* spool.h - a destination of bytes with random access, written by encoders and archives.
+
+   For C and C++. */
+#pragma once
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct WrByteSink {
+    /* Writes all bytes at an offset, which may be before or beyond the end; on failure false and errno. */
+    bool (*write)(void *to, const void *bytes, size_t length, int64_t at);
+    void *to; /* context of the caller */
+} WrByteSink;
+
+/* ---- memory file ---- */
+
+/* A memory file for libraries that can write only to a file name, forwarded to a byte sink
+   (WrByteSink).
 
    So these bytes are written and checked like all others. For large files, the part after the first
    WR_SPOOL_HEAD bytes is forwarded during writing and its memory is released. The writer may return
    only to the first bytes, which contain headers and tables, and near its end to the bytes it wrote
    last. */
-#pragma once
-#include "base/sink.h"
 
 #define WR_SPOOL_HEAD ((int64_t)64 << 20) /* bytes kept until the end */
 

@@ -1,6 +1,5 @@
-/* brush_kernels_body.h - implementation of the loops of brush_kernels.h, included once by each
-   brush_kernels_v*.c, which defines WR_BRUSH_TABLE and WR_BRUSH_NAME. Intentionally without an include
-   guard. */
+/* brush_kernels_body.h - implementation of the loops of brush_kernels.h, compiled once for each
+   instruction set (wr_kern of CMakeLists.txt). Intentionally without an include guard. */
 #include "brush/brush_kernels.h"
 
 #include <math.h>
@@ -379,8 +378,8 @@ static void add(double strength, const float *start, const float *cover, int cou
         for (int i = b; i < b + WR_BRUSH_BLOCK; i++) out[i] = raised(strength, start[i], cover[i]);
 }
 
-const WrBrushKernels WR_BRUSH_TABLE = {
-    .name = WR_BRUSH_NAME,
+const WrBrushKernels WR_SET_TABLE = {
+    .name = WR_SET_NAME,
     .dab = dab,
     .dab_rows = dab_rows,
     .dab_tile = dab_tile,

@@ -4,7 +4,6 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/enum_rows.h"
-#include "base/suggest.h"
 #include "base/text.h"
 #include "system/path.h"
 

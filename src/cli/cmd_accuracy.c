@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"
-#include "base/suggest.h"
+#include "base/text.h"
 #include "cli/cli.h"
 #include "command/session.h"
 #include "document/document.h"

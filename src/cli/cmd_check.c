@@ -1,7 +1,6 @@
 #include "cli/cli.h"
 
 #include "base/error.h"
-#include "base/suggest.h"
 #include "base/text.h"
 #include "export/check.h"
 #include "field/seam.h"

@@ -5,7 +5,7 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "base/file_identity.h"
+#include "base/file.h"
 #include "base/text.h"
 #include "command/session.h"
 #include "export/export.h"

@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/text.h"
-#include "command/generate.h"
+#include "command/commands.h"
 #include "command/session.h"
 #include "document/blend.h"
 #include "document/document.h"
@@ -19,7 +19,7 @@
 #include "surface/patches.h"
 #include "surface/surface.h"
 #include "surface/terrain.h"
-#include "surface/triangles_at.h"
+#include "surface/triangles.h"
 
 #include <errno.h>
 #include <float.h>

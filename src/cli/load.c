@@ -1,7 +1,7 @@
 #include "cli/cli.h"
 
 #include "base/error.h"
-#include "base/suggest.h"
+#include "base/text.h"
 #include "command/session.h"
 #include "render/frame/frame.h"
 #include "system/path.h"

@@ -3,7 +3,6 @@
 
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/suggest.h"
 #include "base/text.h"
 #include "command/command_line.h"
 #include "export/export.h"

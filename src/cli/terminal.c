@@ -1,6 +1,5 @@
 /* Progress and remaining time of long work, on the terminal's last line. */
 #include "base/progress.h"
-#include "base/time_left.h"
 #include "cli/cli.h"
 #include "system/clock.h"
 #include "system/process.h"

@@ -6,7 +6,7 @@
 #include "command/commands.h"
 #include "document/document.h"
 #include "scene/camera_control.h"
-#include "scene/named_view.h"
+#include "scene/camera.h"
 #include "scene/param.h"
 #include "scene/scene.h"
 

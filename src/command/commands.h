@@ -1,7 +1,10 @@
 /* commands.h - declarations of all command rows. Each row is at the end of the .c file that has its arguments,
    handler and printer. Private to src/command. */
 #pragma once
+#include "command/command_line.h"
 #include "command/command_table.h"
+
+#include <stdbool.h>
 
 extern const WrCommand wr_command_table, wr_command_fill, wr_command_grid, wr_command_image,
     wr_command_dab, wr_command_stroke, wr_command_shape, wr_command_flood, wr_command_ramp,
@@ -16,3 +19,47 @@ extern const WrCommand wr_command_table, wr_command_fill, wr_command_grid, wr_co
     wr_command_tolerance, wr_command_transform, wr_command_copy, wr_command_save, wr_command_export,
     wr_command_maps, wr_command_render, wr_command_script, wr_command_undo, wr_command_redo,
     wr_command_view, wr_command_history;
+
+/* ---- generators ---- */
+
+/* The generator call in a command line such as `pattern bricks across=6`. */
+
+typedef struct WrError WrError;
+typedef struct WrField WrField;
+typedef struct WrGenerator WrGenerator;
+typedef struct WrLayer WrLayer;
+typedef struct WrParamValue WrParamValue;
+typedef struct WrPool WrPool;
+typedef struct WrProgress WrProgress;
+typedef struct WrRelief WrRelief;
+
+/* The generator that the line names, or NULL if its verb is not a generator family. */
+const WrGenerator *wr_call_generator(const WrCall *call);
+
+/* Parameter values of the line, given or default. values: [WR_GENERATOR_PARAMS], borrowed from the call; texts and
+ * file names are unresolved. */
+void wr_call_values(const WrCall *call, const WrGenerator *generator, WrParamValue *values);
+
+/* Name of an argument common to all generators ("blend", "radius", "offset"). If the generator has a parameter of the
+ * same name, a prefix makes it unique: "blend-radius". */
+const char *wr_generator_argument(const WrGenerator *generator, const char *plain);
+
+/* Decode the escapes of a text argument: \n is a new line, \\ a backslash; a backslash before any other character is
+ * literal. The caller frees the result. */
+char *wr_generator_text(const char *text);
+
+/* Blend the output of the line's generator into a layer, by the line's other arguments, within `selection` (NULL:
+ * everywhere). False: cancelled, and the layer is half done. */
+bool wr_call_join(const WrCall *call, const WrRelief *relief, const WrField *selection,
+                  WrLayer *layer, WrPool *pool, const WrProgress *progress, WrError *err);
+
+/* ---- transforms ---- */
+
+/* Application of a `transform` line to a document, for the command and for previews of it. */
+
+typedef struct WrDocument WrDocument;
+
+/* active: the layer to change, or the stand-in for its mask; NULL: all layers. False: cancelled or refused, and the
+   document is half done. */
+bool wr_call_transform(const WrCall *call, WrDocument *document, WrLayer *active, WrPool *pool,
+                       const WrProgress *progress, WrError *err);

@@ -7,7 +7,6 @@
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
-#include "command/generate.h"
 #include "document/blend.h"
 #include "document/document.h"
 #include "document/edit.h"

@@ -2,7 +2,6 @@
    the remedy. */
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/suggest.h"
 #include "base/text.h"
 #include "command/command_line.h"
 #include "system/path.h"

@@ -5,7 +5,6 @@
 #include "base/progress.h"
 #include "command/args.h"
 #include "command/commands.h"
-#include "command/transform.h"
 #include "document/blend.h"
 #include "document/document.h"
 #include "document/edit.h"

@@ -8,7 +8,7 @@
 #pragma once
 #include "accuracy/effect_savings.h"
 #include "accuracy/tolerance_search.h"
-#include "base/file_identity.h"
+#include "base/file.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 /* session_internal.h - private state and helpers of a session, for the command handlers. Private to src/command. */
 #pragma once
 #include "base/array.h"
-#include "base/file_identity.h"
+#include "base/file.h"
 #include "brush/brush.h"
 #include "command/command_line.h"
 #include "command/session.h"

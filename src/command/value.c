@@ -5,7 +5,6 @@
 #include "base/memory.h"
 #include "base/message.h"
 #include "base/enum_rows.h"
-#include "base/suggest.h"
 #include "base/text.h"
 #include "document/document.h"
 #include "surface/surface.h"

@@ -13,7 +13,7 @@
 #include "document/document_file.h"
 #include "document/ora_stack.h"
 #include "field/field.h"
-#include "image/icc_profile.h"
+#include "image/coding.h"
 #include "image/image.h"
 #include "scene/objects.h"
 #include "system/fd.h"

@@ -2,7 +2,7 @@
    Private to this module. */
 #pragma once
 #include "base/array.h"
-#include "base/sink.h"
+#include "base/spool.h"
 #include "document/blend.h"
 #include "document/document_file.h"
 #include "field/ops.h"

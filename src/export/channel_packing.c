@@ -5,7 +5,6 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/enum_rows.h"
-#include "base/suggest.h"
 #include "base/text.h"
 #include "export/job.h"
 #include "scene/scene.h"

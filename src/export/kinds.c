@@ -1,7 +1,7 @@
 #include "base/error.h"
 #include "field/scheme_list.h"
 #include "base/enum_rows.h"
-#include "base/suggest.h"
+#include "base/text.h"
 #include "export/contact_sheet.h"
 #include "export/job.h"
 #include "export/line_drawing.h"

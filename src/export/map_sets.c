@@ -6,7 +6,6 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "base/suggest.h"
 #include "base/text.h"
 #include "export/contact_sheet.h"
 #include "export/export.h"

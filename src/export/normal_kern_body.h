@@ -1,5 +1,5 @@
-/* normal_kern_body.h - text of normal_kern.h's loops, included once by each normal_v*.c, which defines
-   WR_NORMAL_TABLE and WR_NORMAL_NAME. Deliberately without a guard. */
+/* normal_kern_body.h - the loops of normal_kern.h, compiled once for each instruction set (wr_kern of
+   CMakeLists.txt). Deliberately without a guard. */
 #include "export/normal_kern.h"
 
 #include <math.h>
@@ -219,8 +219,8 @@ static void halve(const float *restrict a, const float *restrict b, int count, f
     }
 }
 
-const WrNormalKernels WR_NORMAL_TABLE = {
-    .name = WR_NORMAL_NAME,
+const WrNormalKernels WR_SET_TABLE = {
+    .name = WR_SET_NAME,
     .widen = widen,
     .tilts = tilts,
     .codes8 = codes8,

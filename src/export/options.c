@@ -2,7 +2,6 @@
 #include "export/options.h"
 
 #include "base/error.h"
-#include "base/suggest.h"
 #include "base/text.h"
 #include "export/export.h"
 #include "export/job.h"

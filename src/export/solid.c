@@ -4,13 +4,952 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/pool.h"
 #include "base/progress.h"
 #include "base/text.h"
 #include "export/job.h"
+#include "field/field.h"
 #include "scene/scene.h"
+#include "system/thread.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+
+/* ---- the body ---- */
+
+/* ---- The initial squares of a relief, and the sides that they share ---- */
+
+#define LINES 200  /* maximum lines in one direction */
+#define CORNERS 64 /* maximum rows at which Pv is discontinuous */
+#define SPREAD 16  /* maximum squares along a long side per square along the other */
+#define SAME 1e-9  /* tolerance of equal positions, relative to the surface's radius */
+#define TRIED 5    /* points along a side that are compared */
+#define SEEN 8     /* samples along a side that is a single point, for its height */
+
+typedef struct Node {
+    WrSolidLocation location;
+    /* union-find of nodes at one position: the smallest number, or one on the way to it */
+    int32_t root;
+} Node;
+
+/* A triangle's side on the border of the domain. */
+typedef struct Side {
+    int32_t triangle, slot, from, to; /* from, to: nodes */
+    WrSolidLocation ends[2];
+    WrVec3 at[TRIED];
+    bool point; /* the side is a single point */
+} Side;
+
+typedef struct Base {
+    WrSolid *solid;
+    double u[LINES], v[LINES];
+    int count_u, count_v; /* number of squares */
+    WR_ARRAY(Node) nodes;
+    WR_ARRAY(Side) sides;
+} Base;
+
+/* ---- lines ---- */
+
+static int compare(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Numbers of squares along u and v that make them nearly square on the surface; multiples of four where it is
+   curved. */
+static void count_squares(const WrShape *shape, WrSurfaceCell cell, int *nu, int *nv)
+{
+    const WrSurfaceInfo *info = wr_surfaces[shape->kind];
+    WrSurfacePoint o;
+    wr_surface_at(shape, 0, (cell.u0 + cell.u1) / 2, (cell.v0 + cell.v1) / 2, &o);
+    const double ratio = v3_len(o.pu) * (cell.u1 - cell.u0) / (v3_len(o.pv) * (cell.v1 - cell.v0));
+    *nu = *nv = info->flat && !info->closed_u ? 1 : 4;
+    if (!isfinite(ratio) || !(ratio > 0.0)) return;
+    *nu *= (int)fmin(fmax(rint(ratio), 1.0), SPREAD);
+    *nv *= (int)fmin(fmax(rint(1.0 / ratio), 1.0), SPREAD);
+}
+
+static void lay_lines(Base *base, const WrShape *shape, int face)
+{
+    const WrSurfaceInfo *info = wr_surfaces[shape->kind];
+    const WrSurfaceCell cell = wr_surface_cell(shape, face);
+    double corners[CORNERS];
+    const int most = info->corners ? info->corners(shape, corners, CORNERS) : 0;
+    count_squares(shape, cell, &base->count_u, &base->count_v);
+    for (int i = 0; i <= base->count_u; i++)
+        base->u[i] = cell.u0 + (cell.u1 - cell.u0) * i / base->count_u;
+    for (int j = 0; j <= base->count_v; j++)
+        base->v[j] = cell.v0 + (cell.v1 - cell.v0) * j / base->count_v;
+    const int even = base->count_v;
+    for (int k = 0; k < most; k++) {
+        bool there = false;
+        for (int j = 0; j <= even; j++) there |= fabs(base->v[j] - corners[k]) < SAME;
+        if (!there) base->v[++base->count_v] = corners[k];
+    }
+    qsort(base->v, (size_t)base->count_v + 1, sizeof *base->v, compare);
+}
+
+/* ---- squares ---- */
+
+static WrSolidTriangle triangle_of(const Base *base, int face, int a, int b, int c)
+{
+    const int32_t node[3] = { a, b, c };
+    WrSolidTriangle t = { .face = face, .error = -1.0f, .across = { -1, -1, -1 } };
+    for (int k = 0; k < 3; k++) {
+        t.point[k] = node[k];
+        t.u[k] = base->nodes.data[node[k]].location.u;
+        t.v[k] = base->nodes.data[node[k]].location.v;
+    }
+    return t;
+}
+
+/* Two triangles per square, below and above its diagonal, with their neighbours in the face. */
+static void lay_face(Base *base, int face)
+{
+    WrSolid *s = base->solid;
+    const int nu = base->count_u, nv = base->count_v;
+    const int32_t node = base->nodes.count, first = s->relief.count;
+    for (int j = 0; j <= nv; j++)
+        for (int i = 0; i <= nu; i++) {
+            Node n = { { base->u[i], base->v[j], face }, base->nodes.count };
+            wr_array_push(&base->nodes, n);
+        }
+    for (int j = 0; j < nv; j++)
+        for (int i = 0; i < nu; i++) {
+            const int a = node + j * (nu + 1) + i, b = a + 1, d = a + nu + 1, c = d + 1;
+            const int32_t at = first + 2 * (j * nu + i);
+            WrSolidTriangle low = triangle_of(base, face, c, a, b);
+            WrSolidTriangle high = triangle_of(base, face, a, c, d);
+            low.across[2] = at + 1;
+            high.across[2] = at;
+            if (j > 0) low.across[0] = at - 2 * nu + 1;
+            if (i + 1 < nu) low.across[1] = at + 3;
+            if (j + 1 < nv) high.across[0] = at + 2 * nu;
+            if (i > 0) high.across[1] = at - 2;
+            wr_array_push(&s->relief, low);
+            wr_array_push(&s->relief, high);
+        }
+}
+
+/* ---- shared sides ---- */
+
+static int32_t root_of(const Base *base, int32_t node)
+{
+    while (base->nodes.data[node].root != node) node = base->nodes.data[node].root;
+    return node;
+}
+
+static void join_nodes(Base *base, int32_t a, int32_t b)
+{
+    a = root_of(base, a), b = root_of(base, b);
+    if (a < b) base->nodes.data[b].root = a;
+    else base->nodes.data[a].root = b;
+}
+
+static WrSolidLocation between(const WrSolidLocation ends[2], double t)
+{
+    return (WrSolidLocation){ ends[0].u + (ends[1].u - ends[0].u) * t,
+                              ends[0].v + (ends[1].v - ends[0].v) * t, ends[0].face };
+}
+
+static void find_sides(Base *base)
+{
+    const WrSolid *s = base->solid;
+    for (int32_t i = 0; i < s->relief.count; i++)
+        for (int k = 0; k < 3; k++) {
+            const WrSolidTriangle *t = &s->relief.data[i];
+            if (t->across[k] >= 0) continue;
+            Side side = {
+                .triangle = i, .slot = k, .from = t->point[(k + 1) % 3], .to = t->point[(k + 2) % 3]
+            };
+            side.ends[0] = base->nodes.data[side.from].location;
+            side.ends[1] = base->nodes.data[side.to].location;
+            for (int p = 0; p < TRIED; p++) {
+                const WrSolidLocation at = between(side.ends, p / (TRIED - 1.0));
+                WrSurfacePoint o;
+                wr_surface_at(&s->scene->shape, at.face, at.u, at.v, &o);
+                side.at[p] = o.p;
+            }
+            wr_array_push(&base->sides, side);
+        }
+}
+
+static bool one_point(const Side *side, double same)
+{
+    for (int p = 1; p < TRIED; p++)
+        if (!(v3_len(v3_sub(side->at[p], side->at[0])) <= same)) return false;
+    return true;
+}
+
+/* True if both are the same curve in opposite directions, as neighbours' sides are. */
+static bool one_curve(const Side *a, const Side *b, double same)
+{
+    for (int p = 0; p < TRIED; p++)
+        if (!(v3_len(v3_sub(a->at[p], b->at[TRIED - 1 - p])) <= same)) return false;
+    return true;
+}
+
+static void join_sides(Base *base)
+{
+    WrSolidTriangle *relief = base->solid->relief.data;
+    const double same = SAME * wr_shape_radius(&base->solid->scene->shape);
+    for (int i = 0; i < base->sides.count; i++) {
+        Side *a = &base->sides.data[i];
+        a->point = one_point(a, same);
+        if (a->point) join_nodes(base, a->from, a->to);
+        for (int k = 0; k < i && !a->point; k++) {
+            Side *b = &base->sides.data[k];
+            if (b->point || relief[b->triangle].across[b->slot] >= 0 || !one_curve(a, b, same))
+                continue;
+            relief[a->triangle].across[a->slot] = b->triangle;
+            relief[b->triangle].across[b->slot] = a->triangle;
+            join_nodes(base, a->from, b->to);
+            join_nodes(base, a->to, b->from);
+            break;
+        }
+    }
+}
+
+/* ---- points ---- */
+
+/* A point with all sights of a node: those joined with it, and those along sides that are a single point. */
+static int32_t point_of(Base *base, int32_t root)
+{
+    WR_ARRAY(WrSolidLocation) seen = { 0 };
+    for (int32_t i = root; i < base->nodes.count; i++)
+        if (root_of(base, i) == root) wr_array_push(&seen, base->nodes.data[i].location);
+    for (int i = 0; i < base->sides.count; i++) {
+        const Side *side = &base->sides.data[i];
+        if (!side->point || root_of(base, side->from) != root) continue;
+        for (int k = 1; k < SEEN; k++) {
+            WrSolidLocation at = between(side->ends, (double)k / SEEN);
+            wr_array_push(&seen, at);
+        }
+    }
+    const int32_t point = wr_solid_add_point(base->solid, seen.data, seen.count);
+    wr_array_free(&seen);
+    return point;
+}
+
+static void number_points(Base *base)
+{
+    WrSolid *s = base->solid;
+    int32_t *point = wr_alloc((size_t)base->nodes.count, sizeof *point);
+    for (int32_t i = 0; i < base->nodes.count; i++) {
+        const int32_t root = root_of(base, i);
+        point[i] = root == i ? point_of(base, i) : point[root];
+    }
+    for (int32_t i = 0; i < s->relief.count; i++)
+        for (int k = 0; k < 3; k++) {
+            int32_t *at = &s->relief.data[i].point[k];
+            *at = point[*at];
+        }
+    wr_free(point);
+}
+
+void wr_solid_lay(WrSolid *solid)
+{
+    Base base = { .solid = solid };
+    for (int face = 0; face < solid->faces; face++) {
+        lay_lines(&base, &solid->scene->shape, face);
+        lay_face(&base, face);
+    }
+    find_sides(&base);
+    join_sides(&base);
+    number_points(&base);
+    wr_array_free(&base.nodes);
+    wr_array_free(&base.sides);
+}
+
+/* ---- solid samples ---- */
+
+/* Samples for measuring a solid: all texels' centres, and points between those of a coarse table. */
+
+#define FINEST 2000 /* minimum samples along each direction for the smallest error */
+#define COARSEST 64 /* minimum for the largest error */
+#define CLOSE                                                                                      \
+    16.0 /* times sqrt(size / error): the sagitta between two samples on a sphere is 1/100 of the error */
+
+/* Samples along one direction of a face, from `from` to `to`. A texel's centre is at k + 1/2 texels from 0, and
+   is a sample if each texel has an odd number of them. */
+static bool lay_direction(double texels, double fine, double from, double to, double *first,
+                          double *step, int *count)
+{
+    const double there = fmax(texels * (to - from), 1.0);
+    double each = ceil(fine / there);
+    each += fmod(each, 2.0) == 0.0;
+    *step = 1.0 / (fmax(texels, 1.0) * each);
+    *first = ceil(from / *step - 0.5);
+    const double last = floor(to / *step - 0.5);
+    *count = (int)fmin(last - *first + 1.0, 1e9);
+    return last - *first < 1e9;
+}
+
+static bool lay_lattice(WrSolid *solid, int face, int64_t *samples, WrError *err)
+{
+    const WrScene *scene = solid->scene;
+    const WrSurfaceCell cell = wr_surface_cell(&scene->shape, face);
+    WrSolidLattice *l = &solid->lattice[face];
+    const double fine = fmin(fmax(CLOSE * sqrt(solid->size / solid->error), COARSEST), FINEST);
+    const bool fits = lay_direction(wr_field_width(solid->field) * fabs(scene->replicate_u), fine,
+                                    cell.u0, cell.u1, &l->first_u, &l->step_u, &l->count_u) &
+                      lay_direction(wr_field_height(solid->field) * fabs(scene->replicate_v), fine,
+                                    cell.v0, cell.v1, &l->first_v, &l->step_v, &l->count_v);
+    *samples += (int64_t)l->count_u * l->count_v;
+    if (fits && *samples <= WR_SOLID_SAMPLES) return true;
+    return wr_fail(
+        err, "the surface has more than %lld texels: fewer repeats (replicate), or a smaller table",
+        (long long)WR_SOLID_SAMPLES);
+}
+
+/* ---- positions ---- */
+
+typedef struct Work {
+    WrSolid *solid;
+    int face;
+    WrMutex lock;
+    bool bad; /* exceeds single precision */
+} Work;
+
+static void note(Work *work, double low, double high, bool bad)
+{
+    wr_mutex_lock(&work->lock);
+    work->solid->low = fmin(work->solid->low, low);
+    work->solid->high = fmax(work->solid->high, high);
+    work->bad |= bad;
+    wr_mutex_unlock(&work->lock);
+}
+
+static void put(const WrSolid *s, const WrSurfacePoint *o, double f, float out[3])
+{
+    const WrVec3 p = v3_mad(o->p, o->n_unit, f);
+    out[0] = (float)((s->stretch.x * p.x - s->middle.x) * s->scale);
+    out[1] = (float)((s->stretch.y * p.y - s->middle.y) * s->scale);
+    out[2] = (float)((s->stretch.z * p.z - s->middle.z) * s->scale);
+}
+
+static void sample_row(int j, int worker, void *ctx)
+{
+    (void)worker;
+    Work *work = ctx;
+    const WrSolid *s = work->solid;
+    const WrSolidLattice *l = &s->lattice[work->face];
+    double low = INFINITY, high = -INFINITY, u[WR_HEIGHTS_RUN], v[WR_HEIGHTS_RUN],
+           f[WR_HEIGHTS_RUN];
+    bool bad = false;
+    for (int from = 0; from < l->count_u; from += WR_HEIGHTS_RUN) {
+        const int count = l->count_u - from < WR_HEIGHTS_RUN ? l->count_u - from : WR_HEIGHTS_RUN;
+        for (int i = 0; i < count; i++) {
+            u[i] = (l->first_u + from + i + 0.5) * l->step_u;
+            v[i] = (l->first_v + j + 0.5) * l->step_v;
+        }
+        wr_scene_heights(s->scene, s->field, count, u, v, f);
+        for (int i = 0; i < count; i++) {
+            float *at = l->at[(size_t)j * (size_t)l->count_u + (size_t)(from + i)];
+            WrSurfacePoint o;
+            wr_surface_at(&s->scene->shape, work->face, u[i], v[i], &o);
+            put(s, &o, f[i], at);
+            low = fmin(low, f[i]);
+            high = fmax(high, f[i]);
+            bad |= !(fabsf(at[0]) < 1e18f && fabsf(at[1]) < 1e18f && fabsf(at[2]) < 1e18f);
+        }
+    }
+    note(work, low, high, bad);
+}
+
+bool wr_solid_sample(WrSolid *solid, WrError *err)
+{
+    int64_t samples = 0;
+    bool good = true;
+    for (int face = 0; face < solid->faces && good; face++)
+        good = lay_lattice(solid, face, &samples, err);
+    Work work = { .solid = solid };
+    wr_mutex_init(&work.lock);
+    for (int face = 0; face < solid->faces && good; face++) {
+        WrSolidLattice *l = &solid->lattice[face];
+        WrProgressPart part;
+        const WrProgress *whole =
+            wr_progress_enter(&part, (double)face / solid->faces, (face + 1.0) / solid->faces);
+        work.face = face;
+        l->at = wr_try_alloc((size_t)l->count_u * (size_t)l->count_v, sizeof *l->at,
+                             "a solid's samples", err);
+        good = l->at && (wr_pool_run_with_progress(solid->pool, l->count_v, sample_row, &work) ||
+                         wr_fail(err, "cancelled"));
+        wr_progress_set(whole);
+    }
+    wr_mutex_fini(&work.lock);
+    if (good && work.bad)
+        good =
+            wr_fail(err, "the relief is too high for a solid of that size: a smaller bump height");
+    return good;
+}
+
+/* ---- solid refine ---- */
+
+/* Bisection of triangles that are too far from a sample. Each triangle is measured against all samples inside
+   it. All new ones are measured at once, by any number of threads; those that fail are then bisected one after
+   the other, so that the result does not depend on the threads. */
+
+#define PIECE 128 /* triangles measured by one thread at a time */
+/* relative to the distance of two samples: smaller triangles are not bisected */
+#define LEAST 0.0625
+#define SLACK 1e-6 /* relative to that distance: samples on a side are in both triangles */
+
+/* ---- distance of a point from a triangle ---- */
+
+typedef struct Facet {
+    WrVec3 p[3], side[3]; /* side k runs from corner k to the next */
+    WrVec3 in[3];         /* across side k, inwards */
+    WrVec3 n;             /* unit */
+    double length2[3];
+    bool flat; /* it has no area, only sides */
+} Facet;
+
+static WrVec3 vec_of(const float at[3])
+{
+    return (WrVec3){ at[0], at[1], at[2] };
+}
+
+static Facet facet_of(const WrSolid *s, const WrSolidTriangle *t)
+{
+    Facet f;
+    for (int k = 0; k < 3; k++) f.p[k] = vec_of(s->points[t->point[k]]);
+    for (int k = 0; k < 3; k++) {
+        f.side[k] = v3_sub(f.p[(k + 1) % 3], f.p[k]);
+        f.length2[k] = v3_dot(f.side[k], f.side[k]);
+    }
+    const WrVec3 n = v3_cross(f.side[0], f.side[1]);
+    f.flat = !(v3_len(n) > 1e-12 * (f.length2[0] + f.length2[1]));
+    f.n = v3_unit(n, (WrVec3){ 0, 0, 0 });
+    for (int k = 0; k < 3; k++) f.in[k] = v3_cross(f.n, f.side[k]);
+    return f;
+}
+
+static double from_side2(const Facet *f, int k, WrVec3 p)
+{
+    const WrVec3 q = v3_sub(p, f->p[k]);
+    const double along = f->length2[k] > 0 ? v3_dot(q, f->side[k]) / f->length2[k] : 0.0;
+    const WrVec3 d = v3_mad(q, f->side[k], -fmin(fmax(along, 0.0), 1.0));
+    return v3_dot(d, d);
+}
+
+/* Squared distance of a point. */
+static double from_facet2(const Facet *f, WrVec3 p)
+{
+    bool over = !f->flat;
+    for (int k = 0; k < 3 && over; k++) over = v3_dot(v3_sub(p, f->p[k]), f->in[k]) >= 0.0;
+    if (over) {
+        const double h = v3_dot(v3_sub(p, f->p[0]), f->n);
+        return h * h;
+    }
+    return fmin(from_side2(f, 0, p), fmin(from_side2(f, 1, p), from_side2(f, 2, p)));
+}
+
+/* ---- samples in a triangle ---- */
+
+/* Interval of the row v of the domain inside the triangle; false: empty. */
+static bool row_of(const WrSolidTriangle *t, double v, double *from, double *to)
+{
+    *from = INFINITY, *to = -INFINITY;
+    for (int k = 0; k < 3; k++) {
+        const int n = (k + 1) % 3;
+        const double low = fmin(t->v[k], t->v[n]), high = fmax(t->v[k], t->v[n]);
+        if (v < low || v > high) continue;
+        const double part = high > low ? (v - t->v[k]) / (t->v[n] - t->v[k]) : 0.0;
+        const double u = t->u[k] + (t->u[n] - t->u[k]) * part;
+        *from = fmin(*from, high > low ? u : fmin(t->u[k], t->u[n]));
+        *to = fmax(*to, high > low ? u : fmax(t->u[k], t->u[n]));
+    }
+    return *from <= *to;
+}
+
+static int first_at(double x, double step, double first)
+{
+    return (int)fmax(ceil(x / step - 0.5 - first - SLACK), 0.0);
+}
+
+static int last_at(double x, double step, double first, int count)
+{
+    return (int)fmin(floor(x / step - 0.5 - first + SLACK), count - 1.0);
+}
+
+/* The largest distance of its samples, or one that exceeds `enough`. */
+static double error_of(const WrSolid *s, const WrSolidTriangle *t, double enough)
+{
+    const WrSolidLattice *l = &s->lattice[t->face];
+    const Facet facet = facet_of(s, t);
+    const double low = fmin(t->v[0], fmin(t->v[1], t->v[2]));
+    const double high = fmax(t->v[0], fmax(t->v[1], t->v[2]));
+    const int last = last_at(high, l->step_v, l->first_v, l->count_v);
+    double worst = 0.0;
+    for (int j = first_at(low, l->step_v, l->first_v); j <= last; j++) {
+        const double v = (l->first_v + j + 0.5) * l->step_v;
+        double from, to;
+        if (wr_progress_stopped()) break;
+        if (!row_of(t, fmin(fmax(v, low), high), &from, &to)) continue;
+        const int end = last_at(to, l->step_u, l->first_u, l->count_u);
+        for (int i = first_at(from, l->step_u, l->first_u); i <= end; i++) {
+            const float *at = l->at[(size_t)j * (size_t)l->count_u + (size_t)i];
+            const double d = from_facet2(&facet, vec_of(at));
+            if (!(d <= worst)) worst = d;
+        }
+        if (!(worst <= enough * enough)) break;
+    }
+    return sqrt(worst);
+}
+
+typedef struct RefineWork {
+    WrSolid *solid;
+    const int32_t *fresh;
+    int32_t count;
+} RefineWork;
+
+static void measure_piece(int index, int worker, void *ctx)
+{
+    (void)worker;
+    const RefineWork *work = ctx;
+    WrSolid *s = work->solid;
+    int32_t end = (index + 1) * PIECE < work->count ? (index + 1) * PIECE : work->count;
+    for (int32_t i = index * PIECE; i < end; i++) {
+        WrSolidTriangle *t = &s->relief.data[work->fresh[i]];
+        t->error = (float)error_of(s, t, s->error);
+    }
+}
+
+/* ---- bisection ---- */
+
+/* True unless the triangle is smaller than the distance of its samples, where bisection improves nothing. */
+static bool can_halve(const WrSolid *s, const WrSolidTriangle *t)
+{
+    const WrSolidLattice *l = &s->lattice[t->face];
+    const double du = fmax(t->u[0], fmax(t->u[1], t->u[2])) - fmin(t->u[0], fmin(t->u[1], t->u[2]));
+    const double dv = fmax(t->v[0], fmax(t->v[1], t->v[2])) - fmin(t->v[0], fmin(t->v[1], t->v[2]));
+    return du > LEAST * l->step_u || dv > LEAST * l->step_v;
+}
+
+static WrSolidLocation middle_of_triangle(const WrSolidTriangle *t)
+{
+    return (WrSolidLocation){ (t->u[0] + t->u[1]) / 2, (t->v[0] + t->v[1]) / 2, t->face };
+}
+
+static int32_t middle_point(WrSolid *s, const WrSolidTriangle *t, const WrSolidTriangle *beyond)
+{
+    if (t->point[0] == t->point[1]) return t->point[0]; /* a pole */
+    WrSolidLocation locations[2] = { middle_of_triangle(t) };
+    int count = 1;
+    if (beyond) {
+        locations[1] = middle_of_triangle(beyond);
+        count += locations[1].face != locations[0].face || locations[1].u != locations[0].u ||
+                 locations[1].v != locations[0].v;
+    }
+    return wr_solid_add_point(s, locations, count);
+}
+
+/* Replaces a neighbour's number in a triangle. */
+static void tell(WrSolid *s, int32_t triangle, int32_t was, int32_t now)
+{
+    if (triangle < 0) return;
+    for (int k = 0; k < 3; k++)
+        if (s->relief.data[triangle].across[k] == was) {
+            s->relief.data[triangle].across[k] = now;
+            return;
+        }
+}
+
+/* Divides into (2, 0, m), which keeps its number, and (1, 2, m); returns the second's. The neighbour beyond side
+   0 1 is set by the caller. */
+static int32_t halve(WrSolid *s, int32_t index, int32_t point)
+{
+    const WrSolidTriangle t = s->relief.data[index];
+    const WrSolidLocation m = middle_of_triangle(&t);
+    const int32_t other = s->relief.count;
+    const WrSolidTriangle a = {
+        { t.point[2], t.point[0], point }, { -1, other, t.across[1] }, t.face, -1.0f,
+        { t.u[2], t.u[0], m.u },           { t.v[2], t.v[0], m.v }
+    };
+    const WrSolidTriangle b = {
+        { t.point[1], t.point[2], point }, { index, -1, t.across[0] }, t.face, -1.0f,
+        { t.u[1], t.u[2], m.u },           { t.v[1], t.v[2], m.v }
+    };
+    s->relief.data[index] = a;
+    wr_array_push(&s->relief, b);
+    tell(s, t.across[0], index, other);
+    return other;
+}
+
+/* Bisects the two triangles at the longest side of one; before that the neighbour, until that side is its
+   longest, too. */
+static void refine(WrSolid *s, int32_t index)
+{
+    int32_t beyond;
+    while ((beyond = s->relief.data[index].across[2]) >= 0 &&
+           s->relief.data[beyond].across[2] != index)
+        refine(s, beyond);
+    const WrSolidTriangle *t = &s->relief.data[index];
+    const int32_t m = middle_point(s, t, beyond >= 0 ? &s->relief.data[beyond] : NULL);
+    const int32_t half = halve(s, index, m);
+    if (beyond < 0) return;
+    const int32_t far = halve(s, beyond, m);
+    s->relief.data[index].across[0] = far;
+    s->relief.data[half].across[1] = beyond;
+    s->relief.data[beyond].across[0] = half;
+    s->relief.data[far].across[1] = index;
+}
+
+/* Bisects all that failed. Returns the number of bisections; -1 if there are too many triangles. */
+static int32_t halve_bad(WrSolid *s, const int32_t *fresh, int32_t count)
+{
+    int32_t halved = 0;
+    for (int32_t i = 0; i < count; i++) {
+        const WrSolidTriangle *t = &s->relief.data[fresh[i]];
+        if (!(t->error > s->error) || !can_halve(s, t)) continue;
+        refine(s, fresh[i]);
+        halved++;
+        if (s->relief.count > WR_SOLID_MAX) return -1;
+        if (halved % 4096 == 0 && wr_progress_stopped()) return 0;
+    }
+    return halved;
+}
+
+static int32_t find_fresh(const WrSolid *s, int32_t *fresh)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < s->relief.count; i++)
+        if (s->relief.data[i].error < 0.0f) fresh[count++] = i;
+    return count;
+}
+
+static bool settle(WrSolid *s, WrError *err)
+{
+    s->worst = 0.0;
+    for (int32_t i = 0; i < s->relief.count; i++)
+        if (!(s->relief.data[i].error <= s->worst)) s->worst = s->relief.data[i].error;
+    if (s->worst <= s->error) return true;
+    return wr_fail(
+        err,
+        "error=%.6g: the relief cannot be followed so closely: the best is %.3g mm; a larger "
+        "error, or a larger size",
+        s->error, s->worst);
+}
+
+bool wr_solid_refine(WrSolid *solid, WrError *err)
+{
+    int32_t halved = 1;
+    for (int round = 0; halved > 0; round++) {
+        int32_t *fresh = wr_try_alloc((size_t)solid->relief.count, sizeof *fresh, "a solid", err);
+        if (!fresh) return false;
+        RefineWork work = { solid, fresh, find_fresh(solid, fresh) };
+        wr_pool_run(solid->pool, (work.count + PIECE - 1) / PIECE, measure_piece, &work);
+        halved = wr_progress_stopped() ? 0 : halve_bad(solid, fresh, work.count);
+        wr_free(fresh);
+        if (!wr_progress_report(1.0 - 8.0 / (8.0 + round))) return wr_fail(err, "cancelled");
+    }
+    if (halved == 0) return settle(solid, err);
+    return wr_fail(err,
+                   "error=%.6g mm needs more than %d triangles: a larger error, or a smaller size",
+                   solid->error, WR_SOLID_MAX);
+}
+
+/* ---- Back of a relief, walls around it, and caps over open ends: they close the mesh ---- */
+
+/* Border of the relief: the next point along it, for each point; -1: inside. */
+typedef struct Border {
+    int32_t *next;  /* [points] */
+    int32_t *start; /* [loops]: a point of each loop */
+    int loops;
+} Border;
+
+static WrVec3 point(const WrSolid *s, int32_t i)
+{
+    return (WrVec3){ s->points[i][0], s->points[i][1], s->points[i][2] };
+}
+
+/* Area vector: twice the area along the normal. */
+static WrVec3 area(const WrSolid *s, int32_t a, int32_t b, int32_t c)
+{
+    const WrVec3 p = point(s, a);
+    return v3_cross(v3_sub(point(s, b), p), v3_sub(point(s, c), p));
+}
+
+/* ---- the border ---- */
+
+static bool twice(WrError *err)
+{
+    return wr_fail(err, "the surface touches itself at its border: no body can be made of it");
+}
+
+static bool find_next(const WrSolid *s, Border *border, int32_t *count, WrError *err)
+{
+    memset(border->next, 0xff, (size_t)s->point_count * sizeof *border->next);
+    for (int32_t i = 0; i < s->relief.count; i++)
+        for (int k = 0; k < 3; k++) {
+            const WrSolidTriangle *t = &s->relief.data[i];
+            const int32_t a = t->point[(k + 1) % 3], b = t->point[(k + 2) % 3];
+            if (t->across[k] >= 0 || a == b) continue;
+            if (border->next[a] >= 0) return twice(err);
+            border->next[a] = b;
+            ++*count;
+        }
+    return true;
+}
+
+static bool find_border(const WrSolid *s, Border *border, WrError *err)
+{
+    const size_t points = (size_t)s->point_count;
+    int32_t count = 0;
+    border->next = wr_try_alloc(points, sizeof *border->next, "a solid", err);
+    if (!border->next || !find_next(s, border, &count, err)) return false;
+    bool *seen = wr_try_alloc(points, sizeof *seen, "a solid", err);
+    border->start = wr_try_alloc((size_t)count + 1, sizeof *border->start, "a solid", err);
+    bool good = seen && border->start;
+    for (int32_t i = 0; i < s->point_count && good; i++) {
+        if (border->next[i] < 0 || seen[i]) continue;
+        border->start[border->loops++] = i;
+        for (int32_t at = i; good && !seen[at]; at = border->next[at]) {
+            seen[at] = true;
+            good = border->next[at] >= 0 || twice(err);
+        }
+    }
+    wr_free(seen);
+    return good;
+}
+
+/* ---- (u,v) ---- */
+
+static int32_t sights_end(const WrSolid *s, int32_t point)
+{
+    return point + 1 < s->first.count ? s->first.data[point + 1] : s->locations.count;
+}
+
+/* (u,v) of points a and b, neighbours on a border. A point on a seam has a sight at each end of u: the nearest pair is taken,
+   so that u does not jump between a and b. */
+static void side_locations(const WrSolid *s, int32_t a, int32_t b, WrSolidLocation out[2])
+{
+    double least = INFINITY;
+    for (int32_t i = s->first.data[a]; i < sights_end(s, a); i++)
+        for (int32_t j = s->first.data[b]; j < sights_end(s, b); j++) {
+            const WrSolidLocation *p = &s->locations.data[i], *q = &s->locations.data[j];
+            const double far = fabs(p->u - q->u) + fabs(p->v - q->v);
+            if (least < INFINITY && !(far < least)) continue;
+            least = far;
+            out[0] = *p, out[1] = *q;
+        }
+}
+
+static void triangle_locations(const WrSolidTriangle *t, WrSolidLocation out[3])
+{
+    for (int k = 0; k < 3; k++) out[k] = (WrSolidLocation){ t->u[k], t->v[k], t->face };
+}
+
+/* ---- a fan over a loop ---- */
+
+/* Centre of a loop of points, and its axis of rotation; `map` converts point numbers. */
+static WrVec3 middle_of_loop(const WrSolid *s, const Border *b, const int32_t *map, int32_t start,
+                             WrVec3 *up)
+{
+    WrVec3 sum = { 0, 0, 0 };
+    double whole = 0.0;
+    int32_t i = start;
+    do {
+        const WrVec3 p = point(s, map[i]), q = point(s, map[b->next[i]]);
+        const double length = v3_len(v3_sub(q, p));
+        sum = v3_add(sum, v3_scale(v3_add(p, q), length / 2));
+        whole += length;
+        i = b->next[i];
+    } while (i != start);
+    const WrVec3 middle = v3_scale(sum, 1.0 / whole);
+    *up = (WrVec3){ 0, 0, 0 };
+    do {
+        const WrVec3 p = v3_sub(point(s, map[i]), middle);
+        *up = v3_add(*up, v3_cross(p, v3_sub(point(s, map[b->next[i]]), middle)));
+        i = b->next[i];
+    } while (i != start);
+    return middle;
+}
+
+/* Adds triangles from all its sides to a point in its middle; false and none if that point does not see all of
+   them. */
+static bool fan(WrSolid *s, const Border *b, const int32_t *map, int32_t start)
+{
+    WrVec3 up;
+    const WrVec3 middle = middle_of_loop(s, b, map, start, &up);
+    const float at[3] = { (float)middle.x, (float)middle.y, (float)middle.z };
+    const int32_t centre = wr_solid_add_bare(s, at);
+    int32_t i = start;
+    bool good = true;
+    do {
+        good = good && v3_dot(area(s, map[i], map[b->next[i]], centre), up) > 0;
+        i = b->next[i];
+    } while (i != start);
+    if (!good) {
+        s->point_count--;
+        return false;
+    }
+    do {
+        WrSolidLocation uv[3];
+        side_locations(s, b->next[i], i, uv);
+        uv[2] = (WrSolidLocation){ (uv[0].u + uv[1].u) / 2, (uv[0].v + uv[1].v) / 2, uv[0].face };
+        wr_solid_add_triangle(s, (const int32_t[3]){ map[b->next[i]], map[i], centre }, uv);
+        i = b->next[i];
+    } while (i != start);
+    return true;
+}
+
+/* ---- backs ---- */
+
+static int32_t add_back_point(WrSolid *s, int32_t of)
+{
+    const int32_t first = s->first.data[of];
+    float at[3];
+    wr_solid_point_position(s, s->locations.data + first, sights_end(s, of) - first, true, at);
+    return wr_solid_add_bare(s, at);
+}
+
+/* True if its back faces another way than the triangle. A mirrored object's triangles are clockwise. */
+static bool folds(const WrSolid *s, const WrSolidTriangle *t, const int32_t *back)
+{
+    const double way = s->stretch.x * s->stretch.y * s->stretch.z;
+    const int32_t *p = t->point;
+    WrVec3 out = { 0, 0, 0 };
+    for (int k = 0; k < 3; k++) out = v3_add(out, v3_sub(point(s, p[k]), point(s, back[p[k]])));
+    return !(v3_dot(area(s, back[p[0]], back[p[1]], back[p[2]]), out) * way > 0);
+}
+
+static bool is_pole(const WrSolidTriangle *t)
+{
+    const int32_t *p = t->point;
+    return p[0] == p[1] || p[1] == p[2] || p[2] == p[0];
+}
+
+/* Adds the relief's triangles again, at the back. */
+static bool add_shell(WrSolid *s, int32_t *back, int32_t points, WrError *err)
+{
+    for (int32_t i = 0; i < points; i++)
+        if (back[i] < 0) back[i] = add_back_point(s, i);
+    for (int32_t i = 0; i < s->relief.count; i++) {
+        const WrSolidTriangle *t = &s->relief.data[i];
+        if (is_pole(t)) continue;
+        if (i % 4096 == 0 && wr_progress_stopped()) return wr_fail(err, "cancelled");
+        if (folds(s, t, back))
+            return wr_fail(
+                err,
+                "thickness=%.6g: more than the surface's curves leave room for: thinner, or filled",
+                s->thickness);
+        WrSolidLocation at[3];
+        triangle_locations(t, at);
+        wr_solid_add_triangle(
+            s, (const int32_t[3]){ back[t->point[1]], back[t->point[0]], back[t->point[2]] },
+            (const WrSolidLocation[3]){ at[1], at[0], at[2] });
+    }
+    return true;
+}
+
+static void add_walls(WrSolid *s, const Border *border, const int32_t *back, int32_t points)
+{
+    for (int32_t a = 0; a < points; a++) {
+        const int32_t b = border->next[a];
+        if (b < 0) continue;
+        WrSolidLocation at[2];
+        side_locations(s, a, b, at);
+        wr_solid_add_triangle(s, (const int32_t[3]){ b, a, back[a] },
+                              (const WrSolidLocation[3]){ at[1], at[0], at[0] });
+        wr_solid_add_triangle(s, (const int32_t[3]){ b, back[a], back[b] },
+                              (const WrSolidLocation[3]){ at[1], at[0], at[1] });
+    }
+}
+
+static bool add_back(WrSolid *s, const Border *border, WrError *err)
+{
+    const int32_t points = s->point_count;
+    int32_t *back = wr_try_alloc((size_t)points, sizeof *back, "a solid", err);
+    if (!back) return false;
+    memset(back, 0xff, (size_t)points * sizeof *back);
+    for (int32_t i = 0; i < points; i++)
+        if (border->next[i] >= 0) back[i] = add_back_point(s, i);
+    const bool flat = wr_surfaces[s->scene->shape.kind]->flat && border->loops == 1;
+    const bool good =
+        (flat && fan(s, border, back, border->start[0])) || add_shell(s, back, points, err);
+    if (good) add_walls(s, border, back, points);
+    wr_free(back);
+    return good;
+}
+
+static bool add_caps(WrSolid *s, const Border *border, WrError *err)
+{
+    const int32_t points = s->point_count;
+    int32_t *same = wr_try_alloc((size_t)points, sizeof *same, "a solid", err);
+    if (!same) return false;
+    for (int32_t i = 0; i < points; i++) same[i] = i;
+    bool good = true;
+    for (int l = 0; l < border->loops && good; l++)
+        good = fan(s, border, same, border->start[l]) ||
+               wr_fail(err, "an open end cannot be closed flat: thickness=MM makes a wall instead");
+    wr_free(same);
+    return good;
+}
+
+/* ---- the body ---- */
+
+double wr_solid_volume(const WrSolid *solid)
+{
+    double sum = 0.0;
+    for (int32_t i = 0; i < solid->triangle_count; i++) {
+        const int32_t *t = solid->triangles[i];
+        sum += v3_dot(point(solid, t[0]), v3_cross(point(solid, t[1]), point(solid, t[2])));
+    }
+    return sum / 6.0;
+}
+
+/* For mirrored objects, and formulas whose normals point inwards. */
+static void turn_outwards(WrSolid *s)
+{
+    if (wr_solid_volume(s) >= 0.0) return;
+    for (int32_t i = 0; i < s->triangle_count; i++) {
+        const int32_t a = s->triangles[i][0];
+        s->triangles[i][0] = s->triangles[i][1];
+        s->triangles[i][1] = a;
+        float uv[2];
+        memcpy(uv, s->uv[i][0], sizeof uv);
+        memcpy(s->uv[i][0], s->uv[i][1], sizeof uv);
+        memcpy(s->uv[i][1], uv, sizeof uv);
+    }
+}
+
+static bool check_body(const WrSolid *s, WrError *err)
+{
+    for (int32_t i = 0; i < s->triangle_count; i++) {
+        const int32_t *t = s->triangles[i];
+        const WrVec3 n = area(s, t[0], t[1], t[2]);
+        if (!(v3_dot(n, n) > 0))
+            return wr_fail(
+                err, "the surface has a place without area: no body can be made of it; a larger "
+                     "error may step over it");
+    }
+    return true;
+}
+
+bool wr_solid_close(WrSolid *solid, WrError *err)
+{
+    Border border = { 0 };
+    for (int32_t i = 0; i < solid->relief.count; i++) {
+        const WrSolidTriangle *t = &solid->relief.data[i];
+        WrSolidLocation at[3];
+        triangle_locations(t, at);
+        if (!is_pole(t)) wr_solid_add_triangle(solid, t->point, at);
+    }
+    bool good = find_border(solid, &border, err);
+    if (good && border.loops > 0)
+        good = solid->thickness > 0 ? add_back(solid, &border, err) : add_caps(solid, &border, err);
+    wr_free(border.next);
+    wr_free(border.start);
+    good = good && check_body(solid, err) && (!wr_progress_stopped() || wr_fail(err, "cancelled"));
+    if (good) turn_outwards(solid);
+    return good;
+}
+
+/* ---- options ---- */
 
 /* ---- file ---- */
 

@@ -87,13 +87,13 @@ int32_t wr_solid_add_bare(WrSolid *solid, const float at[3]); /* a point without
 /* at: (u,v) of the corners. */
 void wr_solid_add_triangle(WrSolid *solid, const int32_t corners[3], const WrSolidLocation at[3]);
 
-/* solid_body.c: builds the squares and joins shared sides. */
+/* Builds the squares and joins shared sides. */
 void wr_solid_lay(WrSolid *solid);
-/* solid_body.c: computes positions and heights of all samples. */
+/* Computes positions and heights of all samples. */
 bool wr_solid_sample(WrSolid *solid, WrError *err);
-/* solid_body.c: bisects triangles until every sample's error is at most `error`. */
+/* Bisects triangles until every sample's error is at most `error`. */
 bool wr_solid_refine(WrSolid *solid, WrError *err);
-/* solid_body.c: adds the back, and walls between it and the relief. */
+/* Adds the back, and walls between it and the relief. */
 bool wr_solid_close(WrSolid *solid, WrError *err);
 /* mm3; positive if sides face outwards. */
 double wr_solid_volume(const WrSolid *solid);

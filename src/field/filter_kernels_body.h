@@ -1,6 +1,5 @@
-/* filter_kernels_body.h - implementation of the loops of filter_kernels.h, included once by each
-   kernels_v*.c, which defines WR_TAPS_TABLE and WR_TAPS_NAME. Intentionally without an include
-   guard. */
+/* filter_kernels_body.h - implementation of the loops of filter_kernels.h, compiled once for each
+   instruction set (wr_kern of CMakeLists.txt). Intentionally without an include guard. */
 #include "field/filter_kernels.h"
 
 #include <float.h>
@@ -250,8 +249,8 @@ static bool settle(const float *before, size_t before_pitch, float *now, size_t 
     return differs != 0;
 }
 
-const WrTaps WR_TAPS_TABLE = {
-    .name = WR_TAPS_NAME,
+const WrTaps WR_SET_TABLE = {
+    .name = WR_SET_NAME,
     .add = add,
     .smooth = smooth,
     .turn = turn,

@@ -1,5 +1,5 @@
-/* occlusion_body.h - implementation of the loops of occlusion_kern.h, included once by each
-   kernels_v*.c, which defines WR_SKY_TABLE and WR_SKY_NAME. Intentionally without an include guard. */
+/* occlusion_body.h - implementation of the loops of occlusion_kern.h, compiled once for each instruction
+   set (wr_kern of CMakeLists.txt). Intentionally without an include guard. */
 #include "field/occlusion_kern.h"
 
 #include <math.h>
@@ -395,8 +395,8 @@ static void look(const float *restrict c, const float *a, const float *b, float 
     }
 }
 
-const WrSkyKernels WR_SKY_TABLE = {
-    .name = WR_SKY_NAME,
+const WrSkyKernels WR_SET_TABLE = {
+    .name = WR_SET_NAME,
     .sweep = sweep,
     .higher = higher,
     .share = share,

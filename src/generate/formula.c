@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "field/wrap.h"
 #include "generate/tile_builder.h"
-#include "generate/param.h"
+#include "generate/generator.h"
 
 static const WrParamPart poly_parts[] = { { "i", 0, 64, true },
                                           { "j", 0, 64, true },

@@ -5,7 +5,7 @@
 #include "base/enum_rows.h"
 #include "field/field.h"
 #include "generate/tile_builder.h"
-#include "generate/param.h"
+#include "generate/generator.h"
 #include "noise/grid.h"
 
 #include <math.h>

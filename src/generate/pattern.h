@@ -8,7 +8,7 @@
 #pragma once
 #include "base/enum_rows.h"
 #include "generate/tile_builder.h"
-#include "generate/param.h"
+#include "generate/generator.h"
 #include "noise/noise.h"
 
 #include <stdbool.h>

@@ -8,7 +8,7 @@
 #include "field/field.h"
 #include "field/ops.h"
 #include "field/select.h"
-#include "generate/param.h"
+#include "generate/generator.h"
 #include "generate/text.h"
 
 #include <math.h>

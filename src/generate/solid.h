@@ -1,7 +1,7 @@
 /* solid.h - common parts of solids: position, repetition and height.
    Private to this module. */
 #pragma once
-#include "generate/param.h"
+#include "generate/generator.h"
 #include "generate/zbuffer.h"
 
 #include <stdbool.h>

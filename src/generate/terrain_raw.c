@@ -1,4 +1,4 @@
-#include "generate/terrain_raw.h"
+#include "generate/terrain.h"
 
 #include "base/error.h"
 #include "base/progress.h"

@@ -3,8 +3,8 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/text.h"
-#include "generate/param.h"
-#include "generate/text_layout.h"
+#include "generate/generator.h"
+#include "generate/text.h"
 #include "generate/tile_builder.h"
 
 #include <string.h>

@@ -9,7 +9,7 @@
 #include "hardcases/hardcases_frames.h"
 #include "hardcases/hardcases_internal.h"
 #include "hardcases/hardcases_stretch.h"
-#include "render/reference/reference_mesh.h"
+#include "render/reference/reference_intersect.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
 #include "shade/bump.h"

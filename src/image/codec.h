@@ -7,7 +7,7 @@
    Callers have checked the file's existence and kind; these functions check the file's header before
    they allocate memory for it. */
 #pragma once
-#include "base/sink.h"
+#include "base/spool.h"
 #include "image/image.h"
 
 #include <stdbool.h>

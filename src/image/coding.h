@@ -9,6 +9,8 @@
 #include "base/enum_rows.h"
 
 #include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 
 typedef struct WrError WrError;
 typedef struct WrImage WrImage;
@@ -22,3 +24,14 @@ extern const char *const wr_codings[]; /* as in commands; ends with NULL */
  * *found. False and an error if signed is requested for integer codes, or when cancelled. */
 bool wr_coding_find(const WrImage *image, int channels, WrCoding wanted, WrCoding *found,
                     WrError *err);
+
+/* ---- ICC profiles ---- */
+
+/* The sRGB ICC profile, embedded in files for programs that prompt for a profile if
+   there is none. */
+
+#define WR_SRGB_PROFILE_SIZE 496 /* bytes */
+
+/* A matrix/TRC display profile, version 4.2: the primaries of IEC 61966-2-1 adapted to D50, its curve
+ * as a formula. Always the same bytes. Source: ICC.1:2004-10. */
+void wr_srgb_profile(uint8_t out[WR_SRGB_PROFILE_SIZE]);

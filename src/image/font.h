@@ -50,7 +50,7 @@ char *wr_font_find(int index, double size, WrError *err);
  * any) and a style ("sans", "serif-bold", any of wr_font_names). The result depends on the machine:
  * commands to be replayed must store the names. paths: up to `most`; the caller frees each with
  * wr_free. Returns their number; 0 also if fontconfig fails, or if cancelled while fontconfig builds
- * its list of fonts (base/once_async.h). Any thread. */
+ * its list of fonts (base/pool.h). Any thread. */
 int wr_font_lenders(const uint32_t *characters, int count, const char *kind, const char *language,
                     int most, char *paths[]);
 

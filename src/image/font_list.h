@@ -23,3 +23,13 @@ typedef WR_ARRAY(WrFontEntry) WrFontList;
 bool wr_font_list(WrFontList *list, WrError *err);
 void wr_font_list_fini(WrFontList *list);
 void wr_font_entry_fini(WrFontEntry *entry); /* frees its members */
+
+/* ---- Fontconfig ---- */
+
+/* Loads its list of installed fonts, once. Without a cache fontconfig reads every font itself, which
+ * needs seconds, and fonts are untrusted: so this is tried first in a copy of the process, which may
+ * crash.
+ *
+ * Errors   it fails, or a font makes it crash or hang; "cancelled". The next call tries again
+ * Threads  any */
+bool wr_font_config(WrError *err);

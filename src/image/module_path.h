@@ -1,7 +1,7 @@
 /* module_path.h - search and loading of the program's run-time modules.
    Private to this module. */
 #pragma once
-#include "base/once_async.h"
+#include "base/pool.h"
 
 #include <stdbool.h>
 
@@ -25,7 +25,7 @@ typedef struct WrModule {
 } WrModule;
 bool wr_module_load(void *module, WrError *err);
 
-/* The module's table, loaded by the first call, which can be cancelled meanwhile (base/once_async.h). A
+/* The module's table, loaded by the first call, which can be cancelled meanwhile (base/pool.h). A
  * failure is not cached, so that a later call may succeed. NULL with one error that lists the searched
  * paths, or "cancelled". */
 const void *wr_module_table(WrModule *module, WrError *err);

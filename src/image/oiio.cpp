@@ -4,34 +4,510 @@
    - reading a damaged TIFF always succeeds and only sets an error message: after every call a message
      counts as failure;
    - few readers enforce size limits: the checks here are the effective ones;
-   - integer codes are multiplied by float factors, and other header properties are ignored:
-     oiio_values.hpp;
+   - integer codes are multiplied by float factors, and other header properties are ignored: below "values";
    - alpha is multiplied into colours by default;
    - libjpeg exits the whole program when it cannot write: it never receives a write error;
    - multi-part EXR and TIFF are written to a file that the library opens, and failures at the end are
      not reported: the caller passes a memory file and reads it back; libtiff's error messages are
      intercepted. */
 extern "C" {
+#include "base/spool.h"
 #include "image/oiio.h"
+#include "system/fd.h"
 }
 
-#include "image/oiio_disk.hpp"
-#include "image/oiio_fail.hpp"
-#include "image/oiio_tiff.hpp"
-#include "image/oiio_values.hpp"
-#include "system/fd.h"
+#include "image/one_line.hpp"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
+#include <cstdarg>
+#include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <new>
 #include <string>
 #include <vector>
+
+/* ---- errors ---- */
+
+/* Replaces every occurrence. */
+static void say_instead(std::string &text, const std::string &what, const std::string &instead)
+{
+    for (size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += instead.size())
+        text.replace(at, what.size(), instead);
+}
+
+/* Stores the message as one line. The caller names the file; the path used by the library is internal
+ * and is removed. */
+static bool fail(char *reason, std::string text, const std::string &path = std::string())
+{
+    if (!path.empty()) say_instead(text, " (" + path + ")", "");
+    for (const char *quote : { "\"", "'", "" }) {
+        std::string quoted = quote + path + quote;
+        for (const char *before : { "image file ", "file " })
+            if (!path.empty()) say_instead(text, before + quoted, "the file");
+        if (!path.empty()) say_instead(text, quoted, "the file");
+    }
+    one_line(reason, WR_CODEC_REASON, text);
+    return false;
+}
+
+/* Runs a function that returns bool; an exception becomes a reason. */
+template <typename Body> bool guarded(char *reason, Body body)
+{
+    try {
+        return body();
+    } catch (const std::bad_alloc &) {
+        return fail(reason, WR_CODEC_NO_MEMORY);
+    } catch (const std::exception &problem) {
+        return fail(reason, problem.what());
+    } catch (...) {
+        return fail(reason, "unknown exception in the library");
+    }
+}
+
+/* ---- FITS ---- */
+
+/* Parser of FITS header numbers that OpenImageIO misreads. C++, only in the module.
+
+   OpenImageIO stops at the D of a Fortran exponent (1.25D1), which the FITS standard 4.0, 4.2.4 allows. */
+
+#define FITS_BLOCK 2880 /* bytes; headers and data are padded to whole blocks */
+#define FITS_CARD 80    /* bytes of a header line */
+
+/* Offset of a picture's header, with OpenImageIO's numbering; -1: none. */
+static int64_t fits_header(int fd, int picture)
+{
+    char begin[20];
+    for (int64_t at = 0; wr_fd_read_at(fd, begin, sizeof begin, at) == sizeof begin;
+         at += FITS_BLOCK)
+        if ((!std::memcmp(begin, "SIMPLE", 6) ||
+             !std::memcmp(begin, "XTENSION= 'IMAGE   '", sizeof begin)) &&
+            picture-- == 0)
+            return at;
+    return -1;
+}
+
+/* The number of a key in a picture's header, or the fallback if absent. */
+static double fits_number(int fd, int picture, const char *key, double fallback)
+{
+    char card[FITS_CARD + 1] = "", padded[12];
+    std::snprintf(padded, sizeof padded, "%-8s= ", key);
+    const int64_t begin = fits_header(fd, picture), most = begin + 1024 * FITS_BLOCK;
+    for (int64_t at = begin; at >= 0 && at < most; at += FITS_CARD) {
+        if (wr_fd_read_at(fd, card, FITS_CARD, at) != FITS_CARD ||
+            !std::memcmp(card, "END     ", 8))
+            break;
+        if (std::memcmp(card, padded, 10) != 0) continue;
+        std::string text(card + 10, strcspn(card + 10, "/"));
+        for (char &letter : text)
+            if (letter == 'D' || letter == 'd') letter = 'E';
+        char *end = nullptr;
+        const double value = std::strtod(text.c_str(), &end);
+        return end != text.c_str() && std::isfinite(value) ? value : fallback;
+    }
+    return fallback;
+}
+
+/* ---- TIFF ---- */
+
+/* Direct calls of libtiff: write errors and tags that OpenImageIO does not report.
+   C++, only in the module.
+
+   libtiff reports failures on closing a file only to an error handler. OpenImageIO links libtiff; its
+   few functions used here are declared in this file. */
+
+extern "C" void *TIFFSetErrorHandlerExt(void (*handler)(void *, const char *, const char *,
+                                                        va_list)) __attribute__((weak));
+
+/* The first error of this thread since the buffer was cleared, and errno before it. */
+static thread_local char tiff_error[256];
+static thread_local int tiff_errno;
+
+static void forget_tiff_error()
+{
+    tiff_error[0] = '\0';
+    tiff_errno = errno = 0;
+}
+
+/* An unsupported tag was omitted intentionally (forbid_date), or is irrelevant. */
+static void on_tiff_error(void *, const char *from, const char *format, va_list list)
+{
+    if (from && std::strstr(from, "SetField")) return;
+    bool disk = errno == EFBIG || errno == ENOSPC || errno == EDQUOT || errno == EIO;
+    if (!tiff_errno && disk) tiff_errno = errno;
+    if (!tiff_error[0]) vsnprintf(tiff_error, sizeof tiff_error, format, list);
+}
+
+static void listen_to_tiff()
+{
+    if (TIFFSetErrorHandlerExt) TIFFSetErrorHandlerExt(on_tiff_error);
+}
+
+/* libtiff is loaded with OpenImageIO; three functions do not justify requiring its headers. */
+extern "C" {
+struct tiff;
+struct tiff *TIFFFdOpen(int fd, const char *name, const char *mode) __attribute__((weak));
+int TIFFSetDirectory(struct tiff *file, uint32_t directory) __attribute__((weak));
+int TIFFGetField(struct tiff *file, uint32_t tag, ...) __attribute__((weak));
+void TIFFClose(struct tiff *file) __attribute__((weak));
+}
+
+#define TIFF_GDAL_METADATA 42112U /* XML */
+#define TIFF_GDAL_NODATA 42113U   /* a number as text */
+#define TIFF_MODEL_PIXEL_SCALE 33550U
+#define TIFF_MODEL_TRANSFORMATION 34264U
+
+/* A number of GDAL's metadata for the first channel, "scale" or "offset", or the fallback. */
+static double gdal_number(const std::string &metadata, const char *role, double fallback)
+{
+    const std::string begin = std::string("sample=\"0\" role=\"") + role + "\">";
+    const size_t at = metadata.find(begin);
+    if (at == std::string::npos) return fallback;
+    const char *from = metadata.c_str() + at + begin.size();
+    char *end = nullptr;
+    const double value = std::strtod(from, &end);
+    return end != from && std::isfinite(value) ? value : fallback;
+}
+
+/* GDAL's no-data value and metadata of a directory, "" if absent. Returns true if the directory is georeferenced or
+   has that value: its numbers are measurements. */
+static bool tiff_no_data(int fd, int directory, std::string &text, std::string &metadata)
+{
+    if (!TIFFFdOpen || !TIFFSetDirectory || !TIFFGetField || !TIFFClose) return false;
+    /* A copy shares its position with the original, which OpenImageIO reads. */
+    const int64_t position = wr_fd_position(fd);
+    int copy = wr_fd_copy(fd);
+    if (copy < 0) return false;
+    wr_fd_seek(copy, 0);
+    struct tiff *file = TIFFFdOpen(copy, "picture", "r"); /* owns the copy */
+    if (!file) {
+        wr_fd_close(copy);
+        wr_fd_seek(fd, position);
+        return false;
+    }
+    bool measured = false;
+    if (TIFFSetDirectory(file, static_cast<uint32_t>(directory))) {
+        /* libtiff returns unknown tags with their count. */
+        uint32_t count = 0;
+        const char *found = nullptr;
+        const void *numbers = nullptr;
+        if (TIFFGetField(file, TIFF_GDAL_NODATA, &count, &found) && found && count > 0 &&
+            count < 64) {
+            text.assign(found, strnlen(found, count));
+            measured = true;
+        }
+        if (TIFFGetField(file, TIFF_GDAL_METADATA, &count, &found) && found && count < 65536)
+            metadata.assign(found, strnlen(found, count));
+        if (TIFFGetField(file, TIFF_MODEL_PIXEL_SCALE, &count, &numbers) ||
+            TIFFGetField(file, TIFF_MODEL_TRANSFORMATION, &count, &numbers))
+            measured = true;
+    }
+    wr_fd_seek(fd, position);
+    TIFFClose(file);
+    return measured;
+}
+
+/* ---- values ---- */
+
+/* Conversion of file values to WrImage: codes, numbers, inverted greys, missing
+   values, the display window. C++, only in the module.
+
+   OpenImageIO scales every integer to 0..1 or -1..1, inverts a TIFF whose photometric interpretation is
+   "min is white" at 8 bits only (alpha included), ignores FITS's BZERO and BSCALE, the no-data value of
+   GDAL and the display window of OpenEXR. All conversions are chosen here, once, when a part is opened. */
+
+struct Values {
+    OIIO::TypeDesc type;  /* type in which rows are requested from the library */
+    double divisor = 0.0; /* codes / divisor; 0: numbers unchanged */
+    int shift = 0;        /* of numbers: low bits that the library added */
+    double scale = 1.0;   /* then value = scale x + offset */
+    double offset = 0.0;
+    bool invert = false;        /* 1 - x for every channel except `alpha` */
+    bool restore_alpha = false; /* the library inverted it with the colours */
+    int alpha = -1;
+    bool has_no_data = false;
+    double no_data = 0.0; /* becomes NaN */
+    /* OpenEXR: with mixed types the library scales unsigned integers to 0..1: [channels] 2^32 - 1
+     * undoes it. */
+    std::vector<float> restore;
+    /* The data window relative to the picture, which is the display window. */
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
+/* The largest code of an integer type. */
+static double last_code(OIIO::TypeDesc type)
+{
+    switch (type.basetype) {
+    case OIIO::TypeDesc::UINT8: return 255.0;
+    case OIIO::TypeDesc::UINT16: return 65535.0;
+    case OIIO::TypeDesc::UINT32: return 4294967295.0;
+    default: return 0.0;
+    }
+}
+
+static bool is_integer(OIIO::TypeDesc type)
+{
+    return !type.is_floating_point();
+}
+
+/* Signed integers, and unsigned ones of 32 bits in OpenEXR (IDs), are numbers; other integers are codes. */
+static void choose_numbers(const OIIO::ImageSpec &spec, const std::string &format, Values &values)
+{
+    const bool exr = format == "openexr";
+    if (!spec.channelformats.empty()) {
+        values.type = OIIO::TypeDesc::FLOAT;
+        values.restore.assign(spec.channelformats.size(), 0.0f);
+        for (size_t c = 0; c < spec.channelformats.size(); c++)
+            if (exr && spec.channelformats[c] == OIIO::TypeDesc::UINT32)
+                values.restore[c] = 4294967295.0f;
+        return;
+    }
+    values.type = spec.format;
+    if (!is_integer(spec.format)) values.type = OIIO::TypeDesc::FLOAT;
+    else if (!exr || spec.format != OIIO::TypeDesc::UINT32) values.divisor = last_code(spec.format);
+}
+
+/* FITS: the header defines the conversion of stored numbers to physical ones (FITS standard 4.0,
+   4.4.2.5): x BSCALE + BZERO; BLANK marks integers without a value. Pictures of 8 bits without these
+   keys stay codes. */
+static void choose_fits(const OIIO::ImageSpec &spec, int fd, int picture, Values &values)
+{
+    values.scale = fits_number(fd, picture, "BSCALE", 1.0);
+    values.offset = fits_number(fd, picture, "BZERO", 0.0);
+    const bool physical = values.scale != 1.0 || values.offset != 0.0;
+    if (physical) values.divisor = 0.0;
+    const double blank = fits_number(fd, picture, "BLANK", std::nan(""));
+    if (is_integer(spec.format) && values.divisor == 0.0 && !std::isnan(blank)) {
+        values.has_no_data = true;
+        values.no_data = blank;
+    }
+}
+
+/* True if unsigned integers of a TIFF are numbers instead of codes. measured: it is georeferenced or
+   has a no-data value; numbers: elevations were requested. 8 bits whose smallest value is white are
+   inverted by the library: codes. */
+static bool tiff_has_numbers(const OIIO::ImageSpec &spec, bool measured, bool numbers)
+{
+    if (spec.format == OIIO::TypeDesc::UINT32) return measured || numbers;
+    const bool inverted = spec.format == OIIO::TypeDesc::UINT8 &&
+                          spec.get_int_attribute("tiff:PhotometricInterpretation", 1) == 0;
+    return measured && numbers && !inverted;
+}
+
+/* TIFF: photometric interpretation 0; GDAL's no-data value; voids of signed elevations. */
+static bool choose_tiff(const OIIO::ImageSpec &spec, int fd, int directory, bool numbers,
+                        Values &values, std::string &note, std::string &problem)
+{
+    const int bits = spec.get_int_attribute("oiio:BitsPerSample", 0);
+    if (bits > 16 && bits < 32) {
+        problem = "has " + std::to_string(bits) +
+                  " bits a channel, which is not read: save it with 16 or 32 bits";
+        return false;
+    }
+    std::string text, metadata;
+    const bool measured = tiff_no_data(fd, directory, text, metadata);
+    if (tiff_has_numbers(spec, measured, numbers)) {
+        const int wide = static_cast<int>(8 * spec.format.size());
+        values.divisor = 0.0;
+        if (bits > 0 && bits < wide) values.shift = wide - bits; /* 12 bits are widened to 16 */
+    }
+    if (values.divisor == 0.0) {
+        values.scale = gdal_number(metadata, "scale", 1.0);
+        values.offset = gdal_number(metadata, "offset", 0.0);
+    }
+    values.alpha = spec.alpha_channel;
+    if (spec.get_int_attribute("tiff:PhotometricInterpretation", 1) == 0) {
+        const bool library = spec.format == OIIO::TypeDesc::UINT8;
+        values.restore_alpha = library && values.alpha >= 0;
+        values.invert = !library && values.divisor > 0.0;
+        if (values.divisor == 0.0)
+            note = "its smallest value is white by its header; numbers stay as they are";
+    }
+    char *end = nullptr;
+    const double no_data = text.empty() ? 0.0 : std::strtod(text.c_str(), &end);
+    if (end && end != text.c_str()) { /* "nan": NaN marks missing values */
+        values.has_no_data = true;
+        values.no_data = no_data;
+        if (values.divisor > 0.0) { /* compared after the division */
+            values.no_data =
+                values.invert ? 1.0 - no_data / values.divisor : no_data / values.divisor;
+        }
+    } else if (spec.format == OIIO::TypeDesc::INT16 || spec.format == OIIO::TypeDesc::INT32) {
+        values.has_no_data = true; /* SRTM and most elevation models */
+        values.no_data = -32768.0;
+    }
+    return true;
+}
+
+static std::string size_text(int width, int height)
+{
+    return std::to_string(width) + "x" + std::to_string(height);
+}
+
+/* OpenEXR: the picture is the display window; pixels are stored for the data window, which may be
+   smaller or larger. All parts of a file share one display window, so it is used only for parts with
+   the first part's data window: others, such as those of the program's documents, are pictures of their
+   own size. */
+static void choose_window(const OIIO::ImageSpec &spec, const std::string &format, Values &values,
+                          int &width, int &height, std::string &note)
+{
+    values.width = width = spec.width;
+    values.height = height = spec.height;
+    if (format != "openexr" || spec.full_width < 1 || spec.full_height < 1) return;
+    if (spec.full_x == spec.x && spec.full_y == spec.y && spec.full_width == spec.width &&
+        spec.full_height == spec.height)
+        return;
+    width = spec.full_width;
+    height = spec.full_height;
+    values.x = spec.x - spec.full_x;
+    values.y = spec.y - spec.full_y;
+    note = "its data window, " + size_text(spec.width, spec.height) + " at " +
+           std::to_string(values.x) + "," + std::to_string(values.y) +
+           ", is not its display window, " + size_text(width, height) +
+           ": cut to it, and 0 where there is no data";
+}
+
+/* GDAL writes the largest floats with few digits: beyond 1e30 only the sign is compared. */
+static bool is_no_data(float x, double no_data)
+{
+    if (std::fabs(no_data) > 1e30) return no_data > 0.0 ? x > 1e30f : x < -1e30f;
+    return x == static_cast<float>(no_data);
+}
+
+/* Converts rows from the library to values of WrImage. */
+template <typename Code>
+static void decode_codes(const Code *codes, size_t count, const Values &values, float *out)
+{
+    if (values.divisor > 0.0) {
+        const float divisor = static_cast<float>(values.divisor);
+        for (size_t i = 0; i < count; i++)
+            out[i] = sizeof(Code) < 4
+                         ? static_cast<float>(codes[i]) / divisor
+                         : static_cast<float>(static_cast<double>(codes[i]) / values.divisor);
+    } else {
+        for (size_t i = 0; i < count; i++)
+            out[i] = static_cast<float>(static_cast<Code>(codes[i] >> values.shift));
+    }
+}
+
+static void decode_values(const void *codes, size_t pixels, int channels, const Values &values,
+                          float *out)
+{
+    const size_t count = pixels * static_cast<size_t>(channels);
+    switch (values.type.basetype) {
+    case OIIO::TypeDesc::UINT8:
+        decode_codes(static_cast<const uint8_t *>(codes), count, values, out);
+        break;
+    case OIIO::TypeDesc::INT8:
+        decode_codes(static_cast<const int8_t *>(codes), count, values, out);
+        break;
+    case OIIO::TypeDesc::UINT16:
+        decode_codes(static_cast<const uint16_t *>(codes), count, values, out);
+        break;
+    case OIIO::TypeDesc::INT16:
+        decode_codes(static_cast<const int16_t *>(codes), count, values, out);
+        break;
+    case OIIO::TypeDesc::UINT32:
+        decode_codes(static_cast<const uint32_t *>(codes), count, values, out);
+        break;
+    case OIIO::TypeDesc::INT32:
+        decode_codes(static_cast<const int32_t *>(codes), count, values, out);
+        break;
+    default: break; /* floats are already in `out` */
+    }
+    const int each = channels;
+    for (size_t i = 0; i < count; i++) {
+        const int c = static_cast<int>(i % static_cast<size_t>(each));
+        float x = out[i];
+        if (!values.restore.empty() && values.restore[static_cast<size_t>(c)] > 0.0f)
+            x = std::rint(x * values.restore[static_cast<size_t>(c)]);
+        if (c == values.alpha ? values.restore_alpha : values.invert) x = 1.0f - x;
+        if (values.has_no_data && c != values.alpha && is_no_data(x, values.no_data)) x = NAN;
+        else if (values.scale != 1.0 || values.offset != 0.0)
+            x = static_cast<float>(values.scale * static_cast<double>(x) + values.offset);
+        out[i] = x;
+    }
+}
+
+/* True if decode_values changes floats. */
+static bool changes_floats(const Values &values)
+{
+    return values.has_no_data || values.invert || values.restore_alpha || !values.restore.empty() ||
+           values.scale != 1.0 || values.offset != 0.0;
+}
+
+/* ---- files ---- */
+
+/* Buffered output proxy between an image library and a byte sink. C++, only in the
+   module. */
+
+/* An output of the caller for a library: accepts every write and stores the first failure. */
+class Disk : public OIIO::Filesystem::IOProxy
+{
+  public:
+    explicit Disk(const WrByteSink &to) : IOProxy("", Write), sink(to), block(1 << 16)
+    {
+    }
+    const char *proxytype() const override
+    {
+        return "disk";
+    }
+    bool seek(int64_t offset) override
+    {
+        m_pos = offset;
+        return true;
+    }
+    int64_t tell() override
+    {
+        return m_pos;
+    }
+    size_t read(void *, size_t) override
+    {
+        return 0;
+    }
+    size_t write(const void *bytes, size_t count) override
+    {
+        const char *from = static_cast<const char *>(bytes);
+        for (size_t left = count; left > 0;) {
+            if (m_pos != at + static_cast<int64_t>(held) || held == block.size()) empty();
+            size_t take = std::min(left, block.size() - held);
+            std::memcpy(block.data() + held, from, take);
+            held += take;
+            from += take;
+            left -= take;
+            m_pos += static_cast<int64_t>(take);
+        }
+        if (m_pos > end) end = m_pos;
+        return count;
+    }
+    size_t size() const override
+    {
+        return static_cast<size_t>(end);
+    }
+    /* Flushes the buffer and continues at the library's present position. */
+    void empty()
+    {
+        if (held > 0 && !error && !sink.write(sink.to, block.data(), held, at)) error = errno;
+        held = 0;
+        at = m_pos;
+    }
+    int error = 0; /* errno of the first failure */
+
+  private:
+    WrByteSink sink;
+    std::vector<char> block; /* bytes to be written at `at` */
+    size_t held = 0;
+    int64_t at = 0, end = 0;
+};
+
+/* ---- the module ---- */
 
 /* Declared in OpenImageIO/tiffutils.h, which needs libtiff's headers. */
 OIIO_NAMESPACE_BEGIN

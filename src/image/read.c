@@ -10,7 +10,6 @@
 #include "image/image.h"
 #include "image/read_internal.h"
 #include "image/reader_client.h"
-#include "image/reader_process.h"
 #include "image/sidecar.h"
 #include "system/fd.h"
 #include "system/process.h"

@@ -1,10 +1,6 @@
-/* reader_client.h - reading of image, mesh and font files by the reader process (reader_protocol.h).
-
-   A hostile file can harm only that process. The functions are those of decode.h.
-   Private to this module.
-   Every reply is checked as untrusted data. A reading without a reply for a minute (and a second more
-   for each MB of the file) is aborted; so is one that uses over 4 GB of memory, less for small images.
-   The environment can set both limits: WRINKLE_READER_SECONDS, WRINKLE_READER_MB. */
+/* reader_client.h - management of the reader process: started on first use, restarted after a crash,
+   and kept for the next file.
+   Private to this module. */
 #pragma once
 #include "image/image.h"
 #include "image/reader_protocol.h"
@@ -12,6 +8,23 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
+/* ---- the process ---- */
+
+/* Starts the process if there is none; returns at once, while it still loads. Any thread. */
+bool wr_process_start(WrError *err);
+
+/* Sends it an order with the file and one end of a channel, both borrowed for the call. Any thread. */
+bool wr_process_order(const WrWireOrder *order, int file, int channel, WrError *err);
+
+/* ---- requests ---- */
+
+/* Reading of image, mesh and font files by the reader process (reader_protocol.h).
+
+   A hostile file can harm only that process. The functions are those of decode.h.
+   Every reply is checked as untrusted data. A reading without a reply for a minute (and a second more
+   for each MB of the file) is aborted; so is one that uses over 4 GB of memory, less for small images.
+   The environment can set both limits: WRINKLE_READER_SECONDS, WRINKLE_READER_MB. */
 
 typedef struct WrReader WrReader;
 

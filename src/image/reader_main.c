@@ -1,9 +1,9 @@
-/* The reader process: reads untrusted image, mesh and font files, so that a hostile one harms nothing
-   else. Its protocol is reader_protocol.h. It forks for each file, so that no file is affected by
-   another one. The process itself reads only the first bytes of a file, to determine whether the image
-   library is needed. The library is loaded once: when a file needs it, or when the process is idle. */
 #include "base/array.h"
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/text.h"
 #include "image/decode.h"
+#include "image/font_internal.h"
 #include "image/mesh_decode.h"
 #include "image/oiio.h"
 #include "image/reader_child.h"
@@ -13,11 +13,240 @@
 #include "system/fd.h"
 #include "system/path.h"
 #include "system/process.h"
+#include "system/sandbox.h"
+#include "system/sandbox_open.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* ---- answers ---- */
+
+#define CHANNEL 3
+#define PICTURE WR_SANDBOX_OPEN_FILE
+/* Memory for reading a small image: tables and buffers of the libraries. */
+#define MEMORY_BASE ((uint64_t)512 << 20)
+
+typedef struct Serving {
+    WrDecoder *decoder;
+    char *pixels;    /* the program's memory file */
+    uint64_t length; /* bytes of it */
+} Serving;
+
+/* Closes all descriptors except the channel and the image, and moves these to their numbers. */
+static void keep_two(int file, int channel)
+{
+    int far_file = wr_fd_copy_above(file, 100), far_channel = wr_fd_copy_above(channel, 100);
+    wr_fd_nowhere(WR_FD_IN); /* formerly the control socket */
+    wr_fd_close_range(CHANNEL, 99);
+    wr_fd_place(far_channel, CHANNEL);
+    wr_fd_place(far_file, PICTURE);
+    wr_fd_close_range(PICTURE + 1, -1);
+}
+
+static void answer(WrWireKind kind, const void *bytes, size_t length)
+{
+    if (!wr_wire_send(CHANNEL, kind, bytes, length, -1)) wr_process_leave(0);
+}
+
+static void answer_failure(bool memory, const WrError *err)
+{
+    const char *message = wr_error_message(err);
+    answer(memory ? WR_WIRE_MEMORY : WR_WIRE_FAILED, message, strlen(message));
+}
+
+/* Sends the parts: four int32 (width, height, channels, type), then names of the part and of its
+ * channels, each NUL-terminated. Returns the largest number of bytes of a part's pixels. */
+static uint64_t answer_parts(const Serving *serving)
+{
+    WrText text = { 0 };
+    uint64_t most = 0;
+    for (int i = 0; i < wr_decoder_parts(serving->decoder); i++) {
+        WrImagePart part = wr_decoder_part(serving->decoder, i);
+        int32_t numbers[4] = { part.width, part.height, part.channels, (int32_t)part.type };
+        wr_text_add_n(&text, (const char *)numbers, sizeof numbers);
+        wr_text_add_n(&text, part.name, strlen(part.name) + 1);
+        for (int c = 0; c < part.channels; c++)
+            wr_text_add_n(&text, part.channel_names[c], strlen(part.channel_names[c]) + 1);
+        uint64_t bytes = (uint64_t)part.width * (uint64_t)part.height * (uint64_t)part.channels * 4;
+        if (bytes > most) most = bytes;
+    }
+    answer(WR_WIRE_OPENED, text.data, text.length);
+    wr_text_fini(&text);
+    return most;
+}
+
+static void map_pixels(Serving *serving, int fd, uint64_t length)
+{
+    wr_map_end(serving->pixels, serving->length);
+    serving->pixels = wr_map(fd, length, WR_MAP_SHARE);
+    serving->length = serving->pixels ? length : 0;
+    wr_fd_close(fd);
+}
+
+static void read_rows(Serving *serving, const WrWireRead *want, int fd)
+{
+    WrError err = { "" };
+    bool memory = false;
+    if (fd >= 0) map_pixels(serving, fd, want->bytes);
+    if (!serving->pixels) {
+        answer(WR_WIRE_MEMORY, NULL, 0);
+        return;
+    }
+    float *out = (float *)(void *)(serving->pixels + want->at);
+    if (wr_decoder_read(serving->decoder, want->part, want->y, want->rows, want->channels, out,
+                        &memory, &err))
+        answer(WR_WIRE_DONE, NULL, 0);
+    else answer_failure(memory, &err);
+}
+
+static void digest_rows(const Serving *serving, const WrWireDigest *want)
+{
+    WrError err = { "" };
+    bool memory = false;
+    WrHash digest = want->digest;
+    if (wr_decoder_digest(serving->decoder, want->part, want->y, want->rows, want->channels,
+                          &digest, &memory, &err))
+        answer(WR_WIRE_DIGEST, &digest, sizeof digest);
+    else answer_failure(memory, &err);
+}
+
+static void find_text(const Serving *serving, const WrWireText *want)
+{
+    const char *text = wr_decoder_attribute(serving->decoder, want->part, want->name);
+    answer(WR_WIRE_TEXT, text, text ? strlen(text) + 1 : 0);
+}
+
+/* The program is trusted: its requests are not validated. */
+static void serve_requests(Serving *serving)
+{
+    for (;;) {
+        WrWireHead head;
+        union {
+            WrWireRead read;
+            WrWireDigest digest;
+            WrWireText text;
+        } want;
+        int fd = -1, ignored;
+        if (wr_wire_receive(CHANNEL, &head, sizeof head, 0.0, &fd) != WR_WIRE_GOT ||
+            head.length > sizeof want ||
+            wr_wire_receive(CHANNEL, &want, head.length, 0.0, &ignored) != WR_WIRE_GOT)
+            return;
+        if (head.kind == WR_WIRE_READ) read_rows(serving, &want.read, fd);
+        if (head.kind == WR_WIRE_DIGEST) digest_rows(serving, &want.digest);
+        if (head.kind == WR_WIRE_TEXT) find_text(serving, &want.text);
+    }
+}
+
+/* ---- files read at once ---- */
+
+/* Reads the whole file. NULL and an error when out of memory. */
+static char *read_file(size_t *length, WrError *err)
+{
+    WrFileInfo info;
+    int64_t size = wr_fd_info(PICTURE, &info) ? info.bytes : 0;
+    char *bytes = wr_try_alloc((size_t)size + 1, 1, "the file", err);
+    *length = 0;
+    while (bytes && *length < (size_t)size) {
+        int64_t n =
+            wr_fd_read_at(PICTURE, bytes + *length, (size_t)size - *length, (int64_t)*length);
+        if (n <= 0) break;
+        *length += (size_t)n;
+    }
+    return bytes;
+}
+
+/* The program is trusted, but a file may have been shortened since the request. */
+static bool make_font(const char *bytes, size_t length, const char *want, size_t want_length,
+                      WrText *block, WrError *err)
+{
+    WrFontOrder order;
+    WrFontFile files[WR_FONT_FILES];
+    if (want_length < sizeof order) return wr_fail(err, "no text to shape");
+    memcpy(&order, want, sizeof order);
+    WrFontRequest ask = { .text = want + sizeof order,
+                          .face = order.face,
+                          .direction = (WrFontDirection)order.direction };
+    const char *language = ask.text + order.text_length + 1;
+    if (order.language_length) ask.language = language;
+    if (order.axes_length) ask.axes = language + order.language_length + 1;
+    for (int i = 0; i < order.file_count; i++) {
+        if (order.lengths[i] > length) return wr_fail(err, "has become shorter meanwhile");
+        files[i] = (WrFontFile){ (const uint8_t *)bytes, (size_t)order.lengths[i] };
+        bytes += files[i].length;
+        length -= files[i].length;
+    }
+    return wr_font_make(files, order.file_count, &ask, block, err);
+}
+
+static char *receive_ask(uint32_t *length)
+{
+    WrWireHead head;
+    if (wr_wire_receive(CHANNEL, &head, sizeof head, 0.0, NULL) != WR_WIRE_GOT) wr_process_leave(0);
+    char *ask = wr_alloc((size_t)head.length + 1, 1);
+    if (head.length > 0 && wr_wire_receive(CHANNEL, ask, head.length, 0.0, NULL) != WR_WIRE_GOT)
+        wr_process_leave(0);
+    *length = head.length;
+    return ask;
+}
+
+static void serve_block(const WrWireOrder *order)
+{
+    WrError err = { "" };
+    WrText block = { 0 };
+    uint32_t ask_length;
+    size_t length;
+    bool memory = false;
+    char *ask = receive_ask(&ask_length), *bytes = read_file(&length, &err);
+    bool good = false;
+    if (!bytes) memory = true;
+    else if (order->task == WR_WIRE_MESH)
+        good = wr_mesh_make(bytes, length, order->ending, ask_length > 0, &block, &memory, &err);
+    else good = make_font(bytes, length, ask, ask_length, &block, &err);
+    wr_free(bytes);
+    wr_free(ask);
+    if (good && block.length > WR_WIRE_MAX) good = wr_fail(&err, "holds too much");
+    if (good) answer(WR_WIRE_BLOCK, block.data, block.length);
+    else answer_failure(memory, &err);
+}
+
+/* ---- all ---- */
+
+void wr_serve(const WrWireOrder *order, int file, int channel)
+{
+    WrError err = { "" };
+    bool memory = false;
+    keep_two(file, channel);
+    uint64_t space = wr_sandbox_space();
+    wr_process_hear_signals();
+    if (!wr_sandbox_enter(order->memory, order->seconds)) {
+        wr_fail(&err, "cannot be read safely here: the system refuses to limit the reader process");
+        answer_failure(false, &err);
+        return;
+    }
+    if (order->task != WR_WIRE_PICTURE) {
+        serve_block(order);
+        return;
+    }
+    Serving serving = { .decoder = wr_decoder_open(PICTURE, order->ending, order->most,
+                                                   order->numbers == 1, &memory, &err) };
+    if (!serving.decoder) {
+        answer_failure(memory, &err);
+        return;
+    }
+    /* Some decoders store a whole image, in the file's type and again in another order. */
+    uint64_t bytes = answer_parts(&serving), enough = MEMORY_BASE + 3 * bytes;
+    if (order->memory && enough < order->memory) wr_sandbox_memory(space, enough);
+    serve_requests(&serving);
+}
+
+/* ---- the process ---- */
+
+/* The reader process: reads untrusted image, mesh and font files, so that a hostile one harms nothing
+   else. Its protocol is reader_protocol.h. It forks for each file, so that no file is affected by
+   another one. The process itself reads only the first bytes of a file, to determine whether the image
+   library is needed. The library is loaded once: when a file needs it, or when the process is idle. */
 
 #define CONTROL 0        /* descriptor of the control socket */
 #define CHILDREN_MAX 256 /* files being read at once */

@@ -1,6 +1,5 @@
-/* octave_kernels_body.h - implementation of the loops of octave_kernels.h, included once by each
-   octave_kernels_v*.c, which defines WR_NOISE_TABLE and WR_NOISE_NAME. Intentionally without an include
-   guard. */
+/* octave_kernels_body.h - implementation of the loops of octave_kernels.h, compiled once for each
+   instruction set (wr_kern of CMakeLists.txt). Intentionally without an include guard. */
 #include "noise/octave_kernels.h"
 
 #include <math.h>
@@ -281,8 +280,8 @@ static void add_magnitude(float factor, float below, const float *restrict f, in
     for (int i = 0; i < count; i++) n[i] += factor * fabsf(f[i]) - below;
 }
 
-const WrNoiseKernels WR_NOISE_TABLE = {
-    .name = WR_NOISE_NAME,
+const WrNoiseKernels WR_SET_TABLE = {
+    .name = WR_SET_NAME,
     .place = place,
     .stand = stand,
     .prescribe = prescribe,

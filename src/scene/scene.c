@@ -7,7 +7,7 @@
 #include "image/image.h"
 #include "scene/background.h"
 #include "scene/environment.h"
-#include "scene/named_view.h"
+#include "scene/camera.h"
 #include "scene/param.h"
 #include "scene/tone_mapping.h"
 #include "shade/slope.h"

@@ -1,10 +1,11 @@
 #include "system/fd.h"
 
-#include "system/fd_internal.h"
+#include "system/system_internal.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 static WrKind kind_of(mode_t mode)
@@ -213,4 +214,18 @@ bool wr_fd_lock(int fd, WrLock lock)
     do done = flock(fd, kinds[lock] | LOCK_NB);
     while (done != 0 && errno == EINTR);
     return done == 0;
+}
+
+/* ---- memory-mapped files ---- */
+
+void *wr_map(int fd, size_t length, WrMapFor what)
+{
+    int may = what == WR_MAP_SHARE ? PROT_READ | PROT_WRITE : PROT_READ;
+    void *bytes = mmap(NULL, length, may, what == WR_MAP_READ ? MAP_PRIVATE : MAP_SHARED, fd, 0);
+    return bytes == MAP_FAILED ? NULL : bytes;
+}
+
+void wr_map_end(const void *bytes, size_t length)
+{
+    if (bytes) munmap((void *)bytes, length);
 }

@@ -123,3 +123,16 @@ bool wr_random_bytes(void *bytes, size_t length);
 #ifdef __cplusplus
 }
 #endif
+
+/* ---- memory-mapped files ---- */
+
+typedef enum WrMapFor {
+    WR_MAP_READ,  /* later writes to the file need not be visible */
+    WR_MAP_WATCH, /* later writes to the file are visible */
+    WR_MAP_SHARE  /* writes to the memory change the file */
+} WrMapFor;
+
+/* Maps the first `length` bytes; NULL and errno. Access beyond the file's end kills the program: use it
+   only for files that cannot be shortened, or where that risk is handled. */
+void *wr_map(int fd, size_t length, WrMapFor what);
+void wr_map_end(const void *bytes, size_t length); /* NULL is allowed */

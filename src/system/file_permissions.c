@@ -1,6 +1,6 @@
 #include "system/file_permissions.h"
 
-#include "system/file_permissions_internal.h"
+#include "system/system_internal.h"
 
 #include <unistd.h>
 

@@ -1,6 +1,6 @@
 #include "system/path.h"
 
-#include "system/fd_internal.h"
+#include "system/system_internal.h"
 
 #include <dirent.h>
 #include <fcntl.h>

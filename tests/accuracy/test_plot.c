@@ -3,7 +3,7 @@
 #include "test.h"
 #include "test_folder.h"
 
-#include "accuracy/plot_labels.h"
+#include "accuracy/plot.h"
 #include "accuracy/report.h"
 #include "base/error.h"
 #include "base/file.h"

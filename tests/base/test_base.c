@@ -9,7 +9,6 @@
 #include "base/hash.h"
 #include "base/pool.h"
 #include "base/progress.h"
-#include "base/time_left.h"
 #include "base/spool.h"
 #include "base/text.h"
 #include "base/vec.h"

@@ -1,6 +1,5 @@
 /* The words of `wrinkle bench`, and the measurements behind each. */
 #include "base/error.h"
-#include "base/suggest.h"
 #include "base/text.h"
 #include "bench/bench.h"
 #include "bench/sections.h"

@@ -9,7 +9,6 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "base/memory_count.h"
 #include "base/progress.h"
 #include "base/slab.h"
 #include <math.h>

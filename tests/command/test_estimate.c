@@ -4,7 +4,7 @@
 #include "session_help.h"
 
 #include "base/error.h"
-#include "base/memory_count.h"
+#include "base/memory.h"
 #include "base/progress.h"
 #include "command/estimate.h"
 #include "command/session.h"

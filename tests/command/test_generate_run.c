@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "base/progress.h"
-#include "command/generate.h"
+#include "command/commands.h"
 #include "command/session.h"
 #include "document/blend.h"
 #include "document/document.h"

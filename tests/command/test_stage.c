@@ -9,7 +9,7 @@
 #include "render/frame/frame.h"
 #include "scene/camera_control.h"
 #include "scene/backface_range.h"
-#include "scene/named_view.h"
+#include "scene/camera.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
 

@@ -3,7 +3,6 @@
 #include "test.h"
 
 #include "base/error.h"
-#include "base/suggest.h"
 #include "base/text.h"
 #include "command/command_line.h"
 #include "command/help.h"

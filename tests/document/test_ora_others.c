@@ -11,7 +11,7 @@
 #include "document/ora.h"
 #include "field/field.h"
 #include "image/image.h"
-#include "image/icc_profile.h"
+#include "image/coding.h"
 
 #include <zip.h>
 #include <zlib.h>

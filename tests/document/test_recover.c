@@ -3,7 +3,7 @@
 #include "journal_help.h"
 
 #include "base/error.h"
-#include "document/journal_file.h"
+#include "document/journal.h"
 
 #include <fcntl.h>
 #include <sys/file.h>

@@ -6,7 +6,8 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "document/journal_file.h"
+#include "document/journal.h"
+#include "document/recover.h"
 
 #include <string.h>
 #include <sys/mman.h>

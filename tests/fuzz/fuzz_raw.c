@@ -3,7 +3,7 @@
    text with the size. */
 #include "base/error.h"
 #include "base/memory.h"
-#include "generate/terrain_raw.h"
+#include "generate/terrain.h"
 
 #include <stdint.h>
 #include <stdlib.h>

@@ -44,7 +44,7 @@ function(wr_fuzz name)
     set_tests_properties(fuzz_${name} PROPERTIES LABELS fuzz)
 endfunction()
 
-wr_fuzz(journal document/journal_file.c document/recover.c base/error.c base/message.c
+wr_fuzz(journal document/journal.c document/recover.c base/error.c base/message.c
         base/file.c base/hash.c base/memory.c base/progress.c base/text.c)
 
 set(tip_sources brush/tip.c base/error.c base/message.c base/exactmath.c
@@ -52,9 +52,7 @@ set(tip_sources brush/tip.c base/error.c base/message.c base/exactmath.c
 wr_fuzz(gbr ${tip_sources} LIBRARIES -lsleef)
 wr_fuzz(gih ${tip_sources} LIBRARIES -lsleef)
 
-set(font_reading image/font_free.c image/font_gzip.c image/font_lines.c image/font_make.c image/font_pack.c
-    image/font_parts.c)
-wr_fuzz(font ${font_reading} image/font_outline.c base/error.c base/message.c base/memory.c base/text.c
+wr_fuzz(font image/font_load.c image/font_outline.c base/error.c base/message.c base/memory.c base/text.c
         LIBRARIES ${SHAPING_CFLAGS} -lfreetype -lharfbuzz -lfribidi -lz)
 
 wr_fuzz(raw generate/terrain_raw.c base/error.c base/message.c base/memory.c base/progress.c base/text.c)
@@ -68,6 +66,5 @@ if(NOT WR_SANITIZE)
                   base
             LIBRARIES -lmypaint -ljson-c -lfreetype -lharfbuzz -lfribidi -lfontconfig -lpng16 -lz -lsleef -lzip -lexpat -ldl -lpthread)
     wr_fuzz(myb brush/engine.c brush/preset.c
-            brush/settings.c
             ROOMS brush image field base LIBRARIES -lmypaint -ljson-c -lfreetype -lharfbuzz -lfribidi -lfontconfig -lpng16 -lz -lsleef -lfreetype -ldl -lpthread)
 endif()

@@ -2,7 +2,7 @@
 #include "test.h"
 
 #include "base/file.h"
-#include "generate/terrain_raw.h"
+#include "generate/terrain.h"
 #include "generate_help.h"
 #include "image/image.h"
 

@@ -2,7 +2,7 @@
 #include "test.h"
 
 #include "base/error.h"
-#include "generate/zbuffer_extrusion.h"
+#include "generate/zbuffer_shapes.h"
 
 static double implicit_plate(double depth, double bevel, WrZBevel kind, const double q[3])
 {

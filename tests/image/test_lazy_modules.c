@@ -1,4 +1,4 @@
-/* Modules and lists loaded on first use (base/once_async.h): a caller waiting for a slow one can be cancelled, and
+/* Modules and lists loaded on first use (base/pool.h): a caller waiting for a slow one can be cancelled, and
    the result serves the next caller. */
 #include "test.h"
 #include "test_folder.h"

@@ -10,7 +10,7 @@
 #include "field/field.h"
 #include "render/kernels/kern.h"
 #include "shade/reflection_models.h"
-#include "render/frame/srgb_encode.h"
+#include "render/frame/pixel_encode.h"
 #include "render/textures/slope_pyramid.h"
 #include "system/clock.h"
 

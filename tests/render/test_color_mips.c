@@ -5,7 +5,7 @@
 
 #include "image/image.h"
 #include "render/kernels/kern.h"
-#include "render/textures/color_mips.h"
+#include "render/textures/mips.h"
 
 static WrImage *checker(int width, int height)
 {

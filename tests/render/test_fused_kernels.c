@@ -2,7 +2,7 @@
    within the bound of fast arithmetic. Fetches of tables and textures: test_fused_fetches.c. */
 #include "fused_help.h"
 
-#include "render/frame/srgb_encode.h"
+#include "render/frame/pixel_encode.h"
 
 /* ---- codes ---- */
 

@@ -11,7 +11,7 @@
 #include "field/field.h"
 #include "image/image.h"
 #include "render/reference/reference.h"
-#include "render/reference/reference_view.h"
+#include "render/reference/reference_intersect.h"
 #include "scene/scene.h"
 #include "surface/data.h"
 #include "base/vec.h"

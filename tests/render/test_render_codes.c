@@ -4,7 +4,7 @@
 #include "render_cases.h"
 
 #include "render/kernels/kern.h"
-#include "render/frame/srgb_encode.h"
+#include "render/frame/pixel_encode.h"
 
 /* ---- the codes themselves ---- */
 

@@ -51,15 +51,18 @@ for flag in -march=x86 -mprefer-vector-width -mrecip -mavx -msse; do
 done
 # Where there is a compiler for it, the kernels and what chooses among them are compiled.
 if command -v aarch64-linux-gnu-gcc >/dev/null; then
-    for file in $(cd "$source/src" && find . -name '*_kernels.c' -o -name kern.c -o -name cpu.c -o -name '*_v[34].c'); do
+    compile_arm() { # FILE ARGUMENT...
         aarch64-linux-gnu-gcc -std=c17 -O1 -D_GNU_SOURCE -fopenmp-simd -ffp-contract=off -Wno-psabi -DWR_NATIVE_LEVEL=0 -I"$source/src" \
-            -c "$source/src/$file" -o "$folder/kern.o" || complain "src/$file is not for arm64"
+            -c "$@" -o "$folder/kern.o" || complain "$1 is not for arm64"
+    }
+    for file in $(find "$source/src" -name '*_kernels.c' -o -name kern.c -o -name cpu.c) "$folder"/arm/src/*/wr_*_v[34].c; do
+        compile_arm "$file"
     done
 fi
 
 # ---- native: the plain set and one level's; each choice of level compiles ----
 configure native -DWR_KERNELS=native -DWR_TESTS=OFF || complain "configuring native kernels: $(tail -n 5 "$folder/native.log")"
-sets=$(grep -oE '"file": "[^"]*/render/kernels/kern_(ref|v[1-4])\.c"' "$folder/native/compile_commands.json" | grep -oE '(ref|v[1-4])\.c' | tr '\n' ' ')
+sets=$(grep -oE '"file": "[^"]*/render/wr_kern_(ref|v[1-4])\.c"' "$folder/native/compile_commands.json" | grep -oE '(ref|v[1-4])\.c' | tr '\n' ' ')
 [[ $sets =~ ^(ref\.c\ v[1-4]\.c\ |v[1-4]\.c\ ref\.c\ )$ ]] || complain "a native build compiles these sets: $sets"
 configure wrong -DWR_KERNELS=some -DWR_TESTS=OFF && complain "WR_KERNELS=some is configured"
 for level in 0 1 2 3 4; do

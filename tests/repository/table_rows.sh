@@ -29,7 +29,8 @@ check() {
         cp "$source/$header" "$scratch"
         add "$scratch" "$count" || { echo "table_rows: $header does not count by $count"; bad=1; }
         for file in $files; do
-            [[ -f $source/$file ]] || { echo "table_rows: $name: there is no $file"; bad=1; }
+            [[ -f $source/$file ]] || grep -q "wr_kern($(basename "$file" .c) " "$source/$(dirname "$file")/CMakeLists.txt" ||
+                { echo "table_rows: $name: there is no $file"; bad=1; }
         done
     done < <(grep -v '^#' "$table")
     rm -f "$scratch"

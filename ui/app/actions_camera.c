@@ -12,7 +12,7 @@
 #include "command/session.h"
 #include "scene/camera_control.h"
 #include "scene/backface_range.h"
-#include "scene/named_view.h"
+#include "scene/camera.h"
 #include "scene/objects.h"
 #include "surface/surface.h"
 

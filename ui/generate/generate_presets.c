@@ -22,7 +22,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "command/command_line.h"
-#include "command/generate.h"
+#include "command/commands.h"
 #include "document/document.h"
 #include "field/field.h"
 #include "generate/generator.h"

@@ -18,7 +18,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "command/command_line.h"
-#include "command/generate.h"
+#include "command/commands.h"
 #include "command/session.h"
 #include "document/blend.h"
 #include "generate/generator.h"

@@ -1,7 +1,7 @@
 /* busy_internal.h - state of the running background command and its queue. Private to busy*.c, run_line.c and
    document.c. */
 #pragma once
-#include "base/time_left.h"
+#include "base/progress.h"
 #include "ui/state/busy.h"
 
 #include "base/array.h"

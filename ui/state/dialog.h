@@ -2,7 +2,7 @@
 #pragma once
 #include "ui/state/app_state.h"
 
-#include "base/time_left.h"
+#include "base/progress.h"
 
 #include <SDL.h>
 #include <stdbool.h>

@@ -15,7 +15,6 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/enum_rows.h"
-#include "base/file_identity.h"
 #include "system/clock.h"
 
 #include <SDL.h>

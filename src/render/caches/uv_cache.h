@@ -3,7 +3,7 @@
    buffer and Newton's method (E26, E27). */
 #pragma once
 #include "base/hash.h"
-#include "render/visibility/uv_raster.h"
+#include "render/visibility/raster.h"
 
 #include <stdbool.h>
 

@@ -10,11 +10,9 @@
 #include "render/caches/dirty_regions.h"
 #include "render/environment/env_setup.h"
 #include "render/textures/slope_pyramid.h"
-#include "render/textures/normal_mips.h"
-#include "render/frame/srgb_encode.h"
+#include "render/textures/mips.h"
 #include "render/textures/height_copies.h"
 #include "render/frame/tile.h"
-#include "render/textures/color_mips.h"
 
 #include <stdbool.h>
 #include <stdint.h>

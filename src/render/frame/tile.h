@@ -7,7 +7,7 @@
 #include "render/caches/dirty_regions.h"
 #include "render/simd/simd_kernels.h"
 #include "render/textures/slope_pyramid.h"
-#include "render/visibility/uv_raster.h"
+#include "render/visibility/raster.h"
 #include "render/textures/ambient_occlusion.h"
 #include "render/visibility/parallax.h"
 #include "render/plan/plan.h"
@@ -15,7 +15,6 @@
 #include "render/caches/relight_cache.h"
 #include "render/environment/env_setup.h"
 #include "render/tessellation/dice.h"
-#include "render/visibility/triangle_raster.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -84,7 +83,7 @@ typedef struct WrTileJob {
     double rough;           /* roughness where no map sets it */
     WrKernVary vary;        /* read only if roughness varies or lobes widen */
     WrKernVaryd vary_double;
-    WrLook relief; /* slopes of the normal map (normal_mips.h); pyramid NULL: none */
+    WrLook relief; /* slopes of the normal map (mips.h); pyramid NULL: none */
     WrLookd relief_double;
     const WrFrames *frames; /* tangent frames at the mesh's corners, for the normal map; or NULL */
     int samples;            /* K: samples a side of a pixel */

@@ -2,8 +2,7 @@
 
 #include "base/cpu.h"
 #include "base/error.h"
-#include "base/suggest.h"
-#include "render/kernels/kern_tables.h"
+#include "base/text.h"
 #include "render/simd/simd_kernels.h"
 
 #include <stdio.h>

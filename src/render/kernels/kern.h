@@ -37,7 +37,7 @@ typedef struct WrColourLook {
 
 /* A mesh in the form that kernels fetch triangles from. */
 typedef struct WrTriangleLook {
-    const float *corners;     /* 8 each: position, normal, u, v (triangle_raster.h) */
+    const float *corners;     /* 8 each: position, normal, u, v (raster.h) */
     const int32_t *triangles; /* 3 corners each */
     double scale;             /* its positions -> kernel units; a power of two */
     const float *patches;     /* 56 each, as WrPatch (patches.h); NULL: a mesh of triangles */
@@ -127,3 +127,8 @@ typedef struct WrKernMipLevel {
 const WrKernels *wr_kernels_get(const char *isa, bool fast, WrError *err);
 /* The double-precision kernel set of that name, as wr_kernels_get; always exact. */
 const WrKernelsd *wr_kernels_double(const char *isa, WrError *err);
+
+/* The compiled sets; kern.c chooses among them. */
+extern const WrKernels wr_kern_ref, wr_kern_v1, wr_kern_v2, wr_kern_v3, wr_kern_v4;
+extern const WrKernels wr_kern_fast_v3, wr_kern_fast_v4;
+extern const WrKernelsd wr_kern_double_ref, wr_kern_double_v1, wr_kern_double_v3, wr_kern_double_v4;

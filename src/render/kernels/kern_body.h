@@ -1,6 +1,6 @@
-/* kern_body.h - the bodies of all span kernels. Included once by each kern_*.c, which defines WR_KERN_TABLE,
-   WR_KERN_NAME and WR_KERN_EXACT for the table at its end, WR_KERN_FAST for fast arithmetic, and WR_KERN_DOUBLE
-   for double precision. Plain loops over structure-of-arrays strips; no branches except ?: on
+/* kern_body.h - the bodies of all span kernels. Compiled once for each kernel set (wr_kern of CMakeLists.txt and of
+   render), which defines WR_SET_TABLE and WR_SET_NAME for the table at its end, WR_KERN_FAST for fast arithmetic,
+   WR_KERN_DOUBLE for double precision, and WR_KERN_PLAIN for one sample at a time. Plain loops over structure-of-arrays strips; no branches except ?: on
    scalars, no library call that does not vectorise. Deliberately without a guard. */
 #include "base/enum_rows.h"
 #include "field/scheme_list.h"
@@ -9,7 +9,7 @@
 #include "render/kernels/kern.h"
 #include "render/kernels/kern_double_math.h"
 #include "render/textures/slope_pyramid.h"
-#include "render/frame/srgb_encode.h"
+#include "render/frame/pixel_encode.h"
 
 #include <float.h>
 #include <stddef.h>
@@ -212,7 +212,6 @@ ALWAYS VEC unit_or(VEC a, VEC otherwise)
 }
 
 #include "render/kernels/kern_ray_hit_body.h"
-#include "render/kernels/kern_raster_body.h"
 #include "render/kernels/kern_surface_body.h"
 #include "render/kernels/kern_triangle_body.h"
 #include "render/kernels/kern_patch_body.h"
@@ -249,9 +248,11 @@ static LOOK_KERNEL const kern_looks[] = {
 WR_ROWS_END(kern_looks, WR_SCHEME_COUNT);
 
 WR_ROWS(kernels);
-const KERNELS WR_KERN_TABLE = {
-    .name = WR_KERN_NAME,
-    .exact = WR_KERN_EXACT,
+const KERNELS WR_SET_TABLE = {
+    .name = WR_SET_NAME,
+#ifndef WR_KERN_FAST
+    .exact = true,
+#endif
     .hit_quad = kern_hit_quad,
     .hit_quad_at = kern_hit_quad_at,
     .round = {

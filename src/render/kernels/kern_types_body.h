@@ -331,7 +331,7 @@ typedef struct WR_T(WrKernels) {
                           const REAL steepest[2], int step, const WR_T(WrStrip) * strip);
     /* All of the light where all lights are behind; pictured: `colour` has filled C. */
     void (*ambient)(const WR_T(WrKernMaterial) * material, bool pictured, WR_T(WrStrip) * strip);
-    /* codes: finished colours as opaque 8-bit codes (srgb_encode.h), out [count]. codes_over: premultiplied
+    /* codes: finished colours as opaque 8-bit codes (pixel_encode.h), out [count]. codes_over: premultiplied
        ones, [count][4], over a background. Non-finite numbers count as 0; returns how many there were. */
     int (*codes)(const uint32_t *bins, const WR_T(WrStrip) * strip, uint32_t *out);
     int (*codes_over)(const uint32_t *bins, const float background[3], int count, const float *rgba,

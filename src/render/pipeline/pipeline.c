@@ -8,7 +8,7 @@
 #include "render/shadows/shadow_rays.h"
 #include "render/simd/simd_kernels.h"
 #include "render/textures/slope_pyramid.h"
-#include "render/textures/normal_mips.h"
+#include "render/textures/mips.h"
 #include "render/frame/tile_internal.h"
 #include "scene/normal_map.h"
 #include "scene/scene.h"

@@ -77,12 +77,8 @@ static bool lit(const WrSink *sink)
 
 #include "render/pipeline/stage_infinite_plane_body.h"
 #include "render/pipeline/stage_relight_store_body.h"
-#include "render/pipeline/stage_horizon_shadow_body.h"
-#include "render/pipeline/stage_shadow_rays_body.h"
-#include "render/pipeline/stage_ambient_occlusion_body.h"
-#include "render/pipeline/stage_reflection_body.h"
+#include "render/pipeline/stage_shadow_body.h"
 #include "render/pipeline/stage_light_body.h"
-#include "render/pipeline/stage_unlit_body.h"
 #include "render/pipeline/stage_depth_body.h"
 #include "render/pipeline/stage_parallax_body.h"
 #include "render/pipeline/stage_displaced_body.h"
@@ -310,8 +306,7 @@ static void finish_strip(const WrTileJob *job, const Rays *rays, int quad, const
 
 /* ---- visibility ---------------------------------------------------------------------------------- */
 
-#include "render/pipeline/stage_raster_body.h"
-#include "render/pipeline/stage_triangles_body.h"
+#include "render/pipeline/stage_visibility_body.h"
 #include "render/pipeline/stage_relight_body.h"
 
 static void pour(const WrScatter *places, Strip *strip)

@@ -1,4 +1,136 @@
-/* stage_light_body.h - lighting of a strip: a single light in one pass, several stage by stage. Part of
+/* stage_light_body.h - microfacet lights: highlights, and early-outs for runs of samples. Part of
+   pipeline_body.h. */
+
+/* ---- microfacet lights ---- */
+
+/* Kernel parameters of a model other than Blinn-Phong. */
+static WR_T(WrKernMatter) matter_of(const WrMatter *m)
+{
+    WR_T(WrKernMatter) out = { .kd = (REAL)m->kd, .ks = (REAL)m->ks };
+    for (int c = 0; c < 3; c++) out.colour[c] = (REAL)m->colour[c];
+    out.shininess = (REAL)m->shininess, out.scale = (REAL)m->scale, out.alpha = (REAL)m->alpha;
+    out.ior = (REAL)m->ior, out.f0 = (REAL)m->f0, out.metal = (REAL)m->metal;
+    out.a = (REAL)m->a, out.b = (REAL)m->b;
+    out.mean = (REAL)m->mean, out.again = (REAL)m->again;
+    for (int i = 0; i < WR_ALBEDO_TERMS; i++) out.albedo[i] = (REAL)m->albedo[i];
+    return out;
+}
+
+/* The kernel of such a model; NULL: the model is computed in stages. */
+static WR_T(WrReflectKernel) reflect_of(const WrTileJob *job)
+{
+    const WrEnergy energy = job->plan->kept ? WR_ENERGY_KEPT : WR_ENERGY_PUBLISHED;
+    return KERNELS_OF(job)->reflect[job->plan->model][energy];
+}
+
+/* Brightness below which `dials faint=` omits a highlight, relative to the lamp's light; 0: never. */
+static REAL least_of(const WrTileJob *job, const WR_T(WrKernLight) * light)
+{
+    const double most =
+        fmax((double)light->rgb[0], fmax((double)light->rgb[1], (double)light->rgb[2]));
+    return most > 0 ? (REAL)(job->plan->faint / most) : (REAL)0;
+}
+
+/* True if no highlight in the run is wider than the material's own (E39; after bend_strip). */
+static bool is_narrow(const WrTileJob *job, const Strip *strip)
+{
+    if (!runs(job, WR_EFFECT_SPREAD)) return true;
+    return !runs(job, WR_EFFECT_WIDENED) && strip->gathered;
+}
+
+static double chord_of(double cosine)
+{
+    return sqrt(fmax(0, 2 - 2 * cosine)) + 1e-3; /* margin for the rounding of the cosine */
+}
+
+/* Upper bound of a highlight over a run (E37). S0 = l0 + v0 is S = l + v of one sample; no other S is farther
+   from it than e, so h is within y = asin(e / |S0|) of the axis, and n' no nearer to h than x - y, x its angle
+   to the axis:
+     D is at most that of this angle,   V (n.l) at most 1 / (2 sqrt(a^2 + (1 - a^2) (n.v)^2)),
+     G / (n.v) at most 1 / (n.v),
+     F at most f0 + (1 - f0) (1 - v.h)^5 of v.h = (|S0| - e) / 2. */
+static double most_of(const WR_T(WrKernMatter) * m, WrReflectHighlight highlight, double length,
+                      const REAL found[4])
+{
+    const double e = chord_of((double)found[2]) + chord_of((double)found[3]);
+    const double nv = (double)found[0], a2 = (double)m->alpha * (double)m->alpha;
+    if (!(e < 0.5 * length)) return INFINITY;
+    const double cx = fmin((double)found[1] + 1e-6, 1), sx = sqrt(1 - cx * cx);
+    const double sy = e / length, cy = sqrt(1 - sy * sy); /* sine and cosine of the angle */
+    if (!(cx < cy)) return INFINITY;
+    const double off = 1 - fmax(0, fmin(0.5 * (length - e), 1)), p = off * off * off * off * off;
+    const double c = fmax(0, cx * cy + sx * sy), w = a2 * c * c + 1 - c * c;
+    const double f0 = (double)m->f0, metal = (double)m->metal, f = f0 + (1 - f0) * p;
+    const double d = (double)m->ks * a2 / (w * w);
+    switch (highlight) {
+    case WR_HIGHLIGHT_CAVITIES: return d * (double)m->scale / nv;
+    case WR_HIGHLIGHT_SMITH:
+        return d * 0.5 / sqrt(a2 + (1 - a2) * nv * nv) * (f * (1 - metal) + metal);
+    case WR_HIGHLIGHT_NONE:
+    case WR_HIGHLIGHT_HALF:
+    case WR_HIGHLIGHT_POWER: break;
+    }
+    return INFINITY;
+}
+
+/* True if every highlight is certainly below `least`. *faces: every n' faces the viewer. */
+static bool is_faint(const WrTileJob *job, const WR_T(WrKernMatter) * m, const Strip *strip,
+                     bool *faces)
+{
+    const int mid = strip->count / 2;
+    const REAL v0[3] = { strip->vx[mid], strip->vy[mid], strip->vz[mid] };
+    const REAL l0[3] = { strip->lx[mid], strip->ly[mid], strip->lz[mid] };
+    REAL axis[3], found[4], sum = 0;
+    for (int k = 0; k < 3; k++) axis[k] = v0[k] + l0[k], sum += axis[k] * axis[k];
+    const double length = sqrt((double)sum);
+    for (int k = 0; k < 3; k++) axis[k] = length > 0 ? axis[k] / (REAL)length : 0;
+    KERNELS_OF(job)->survey(axis, v0, l0, strip, found);
+    *faces = (double)found[0] >= WR_FACED_FROM;
+    return *faces && most_of(m, wr_reflects[job->plan->model].highlight, length, found) <
+                         0.999 * (double)m->least;
+}
+
+/* Microfacet form for this run (E37, E39, E40). */
+static WrReflectSpread form_of(const WrTileJob *job, const WR_T(WrKernMatter) * matter,
+                               const Strip *strip)
+{
+    bool faces = false;
+    if (!is_narrow(job, strip)) return job->plan->lean ? WR_REFLECT_LEAN : WR_REFLECT_ROUND;
+    if (runs(job, WR_EFFECT_VARIED) || runs(job, WR_EFFECT_FACED) ||
+        !wr_reflects[job->plan->model].facets)
+        return WR_REFLECT_AS_IT_IS;
+    if (matter->least > 0 && is_faint(job, matter, strip, &faces)) return WR_REFLECT_DULL;
+    if (matter->least > 0 ? faces : KERNELS_OF(job)->faces(strip)) return WR_REFLECT_FACING;
+    return WR_REFLECT_AS_IT_IS;
+}
+
+/* Adds one light by a model other than Blinn-Phong. Returns true if its highlight was skipped. */
+static bool reflect_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, Strip *strip,
+                          Watch *watch)
+{
+    WR_T(WrKernMatter) matter = matter_of(&job->matter);
+    const bool shines = runs(job, WR_EFFECT_SPECULAR);
+    matter.least = least_of(job, light);
+    const WrReflectSpread how = form_of(job, &matter, strip);
+    if (runs(job, WR_EFFECT_VARIED))
+        KERNELS_OF(job)->reflect_vary(light, &matter, VARY_OF(job), job->plan->model,
+                                      job->plan->kept, how, strip);
+    else reflect_of(job)(light, &matter, how, strip);
+    if (runs(job, WR_EFFECT_DIFFUSE)) did(watch, WR_EFFECT_DIFFUSE);
+    if (shines) did(watch, WR_EFFECT_SPECULAR);
+    if (runs(job, WR_EFFECT_KEPT)) did(watch, WR_EFFECT_KEPT);
+    if (runs(job, WR_EFFECT_FACED)) did(watch, WR_EFFECT_FACED);
+    if (runs(job, WR_EFFECT_FAINT)) did(watch, WR_EFFECT_FAINT);
+    did(watch, WR_EFFECT_MODEL);
+    watch_lap(watch, shines ? WR_STAGE_SPECULAR : WR_STAGE_DIFFUSE);
+    keep_half3(job, strip->dr, strip->dg, strip->db, strip->count, watch);
+    keep_half3(job, strip->sr, strip->sg, strip->sb, strip->count, watch);
+    return how == WR_REFLECT_DULL;
+}
+
+/* ---- lighting ---- */
+
+/* Lighting of a strip: a single light in one pass, several stage by stage. Part of
    pipeline_body.h. */
 
 static void shine_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, Strip *strip)
@@ -304,4 +436,79 @@ static unsigned light_strip(const WrTileJob *job, const Rays *rays, const WrSink
         veiled_at_once(job, shade, strip, watch);
     else light_at_once(job, &VIEWED(&job->view->lit, rays), shade, true, strip, watch);
     return 0;
+}
+
+/* ---- early-outs ---- */
+
+/* Early-outs for runs of samples: flat parts of the table, and samples that all lights are
+   behind, however the table bends their normals. Part of pipeline_body.h. */
+
+/* Upper bound of the slopes that the strip fetches. */
+static void find_steepest(const WrTileJob *job, const Strip *strip, float steepest[2])
+{
+    double box[4];
+    KERNELS_OF(job)->reach(strip, box);
+    wr_level_box(&job->level, box[0], box[1], box[2], box[3], steepest);
+}
+
+/* True if every light certainly lies behind these samples. table: the largest slopes; NULL: n' is n. */
+static bool are_behind(const WrTileJob *job, const Rays *rays, const float table[2], int step,
+                       const Strip *strip)
+{
+    const Kernels *k = KERNELS_OF(job);
+    const REAL more = (REAL)1.00001; /* sums of slopes are rounded */
+    REAL steepest[2] = { 0, 0 };
+    if (table) {
+        steepest[0] = (REAL)table[0] * more * (REAL)fabs((double)LOOK_OF(job)->scale_u);
+        steepest[1] = (REAL)table[1] * more * (REAL)fabs((double)LOOK_OF(job)->scale_v);
+    }
+    for (int i = 0; i < job->view->light_count; i++) {
+        const WR_T(WrKernLight) *light = &VIEWED(job->view, lights)[i];
+        if (table ? !k->behind_bumped(rays, light, steepest, step, strip)
+                  : !k->behind(rays, light, step, strip))
+            return false;
+    }
+    return true;
+}
+
+/* A few samples are tested first, with the slopes of the table's flattest tile: most runs that are not dark fail
+   here. deferred: kernels of a surface whose tangents are not computed yet, or NULL. */
+static bool is_dark(const WrTileJob *job, const Rays *rays, bool level,
+                    const WR_T(WrRound) * deferred, Strip *strip)
+{
+    const int few = strip->count / 3 + 1;
+    const bool bumped = !level && job->plan->bump != WR_BUMP_NONE;
+    float table[2];
+    if (!job->dark || job->view->stretched) return false;
+    if (bumped && deferred) {
+        if (!are_behind(job, rays, NULL, few, strip)) return false;
+        deferred->tangents(&VIEWED(job->view, shape), strip);
+    }
+    if (!are_behind(job, rays, bumped ? job->level.gentlest : NULL, few, strip)) return false;
+    if (!bumped) return are_behind(job, rays, NULL, 1, strip);
+    find_steepest(job, strip, table);
+    return are_behind(job, rays, table, few, strip) && are_behind(job, rays, table, 1, strip);
+}
+
+/* Records the texels that a skipped run would have fetched: after an edit there the run may need the work. */
+static void note_spared(const WrTileJob *job, const Rays *rays, Strip *strip,
+                        const WrTileScratch *scratch)
+{
+    const WrLevel *level = &job->level;
+    for (int i = 0; i < strip->count; i++) {
+        const double u = level->ru * (double)strip->u[i], v = level->rv * (double)strip->v[i];
+        strip->tu[i] = (REAL)(level->periodic_u ? u - floor(u) : fmin(fmax(u, 0), 1));
+        strip->tv[i] = (REAL)(level->periodic_v ? v - floor(v) : fmin(fmax(v, 0), 1));
+    }
+    note_looks(job, rays, strip, scratch);
+}
+
+/* Where the table has no slope, n' equals n to the bit. */
+static bool is_level(const WrTileJob *job, const Strip *strip)
+{
+    float steepest[2];
+    if (!job->ground || job->plan->bump == WR_BUMP_NONE) return false;
+    if (runs(job, WR_EFFECT_SHADOW)) return false; /* the tangents are needed */
+    find_steepest(job, strip, steepest);
+    return steepest[0] == 0.0f && steepest[1] == 0.0f;
 }

@@ -3,7 +3,7 @@
 
 /* ---- fetches ------------------------------------------------------------------------------------- */
 
-/* Level 1 is the map itself (normal_mips.h), whose texels have no spread. */
+/* Level 1 is the map itself (mips.h), whose texels have no spread. */
 static void flush_map(const WrTileJob *job, const Batch *batch, Strip *strip,
                       WrTileScratch *scratch, Watch *watch)
 {

@@ -277,7 +277,7 @@ static void meet_relief(const WrTileJob *job, const Rays *rays, int face, Strip 
     watch_lap(watch, WR_STAGE_PARALLAX);
 }
 
-/* Height of the hit above the base, where P now is: for the shadow of the base (stage_shadow_rays_body.h). */
+/* Height of the hit above the base, where P now is: for the shadow of the base (stage_shadow_body.h). */
 static void keep_lift(Strip *s)
 {
     for (int i = 0; i < s->count; i++)

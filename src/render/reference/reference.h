@@ -7,7 +7,7 @@
             which is another model and not an approximation; none only if the scene has no height.
    Inverse  closed forms for plane, cube, sphere, cylinder, cone; else subdivision with Newton's method in
             double until the step is below 1e-12 of the patch, nearest root.
-   Shape    P + F n if the surface is displaced, by Newton's method on it: no facets (reference_displaced.h).
+   Shape    P + F n if the surface is displaced, by Newton's method on it: no facets (reference_relief.h).
    Pixels   the mean of k x k intensities, summed in pairs; k is doubled until the change from k to 2k is
             below a tenth of the error to be measured, or the limit is reached.
    Shading  by the scene's lights and material, in double, with the C library's pow. */

@@ -1,17 +1,61 @@
 /* reference_shade.h - shading of a surface point, from normal to light, for the reference. Private to the
    reference. */
 #pragma once
+#include "base/vec.h"
 #include "noise/octaves.h"
-#include "render/reference/reference_displaced.h"
-#include "render/reference/reference_environment.h"
-#include "render/reference/reference_heights.h"
-#include "render/reference/reference_view.h"
+#include "render/reference/reference_relief.h"
+#include "render/reference/reference_intersect.h"
 #include "scene/scene.h"
 #include "shade/bump_mode.h"
+#include "shade/reflection.h"
 
 #include <stdbool.h>
 
 typedef struct WrReferenceStage WrReferenceStage;
+
+/* ---- environment light ---- */
+
+/* Environment light for the reference: a lamp's formulas integrated over all
+   directions. Private to the reference. Uses its own fetch and none of the renderer's kernels, harmonics or
+   lobes. */
+
+typedef struct WrScene WrScene;
+
+/* A part of the sphere, as one lamp: the mean direction of its light, and that light times its solid angle over
+   pi. */
+typedef struct WrReferenceSector {
+    WrVec3 where; /* the object's axes; unit */
+    double rgb[3];
+} WrReferenceSector;
+
+/* The part of an integral over directions that one sample computes, standing for all. The samples of a pixel
+   take different parts, so that together they cover each several times. */
+typedef struct WrReferenceShare {
+    int part, of; /* 0 <= part < of; of 1: all */
+} WrReferenceShare;
+
+/* directions of facets along each axis, over which highlights are summed */
+#define WR_REFERENCE_FACETS 48
+
+typedef struct WrReferenceSurround {
+    WrReferenceSector *sectors; /* [count], owned; NULL: no environment */
+    int count;
+    double rotation[9];
+    double turn[2];                        /* cosine and sine of the user's turn */
+    double around[WR_REFERENCE_FACETS][2]; /* rotations of facets about the normal */
+} WrReferenceSurround;
+
+/* Prepares the environment. rotation: the object's axes -> the world. */
+void wr_reference_surround_init(WrReferenceSurround *surround, const WrScene *scene,
+                                const double rotation[9]);
+void wr_reference_surround_fini(WrReferenceSurround *surround);
+/* Adds the environment's light: `own` is multiplied by the surface's colour, `white` by none. is: the material
+   there; n: facing the viewer; colour: as in wr_reference_reflect. */
+void wr_reference_surround_light(const WrReferenceStage *stage, const WrMatter *is, WrVec3 n,
+                                 WrVec3 v, const double colour[3], WrReferenceShare share,
+                                 double own[3], double white[3]);
+
+/* ---- shading ---- */
 
 /* An object as a shadow caster: without culling, back faces and hidden faces included. */
 typedef struct WrReferenceCaster {
@@ -89,3 +133,17 @@ typedef struct WrReferenceSample {
 /* The reference's intensity at (x, y), pixels from the top left corner; false outside the object. */
 bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrReferenceShare share,
                          WrReferenceSample *out);
+
+/* ---- shadows of objects ---- */
+
+/* Shadows of objects, for the reference: rays against the objects' own forms, in
+   double. Private to the reference. */
+
+/* Makes an object a shadow caster. The stage must not move in memory. */
+void wr_reference_caster(WrReferenceCaster *caster, const WrReferenceStage *stage);
+/* Visible share of a lamp past all objects. l: unit vector to it, along the object's axes, and away, its
+   distance, both in world proportions; radius: of an area lamp, radians, of whose points each sample uses its
+   share. Below the surface's own horizon the object itself is tested along the horizon. */
+double wr_reference_cast_share(const WrReferenceStage *stage, const WrSurfacePoint *at,
+                               const WrReferenceHit *hit, WrVec3 perturbed, WrVec3 l, double away,
+                               double radius, WrReferenceShare share);

@@ -5,7 +5,7 @@
 #include "base/exactmath.h"
 #include "base/memory.h"
 #include "field/field.h"
-#include "render/tessellation/displacement_lookup.h"
+#include "render/tessellation/dice.h"
 #include "surface/triangles.h"
 
 #include <float.h>

@@ -1,5 +1,4 @@
-/* simd_encode_body.h - SIMD 8-bit encoding of finished colours, with the codes of srgb_encode.h. Part of
-   simd_v3.c and simd_v4.c. Fetching from the table costs more than the curve. So the curve is computed to
+/* simd_encode_body.h - SIMD 8-bit encoding of finished colours, with the codes of pixel_encode.h. Part of simd_set_body.h. Fetching from the table costs more than the curve. So the curve is computed to
    CODE_OFF of a code, and the table is used only for vectors in which that does not determine some sample's
    code. */
 

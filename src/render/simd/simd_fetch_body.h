@@ -1,6 +1,5 @@
 /* simd_fetch_body.h - SIMD fetches of slopes and colours from tables that are periodic in both directions, in
-   the steps of kern_fetch_body.h: positions, four texels per sample, arithmetic. Part of simd_v3.c and
-   simd_v4.c. */
+   the steps of kern_fetch_body.h: positions, four texels per sample, arithmetic. Part of simd_set_body.h. */
 
 #define W_EACH _Pragma("omp simd")
 

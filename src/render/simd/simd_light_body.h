@@ -1,5 +1,5 @@
 /* simd_light_body.h - SIMD light of one lamp in one pass, for highlights that are narrow or have a whole
-   exponent. Part of simd_v3.c and simd_v4.c.
+   exponent. Part of simd_set_body.h.
    The formulas are those of shade/light_body.h. Narrow highlights are computed only if some sample of a vector
    has one above 2^-FAINT of full scale. There 1 - n'.h is small, so its logarithm needs no exponent. */
 #define FAINT 15 /* fainter highlights are omitted: 2^-15 is a sixth of the bound of a stage */

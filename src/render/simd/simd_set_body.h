@@ -1,8 +1,8 @@
-/* simd_set_body.h - common text of simd_v3.c and simd_v4.c, which define WR_WIDE_TABLE. Deliberately without a
-   guard. */
+/* simd_set_body.h - the fused kernels of one instruction set, compiled for AVX2 and AVX-512 (wr_kern of
+   CMakeLists.txt). Deliberately without a guard. */
 #include "base/kernmath.h"
 #include "render/textures/slope_pyramid.h"
-#include "render/frame/srgb_encode.h"
+#include "render/frame/pixel_encode.h"
 
 #include <float.h>
 #include <math.h>
@@ -18,10 +18,10 @@
 #include "render/simd/simd_sphere_filter_body.h"
 #include "render/simd/simd_encode_body.h"
 
-const WrWide WR_WIDE_TABLE = { narrow,       wide_shade,     wide_smooth,       wide_paint,
-                               wide_sphere,  wide_points,    wide_sphere_light, wide_central,
-                               wide_filters, wide_footprint, wide_filtered,     wide_colour,
-                               wide_codes };
+const WrWide WR_SET_TABLE = { narrow,       wide_shade,     wide_smooth,       wide_paint,
+                              wide_sphere,  wide_points,    wide_sphere_light, wide_central,
+                              wide_filters, wide_footprint, wide_filtered,     wide_colour,
+                              wide_codes };
 #else
-const WrWide WR_WIDE_TABLE = { 0 };
+const WrWide WR_SET_TABLE = { 0 };
 #endif

@@ -1,5 +1,4 @@
-/* simd_sphere_body.h - SIMD spheres seen from outside: ray hits, frame, and n' from slopes. Part of simd_v3.c
-   and simd_v4.c. The formulas are those of kern_ray_hit_body.h and kern_bump_body.h, simplified because only the
+/* simd_sphere_body.h - SIMD spheres seen from outside: ray hits, frame, and n' from slopes. Part of simd_set_body.h. The formulas are those of kern_ray_hit_body.h and kern_bump_body.h, simplified because only the
    nearer root occurs: n is P / R, it is on the viewer's side, and the direction to the viewer is the reversed
    ray. */
 

@@ -1,5 +1,5 @@
 /* simd_sphere_filter_body.h - SIMD slopes of a sphere filtered over each pixel's footprint, with one isotropic fetch as
-   in kern_filter_body.h. Part of simd_v3.c and simd_v4.c.
+   in kern_filter_body.h. Part of simd_set_body.h.
 
    Footprints are those of kern_filter_body.h, simplified for a sphere: Pu and Pv are perpendicular, 2 pi flat
    and pi long, flat = nx^2 + ny^2. For most pixels a cheaper test shows that they are below a texel: a step of

@@ -1,4 +1,4 @@
-/* simd_sphere_rows_body.h - SIMD evaluation of sphere rows (sphere_rows.h). Part of simd_v3.c and simd_v4.c. */
+/* simd_sphere_rows_body.h - SIMD evaluation of sphere rows (sphere_rows.h). Part of simd_set_body.h. */
 
 ALWAYS Wide row_places(float gx, int i)
 {

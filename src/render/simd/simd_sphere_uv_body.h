@@ -1,4 +1,4 @@
-/* simd_sphere_uv_body.h - SIMD u and v of a sphere from n. Part of simd_v3.c and simd_v4.c. */
+/* simd_sphere_uv_body.h - SIMD u and v of a sphere from n. Part of simd_set_body.h. */
 
 /* The angle in turns from sine and cosine, both non-negative, by the smaller one times `by`; error up to 2e-7. */
 ALWAYS Wide turns_of(Wide sine, Wide cosine, Wide by)

@@ -1,7 +1,7 @@
 /* simd_vector_body.h - vector type of register width, with its operations, for hand-written kernels. Compilers
-   do not generate reciprocal roots of 16 numbers or table look-ups in registers. Included by simd_v3.c and
-   simd_v4.c, for which the build sets the flags of an instruction set; without one there are no such kernels. A
-   vector has WIDE numbers; a mask has one lane for each. Deliberately without a guard. */
+   do not generate reciprocal roots of 16 numbers or table look-ups in registers. Part of simd_set_body.h,
+   for which the build sets the flags of an instruction set; without one there are no such kernels. A vector has
+   WIDE numbers; a mask has one lane for each. Deliberately without a guard. */
 #include "render/simd/simd_kernels.h"
 
 #define ALWAYS static inline __attribute__((always_inline))

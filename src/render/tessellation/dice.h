@@ -1,4 +1,37 @@
-/* dice.h - view-dependent tessellation of a displaced surface P + F n.
+/* dice.h - F of a displaced surface, prepared for many single evaluations.
+   Private to the renderer. With a fitted spline each evaluation would compute the nearby coefficients again;
+   here they are computed once. */
+#pragma once
+#include "scene/scene.h"
+#include "surface/triangles.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* ---- heights ---- */
+
+typedef struct WrError WrError;
+typedef struct WrField WrField;
+
+/* wr_scene_height(raised.scene, raised.field, ...) is F. Zero-initialise; fini frees. */
+typedef struct WrRaised {
+    WrScene *scene;       /* own share */
+    const WrField *field; /* borrowed, or `own`; NULL with a formula */
+    WrField *own;
+} WrRaised;
+
+/* Prepares F. field: must outlive `raised`; not read with a formula. Call fini even after a failure. Errors: no
+   memory. */
+bool wr_raised_init(WrRaised *raised, const WrScene *scene, const WrField *field, WrError *err);
+void wr_raised_fini(WrRaised *raised);
+/* True if F displaces the surface itself. */
+bool wr_is_raised(const WrScene *scene);
+/* Upper bound of |F|, object units. field: not read with a formula. */
+double wr_raised_most(const WrScene *scene, const WrField *field);
+
+/* ---- dicing ---- */
+
+/* View-dependent tessellation of a displaced surface P + F n.
    Private to the renderer.
 
    The domain is cut at lines through F's texels, with a block of texels for each cell, and each cell into rows
@@ -13,14 +46,7 @@
    alike. Points along it are computed from equal numbers. Points that the surface shares where its domain ends
    (seams, poles, edges of a cube) move together, to the position nearest to all the planes that they were
    displaced to. */
-#pragma once
-#include "surface/triangles.h"
 
-#include <stdbool.h>
-#include <stdint.h>
-
-typedef struct WrError WrError;
-typedef struct WrField WrField;
 typedef struct WrPool WrPool;
 typedef struct WrScene WrScene;
 typedef struct WrView WrView;

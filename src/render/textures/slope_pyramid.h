@@ -50,7 +50,7 @@ typedef enum WrPyramidKind {
     WR_PYRAMID_MOMENTS,                  /* Fu, Fv, F, 0, Suu, Suv, Svv, 0 */
     WR_PYRAMID_RANGE,                    /* least Fu, largest Fu, least Fv, largest Fv */
     WR_PYRAMID_COUNT,                    /* number of kinds made from height tables */
-    WR_PYRAMID_COLOUR = WR_PYRAMID_COUNT /* R, G, B, 0: built by color_mips.h */
+    WR_PYRAMID_COLOUR = WR_PYRAMID_COUNT /* R, G, B, 0: built by mips.h */
 } WrPyramidKind;
 
 #define WR_PYRAMID_LEVELS 16 /* of 16384 texels: 0..14 */

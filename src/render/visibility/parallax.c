@@ -3,7 +3,7 @@
 #include "field/field.h"
 #include "field/scheme_list.h"
 #include "field/scheme.h"
-#include "render/tessellation/displacement_lookup.h"
+#include "render/tessellation/dice.h"
 #include "scene/scene.h"
 
 #include <math.h>

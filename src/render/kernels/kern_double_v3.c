@@ -1,8 +1,0 @@
-/* Double-precision span kernels for one instruction set; CMakeLists.txt sets the flags. */
-#define WR_KERN_DOUBLE
-#define WR_KERN_TABLE wr_kern_double_v3
-#define WR_KERN_NAME "v3"
-#define WR_KERN_EXACT true
-#include "render/kernels/kern_tables.h"
-
-#include "render/kernels/kern_body.h"
