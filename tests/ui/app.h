@@ -10,9 +10,12 @@
 
 #include "ui/app/loop.h"
 #include "ui/app/input.h"
+#include "ui/state/action.h"
 #include "ui/state/app_options.h"
 #include "ui/state/app_state.h"
+#include "ui/state/busy_internal.h"
 #include "ui/state/document.h"
+#include "ui/tools/stroke_input.h"
 
 #include <SDL.h>
 
@@ -63,6 +66,23 @@ static inline void draw_again(WrApp *app)
         SDL_PushEvent(&(SDL_Event){ .type = app->ready_event });
         wr_app_step(app);
     }
+}
+
+/* True while a command runs, or an action waits behind one: work in the background, such as saving memory, may begin at any time,
+   and a line that comes meanwhile runs after it. */
+static inline bool is_working(const WrApp *app)
+{
+    return app->busy || app->waits->items.count > 0 || wr_deferred_waits(app, NULL) ||
+           app->brush->jobs.count > 0;
+}
+
+/* Run the main loop until no command runs or waits. */
+static inline void settle(Bench *bench)
+{
+    for (int i = 0; i < 6; i++) draw_again(bench->app);
+    const double end = wr_clock_seconds() + PATIENCE;
+    while (is_working(bench->app) && wr_clock_seconds() < end) wr_app_step(bench->app);
+    assert_false(is_working(bench->app));
 }
 
 /* Pointer events as from the system. */

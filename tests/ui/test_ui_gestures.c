@@ -43,16 +43,6 @@ static const WrDocument *document_of(const Bench *bench)
     return wr_session_document(bench->session);
 }
 
-/* Run the main loop until no command runs. */
-static void settle(Bench *bench)
-{
-    for (int i = 0; i < 6; i++) draw_again(bench->app);
-    double end = wr_clock_seconds() + PATIENCE;
-    while ((bench->app->busy || bench->app->brush->jobs.count > 0) && wr_clock_seconds() < end)
-        wr_app_step(bench->app);
-    assert_null(bench->app->busy);
-}
-
 static void drag(Bench *bench, double x, double y, int dx, int dy)
 {
     WrApp *app = bench->app;
@@ -560,14 +550,15 @@ static bool on_panel_divider(Bench *bench, double *x, double *y)
     return middle_of(&bench->app->layout->panel_divider, x, y);
 }
 
-/* The first widget of that kind in the panels at the right. */
+/* The first widget of that kind in the panels at the right, below the row of the tool's options, whose width depends on
+   what is loaded. */
 static bool on_widget(Bench *bench, WrKeyStopKind kind, double *x, double *y)
 {
     int count;
     const WrKeyStop *stops = wr_gui_stops(bench->app->gui, &count);
-    const int left = bench->app->layout->panel.x;
+    const SDL_Rect *panel = &bench->app->layout->panel;
     for (int i = 0; i < count; i++) {
-        if (stops[i].kind != kind || stops[i].x0 < left) continue;
+        if (stops[i].kind != kind || stops[i].x0 < panel->x || stops[i].y0 < panel->y) continue;
         *x = 0.5 * (double)(stops[i].x0 + stops[i].x1);
         *y = 0.5 * (double)(stops[i].y0 + stops[i].y1);
         return true;
