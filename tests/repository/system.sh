@@ -2,7 +2,7 @@
 # What belongs to one system stands in src/system, and all else compiles with C17 and the libraries alone:
 #   - no file outside includes a header that neither C17, C++17 nor a library has;
 #   - the build gives nobody but src/system more names than those;
-#   - in src/system, what only Linux has is in NAME_linux.c with NAME_plain.c beside it; all other files are content with
+#   - in src/system, what only Linux has is in linux.c or NAME_linux.c, with plain.c or NAME_plain.c beside it; all other files are content with
 #     what POSIX says, and the plain ones have the same functions.
 # There is no list of exceptions.  system.sh SOURCE-FOLDER BUILD-FOLDER
 set -uo pipefail
@@ -53,16 +53,16 @@ compiled() {
 
 posix=(-D_POSIX_C_SOURCE=200809L -D_XOPEN_SOURCE=700)
 for file in src/system/*.c; do
-    [[ $file != *_linux.c ]] || continue
+    [[ $file != *linux.c ]] || continue
     compiled "$file" "${posix[@]}" >"$trial/plain" || complain "$file: wants more than POSIX says"
-    [[ $file == *_plain.c ]] || continue
-    other=${file/_plain.c/_linux.c}
+    [[ $file == *plain.c ]] || continue
+    other=${file/plain.c/linux.c}
     [[ -f $other ]] || { complain "$file: has no $other beside it"; continue; }
     compiled "$other" -D_GNU_SOURCE >"$trial/linux" || complain "$other: is not for this system"
     diff "$trial/linux" "$trial/plain" || complain "$file: has not the functions of $other"
 done
-for file in src/system/*_linux.c; do
-    [[ -f ${file/_linux.c/_plain.c} ]] || complain "$file: has no plain form beside it"
+for file in src/system/*linux.c; do
+    [[ -f ${file/linux.c/plain.c} ]] || complain "$file: has no plain form beside it"
 done
 for file in src/system/*.h; do
     grep -q 'Belongs to one system' "$file" || complain "$file: does not say that it belongs to one system"
