@@ -307,7 +307,8 @@ void wr_plot_lay_out(WrPlot *plot, double x, double y, double w, double h)
     }
 }
 
-bool wr_plot_reference(const WrPlot *plot, double *y)
+/* Height of the reference's line in the plot; false if it is below the axis. */
+static bool plot_reference(const WrPlot *plot, double *y)
 {
     const double own = plot->ladder->reference.last_rms;
     *y = y_of(plot, own);
@@ -349,7 +350,7 @@ static void draw_axes(const WrPlot *p, const WrPlotCanvas *c)
 static void draw_reference(const WrPlot *p, const WrPlotCanvas *c, const char *words)
 {
     double y;
-    if (!wr_plot_reference(p, &y)) return;
+    if (!plot_reference(p, &y)) return;
     for (double x = p->x; x < p->x + p->w; x += 8 * c->unit)
         draw_line(c, (WrPlotSpot){ x, y }, (WrPlotSpot){ fmin(x + 4 * c->unit, p->x + p->w), y }, 1,
                   WR_PLOT_REFERENCE);
@@ -519,7 +520,7 @@ static void draw_numbers(const WrPlot *plot, WrVectorDrawing *to)
     WrPlotSpot *places = wr_alloc((size_t)plot->fronts + 1, sizeof *places);
     WrPlotBox *taken = wr_alloc(2 * (size_t)plot->fronts + 2, sizeof *taken);
     int boxes = add_steps(spots, plot->fronts, taken);
-    if (wr_plot_reference(plot, &y)) {
+    if (plot_reference(plot, &y)) {
         taken[boxes++] = (WrPlotBox){ frame.x, y - 1, frame.w, 2 };
         taken[boxes++] = (WrPlotBox){ frame.x, y - 24, REFERENCE_W, 24 };
     }

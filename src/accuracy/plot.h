@@ -81,8 +81,6 @@ typedef struct WrPlotCanvas {
    none. */
 void wr_plot_draw(const WrPlot *plot, const WrPlotCanvas *canvas, const char *reference,
                   int ringed);
-/* Height of the reference's line in the plot; false if it is below the axis. */
-bool wr_plot_reference(const WrPlot *plot, double *y);
 
 /* ---- labels ---- */
 

@@ -36,7 +36,6 @@ bool wr_text_same_letters(const char *a, const char *b);
 /* Edit distance of two words: insertions, deletions, changes, swaps of neighbours. Only the first
    WR_WORD_MAX bytes of a longer word are compared. */
 #define WR_WORD_MAX 63
-int wr_text_distance(const char *a, const char *b);
 
 /* Appends a JSON string with its quotes; invalid UTF-8 bytes become U+FFFD. */
 void wr_text_add_json_string(WrText *text, const char *bytes);

@@ -325,7 +325,8 @@ const WrInputInfo *wr_preset_input(int input)
     return &input_rows[input];
 }
 
-int wr_preset_input_find(const char *name)
+/* 0 .. count - 1 */
+static int preset_input_find(const char *name)
 {
     for (int i = 0; i < MYPAINT_BRUSH_INPUTS_COUNT; i++)
         if (strcmp(input_rows[i].name, name) == 0) return i;
@@ -485,7 +486,7 @@ static bool read_setting(WrPreset *preset, json_object *value, Place at, int set
         return fail_type(err, at, inputs, "an object of curves");
     json_object_object_foreach(inputs, key, list)
     {
-        int input = wr_preset_input_find(key);
+        int input = preset_input_find(key);
         at.member = key;
         if (input < 0) {
             preset->skipped++;
@@ -962,7 +963,7 @@ static bool set_curve(WrPreset *preset, int setting, Piece input, Piece points, 
 {
     char name[64];
     name_of(input, name);
-    WrCurve curve = { .setting = setting, .input = wr_preset_input_find(name) };
+    WrCurve curve = { .setting = setting, .input = preset_input_find(name) };
     const char *of = wr_preset_setting(setting)->name;
     if (curve.input < 0)
         return wr_fail(err,

@@ -87,9 +87,8 @@ typedef struct WrInputInfo {
 } WrInputInfo;
 
 int wr_preset_input_count(void);
-const WrInputInfo *wr_preset_input(int input); /* 0 .. count - 1 */
-int wr_preset_input_find(const char *name);    /* -1 */
-/* The contribution of a curve to a setting is within -reach .. reach. */
+const WrInputInfo *wr_preset_input(
+    int input); /* The contribution of a curve to a setting is within -reach .. reach. */
 double wr_preset_reach(int setting);
 /* One input's curve: points [count][2], borrowed; 0 points if none. */
 int wr_preset_curve(const WrPreset *preset, int index, int input, const float (**points)[2]);

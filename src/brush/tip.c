@@ -50,7 +50,8 @@ static double share(const Span *s, int k)
     return k == s->first ? s->head : k == s->last ? s->tail : 1.0;
 }
 
-void wr_tip_halve(const float *in, int in_w, int in_h, float *out, int out_w, int out_h)
+/* One level from the next larger one: box means by area. */
+static void tip_halve(const float *in, int in_w, int in_h, float *out, int out_w, int out_h)
 {
     for (int j = 0; j < out_h; j++) {
         Span rows = span_of(j, in_h, out_h);
@@ -98,7 +99,7 @@ static void punch(const Picture *codes, Picture *out)
 /* Half the size; a hole if any covered pixel is one, or if they differ by over a step. */
 static void shrink(const Picture *in, Picture *out)
 {
-    wr_tip_halve(in->values, in->width, in->height, out->values, out->width, out->height);
+    tip_halve(in->values, in->width, in->height, out->values, out->width, out->height);
     for (int j = 0; j < out->height; j++)
         for (int i = 0; i < out->width; i++) {
             Span rows = span_of(j, in->height, out->height);
@@ -194,7 +195,8 @@ static bool picture_new(Picture *p, int width, int height, WrError *err)
     return p->values;
 }
 
-bool wr_tip_smooth(float *values, int width, int height, WrError *err)
+/* Smooths values in units of codes; each changes by at most 1/2. */
+static bool tip_smooth(float *values, int width, int height, WrError *err)
 {
     Picture codes[WR_SMOOTH_LEVELS + 1] = { { .values = NULL } }, smooth = { .values = NULL };
     Picture given = { values, width, height };
@@ -243,7 +245,8 @@ static uint32_t big32(const uint8_t *p)
     return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
 }
 
-bool wr_tip_is_gbr(const uint8_t *bytes, size_t size)
+/* True if it begins like a .gbr. */
+static bool tip_is_gbr(const uint8_t *bytes, size_t size)
 {
     if (size < WR_GBR_V1) return false;
     uint32_t version = big32(bytes + 4);
@@ -267,7 +270,8 @@ static size_t utf8_length(const uint8_t *p, size_t size)
     return good ? n : 0;
 }
 
-char *wr_tip_clean_name(const uint8_t *bytes, size_t size)
+/* Untrusted text made printable: control characters and invalid UTF-8 become '?'. The caller frees it. */
+static char *tip_clean_name(const uint8_t *bytes, size_t size)
 {
     char *name = wr_alloc(size + 1, 1);
     size_t length = 0;
@@ -334,8 +338,10 @@ static void read_pixels(const uint8_t *in, size_t count, uint32_t bytes, float *
     }
 }
 
-bool wr_tip_parse_gbr(WrTip *tip, int cell, const uint8_t *bytes, size_t size, size_t *used,
-                      char **name, double *spacing, const char *what, WrError *err)
+/* Parses one .gbr at the start of bytes into a cell; *used: its length. name (may be NULL) and spacing
+ * are set if the file has them. */
+static bool tip_parse_gbr(WrTip *tip, int cell, const uint8_t *bytes, size_t size, size_t *used,
+                          char **name, double *spacing, const char *what, WrError *err)
 {
     Header h = { 0 };
     if (!read_header(bytes, size, &h, what, err)) return false;
@@ -344,7 +350,7 @@ bool wr_tip_parse_gbr(WrTip *tip, int cell, const uint8_t *bytes, size_t size, s
     read_pixels(bytes + h.length, count, h.bytes, tip->cell[cell].values);
     if (!wr_tip_cell_finish(tip, cell, 255, err)) return false;
     *used = h.length + count * h.bytes;
-    if (name) *name = wr_tip_clean_name(bytes + h.fixed, h.length - h.fixed);
+    if (name) *name = tip_clean_name(bytes + h.fixed, h.length - h.fixed);
     if (spacing) *spacing = h.spacing;
     return true;
 }
@@ -480,8 +486,7 @@ static bool read_cells(WrTip *tip, const uint8_t *bytes, size_t size, const char
     for (int i = 0; i < tip->cells; i++) {
         size_t length = 0;
         double *spacing = i == 0 ? &tip->spacing : NULL;
-        if (!wr_tip_parse_gbr(tip, i, bytes + used, size - used, &length, NULL, spacing, what,
-                              err)) {
+        if (!tip_parse_gbr(tip, i, bytes + used, size - used, &length, NULL, spacing, what, err)) {
             wr_error_prefix(err, "picture %d of %d: ", i + 1, tip->cells);
             return false;
         }
@@ -490,7 +495,8 @@ static bool read_cells(WrTip *tip, const uint8_t *bytes, size_t size, const char
     return true;
 }
 
-WrTip *wr_tip_parse_gih(const uint8_t *bytes, size_t size, const char *what, WrError *err)
+/* Parses a whole .gih. */
+static WrTip *tip_parse_gih(const uint8_t *bytes, size_t size, const char *what, WrError *err)
 {
     size_t offset = 0;
     Line name, line, word;
@@ -514,7 +520,7 @@ WrTip *wr_tip_parse_gih(const uint8_t *bytes, size_t size, const char *what, WrE
     }
     Ranks ranks = read_ranks(line);
     set_ranks(tip, &ranks);
-    tip->name = wr_tip_clean_name(name.text, name.length);
+    tip->name = tip_clean_name(name.text, name.length);
     return tip;
 }
 
@@ -583,14 +589,14 @@ bool wr_tip_cell_finish(WrTip *tip, int cell, int codes, WrError *err)
     WrTipCell *c = &tip->cell[cell];
     size_t count = (size_t)c->width[0] * (size_t)c->height[0];
     if (codes > 0) {
-        if (!wr_tip_smooth(c->values, c->width[0], c->height[0], err)) return false;
+        if (!tip_smooth(c->values, c->width[0], c->height[0], err)) return false;
         for (size_t i = 0; i < count; i++) c->values[i] = unit(c->values[i] / (float)codes);
     } else {
         for (size_t i = 0; i < count; i++) c->values[i] = unit(c->values[i]);
     }
     for (int l = 1; l < c->levels; l++)
-        wr_tip_halve(c->values + c->start[l - 1], c->width[l - 1], c->height[l - 1],
-                     c->values + c->start[l], c->width[l], c->height[l]);
+        tip_halve(c->values + c->start[l - 1], c->width[l - 1], c->height[l - 1],
+                  c->values + c->start[l], c->width[l], c->height[l]);
     return true;
 }
 
@@ -614,10 +620,10 @@ fail:
 
 WrTip *wr_tip_parse(const void *bytes, size_t size, const char *name, WrError *err)
 {
-    if (!wr_tip_is_gbr(bytes, size)) return wr_tip_parse_gih(bytes, size, name, err);
+    if (!tip_is_gbr(bytes, size)) return tip_parse_gih(bytes, size, name, err);
     WrTip *tip = wr_tip_blank(1);
     size_t used;
-    if (!wr_tip_parse_gbr(tip, 0, bytes, size, &used, &tip->name, &tip->spacing, name, err)) {
+    if (!tip_parse_gbr(tip, 0, bytes, size, &used, &tip->name, &tip->spacing, name, err)) {
         wr_tip_free(tip);
         return NULL;
     }

@@ -46,19 +46,3 @@ bool wr_tip_cell_alloc(WrTip *tip, int cell, int width, int height, const char *
 /* Level 0 contains values in units of 1/codes (codes 0: of 1). Smooths them if there are codes, scales
  * them to 0..1 and computes the other levels. */
 bool wr_tip_cell_finish(WrTip *tip, int cell, int codes, WrError *err);
-
-/* One level from the next larger one: box means by area. */
-void wr_tip_halve(const float *in, int in_w, int in_h, float *out, int out_w, int out_h);
-/* Smooths values in units of codes; each changes by at most 1/2. */
-bool wr_tip_smooth(float *values, int width, int height, WrError *err);
-
-/* Parses one .gbr at the start of bytes into a cell; *used: its length. name (may be NULL) and spacing
- * are set if the file has them. */
-bool wr_tip_parse_gbr(WrTip *tip, int cell, const uint8_t *bytes, size_t size, size_t *used,
-                      char **name, double *spacing, const char *what, WrError *err);
-/* True if it begins like a .gbr. */
-bool wr_tip_is_gbr(const uint8_t *bytes, size_t size);
-/* Parses a whole .gih. */
-WrTip *wr_tip_parse_gih(const uint8_t *bytes, size_t size, const char *what, WrError *err);
-/* Untrusted text made printable: control characters and invalid UTF-8 become '?'. The caller frees it. */
-char *wr_tip_clean_name(const uint8_t *bytes, size_t size);

@@ -42,7 +42,8 @@ bool wr_journal_folder(WrText *path, WrError *err)
     return true;
 }
 
-bool wr_journal_make_folder(const char *path, WrError *err)
+/* Creates a folder and its parents, mode 0700 each; succeeds if it exists. */
+static bool journal_make_folder(const char *path, WrError *err)
 {
     if (!*path) return wr_fail(err, "a folder without a name cannot be made");
     char *part = wr_strdup(path);
@@ -94,7 +95,9 @@ char *wr_journal_newest_snapshot(const char *files)
     return name.data;
 }
 
-bool wr_journal_sync_path(const char *path, WrError *err)
+/* Syncs a file, or a folder so that its names are on the disk. Some file systems cannot sync folders; that is
+   not a failure. */
+static bool journal_sync_path(const char *path, WrError *err)
 {
     int fd = wr_fd_open(path, WR_OPEN_READ);
     if (fd < 0) return wr_fail(err, "%s: %s", path, strerror(errno));
@@ -165,7 +168,8 @@ static void sweep_files(const char *path)
     wr_text_fini(&journal);
 }
 
-void wr_journal_sweep(const char *folder)
+/* Removes incomplete files of killed programs from the folder, if they are older than a day. */
+static void journal_sweep(const char *folder)
 {
     WrFolder *dir = wr_folder_open(folder);
     const char *entry;
@@ -268,12 +272,14 @@ bool wr_journal_parse_hash(const char *text, WrHash *hash)
     return true;
 }
 
-bool wr_journal_is_sha256(const char *text)
+/* 64 lower-case hex digits. */
+static bool journal_is_sha256(const char *text)
 {
     return memchr(text, '\0', 65) == text + 64 && strspn(text, "0123456789abcdef") == 64;
 }
 
-bool wr_journal_is_name(const char *text)
+/* True for a plain file name: not empty, no slash, no leading dot. */
+static bool journal_is_name(const char *text)
 {
     return *text && *text != '.' && !strchr(text, '/');
 }
@@ -375,8 +381,8 @@ static bool header_from_words(char *const words[HEADER_WORDS], WrJournalHeader *
     if (*words[4]) h.start.sha256 = words[4];
     if (*words[5]) h.start.snapshot = words[5];
     if (*words[6]) h.start.path = words[6];
-    if (h.start.sha256 && !wr_journal_is_sha256(h.start.sha256)) return false;
-    if (h.start.snapshot && !wr_journal_is_name(h.start.snapshot)) return false;
+    if (h.start.sha256 && !journal_is_sha256(h.start.sha256)) return false;
+    if (h.start.snapshot && !journal_is_name(h.start.snapshot)) return false;
     if (h.start.path && h.start.path[0] != '/') return false;
     if ((h.start.kind == WR_JOURNAL_SNAPSHOT) != (h.start.snapshot != NULL)) return false;
     if (h.start.kind == WR_JOURNAL_DOCUMENT && !h.start.path) return false;
@@ -576,17 +582,17 @@ static bool copy_file(const char *path, const char *target, const char *sha256, 
 static bool journal_keep(const char *folder, const char *files, const char *path, int from,
                          const char *sha256, WrError *err)
 {
-    if (!wr_journal_is_sha256(sha256))
+    if (!journal_is_sha256(sha256))
         return wr_fail(err, "%s: its SHA-256 must be 64 lower-case hex digits", path);
     WrText name = { 0 }, target = { 0 };
     kept_name(&name, sha256, path);
     wr_text_addf(&target, "%s/%s", files, wr_text_get(&name));
     bool ok = wr_path_is_there(wr_text_get(&target));
-    if (!ok && wr_journal_make_folder(files, err))
+    if (!ok && journal_make_folder(files, err))
         ok = link_sibling(folder, wr_text_get(&target), wr_text_get(&name), sha256) ||
              (from < 0 ? copy_file(path, wr_text_get(&target), sha256, err)
                        : copy_open(from, path, wr_text_get(&target), sha256, err));
-    if (ok) wr_journal_sync_path(files, NULL);
+    if (ok) journal_sync_path(files, NULL);
     wr_text_fini(&name);
     wr_text_fini(&target);
     return ok;
@@ -600,12 +606,12 @@ static bool journal_keep_as_named(const char *files, const char *path, WrError *
     if (!wr_sha256_file(path, hex, err)) return false;
     WrText target = { 0 };
     wr_text_addf(&target, "%s/%s", files, slash ? slash + 1 : path);
-    bool ok = wr_journal_make_folder(files, err);
+    bool ok = journal_make_folder(files, err);
     if (ok && !wr_path_is_there(wr_text_get(&target)))
         ok = copy_file(path, wr_text_get(&target), hex, err);
     else if (ok && !content_is(wr_text_get(&target), hex))
         ok = wr_fail(err, "%s: no copy can be kept: another file of that name is", path);
-    if (ok) wr_journal_sync_path(files, NULL);
+    if (ok) journal_sync_path(files, NULL);
     wr_text_fini(&target);
     return ok;
 }
@@ -613,7 +619,7 @@ static bool journal_keep_as_named(const char *files, const char *path, WrError *
 bool wr_journal_kept_file(const char *journal_path, const char *sha256, const char *named,
                           WrText *path, WrError *err)
 {
-    if (!wr_journal_is_sha256(sha256))
+    if (!journal_is_sha256(sha256))
         return wr_fail(err, "'%.70s': a SHA-256 must be 64 lower-case hex digits", sha256);
     char *files = wr_journal_files_folder(journal_path);
     WrText name = { 0 }, best = { 0 };
@@ -715,7 +721,7 @@ void wr_journal_break(WrJournal *journal, const char *reason)
 /* True if a new file would have space. Writes one and removes it. */
 static bool probe(const WrJournal *journal)
 {
-    if (!journal->path || !wr_journal_make_folder(journal->options.folder, NULL)) return false;
+    if (!journal->path || !journal_make_folder(journal->options.folder, NULL)) return false;
     wr_path_remove(journal->temporary);
     int fd = wr_fd_open(journal->temporary, WR_OPEN_WRITE | WR_OPEN_NEW | WR_OPEN_PRIVATE);
     if (fd < 0) return false;
@@ -897,17 +903,17 @@ static bool print_start(WrJournal *journal, const WrJournalStart *start, char **
                                .time = (int64_t)time(NULL) };
     if (start->kind == WR_JOURNAL_DOCUMENT && (!start->path || !*start->path))
         return wr_fail(err, "a journal that starts from a document needs its path");
-    if (start->sha256 && !wr_journal_is_sha256(start->sha256))
+    if (start->sha256 && !journal_is_sha256(start->sha256))
         return wr_fail(err, "'%.70s': a SHA-256 must be 64 lower-case hex digits", start->sha256);
     header.start.snapshot = NULL;
     if (start->kind == WR_JOURNAL_SNAPSHOT) {
         const char *slash = start->snapshot ? strrchr(start->snapshot, '/') : NULL;
         if (!slash || strncmp(start->snapshot, journal->files, strlen(journal->files)) != 0 ||
-            start->snapshot + strlen(journal->files) != slash || !wr_journal_is_name(slash + 1))
+            start->snapshot + strlen(journal->files) != slash || !journal_is_name(slash + 1))
             return wr_fail(err, "%s: not a snapshot of this journal",
                            start->snapshot ? start->snapshot : "no file");
-        if (!wr_journal_sync_path(start->snapshot, err)) return false;
-        wr_journal_sync_path(journal->files, NULL);
+        if (!journal_sync_path(start->snapshot, err)) return false;
+        journal_sync_path(journal->files, NULL);
         header.start.snapshot = slash + 1;
     }
     if (start->path && *start->path) header.start.path = *absolute = absolute_path(start->path);
@@ -942,12 +948,12 @@ static bool start_file(WrJournal *journal, const WrJournalStart *start, WrError 
 {
     char *absolute = NULL;
     if (!journal->path) return wr_fail(err, "%s", journal->reason);
-    if (!wr_journal_make_folder(journal->options.folder, err)) return false;
+    if (!journal_make_folder(journal->options.folder, err)) return false;
     bool ok = print_start(journal, start, &absolute, err);
     int fd = ok ? create_file(journal, err) : -1;
     wr_free(absolute);
     if (fd < 0) return false;
-    wr_journal_sync_path(journal->options.folder, NULL);
+    journal_sync_path(journal->options.folder, NULL);
     if (journal->fd >= 0)
         wr_fd_close(journal->fd); /* only now, so that the name is locked at every moment */
     journal->fd = fd;
@@ -1002,7 +1008,7 @@ WrJournal *wr_journal_begin(const WrJournalOptions *options, const WrJournalStar
     wr_text_fini(&folder);
     wr_file_outlive_size_limit();
     if (o->folder) {
-        wr_journal_sweep(o->folder);
+        journal_sweep(o->folder);
         choose_paths(journal);
         start_file(journal, start, &err);
     }
@@ -1058,7 +1064,7 @@ bool wr_journal_keep_named(WrJournal *journal, const char *path, WrError *err)
 bool wr_journal_snapshot_path(WrJournal *journal, WrText *path, WrError *err)
 {
     if (!journal->path) return wr_fail(err, "%s", journal->reason);
-    if (!wr_journal_make_folder(journal->files, err)) return false;
+    if (!journal_make_folder(journal->files, err)) return false;
     wr_text_addf(path, "%s/" WR_JOURNAL_SNAPSHOT_NAME, journal->files, ++journal->snapshot);
     return true;
 }

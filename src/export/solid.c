@@ -1,5 +1,17 @@
-#include "export/solid.h"
+/* Relief as a closed triangle mesh in millimetres, for 3D printing and milling.
 
+   A point of the relief is P + F n of the scene's surface, stretched as the object is, times millimetres per
+   unit. The domain of (u,v) is divided into squares, each into two right triangles. A triangle from which a
+   sample is too far is bisected at its longest side, together with the triangle beyond that side, so that no
+   edge ever has a vertex of another triangle inside it. Sides of the domain that are one curve in space (a seam,
+   an edge of a cube) share one set of points, and a side that is a single point (a pole) has one: so the mesh is
+   closed wherever the surface is.
+
+   Samples are all texels' centres, and for a coarse table points between: every texel's own height is tested.
+   The error of a sample is its distance from the triangle that represents it, with corners rounded to the file's
+   32-bit floats. */
+
+#include "base/array.h"
 #include "base/enum_rows.h"
 #include "base/error.h"
 #include "base/file.h"
@@ -10,11 +22,76 @@
 #include "export/job.h"
 #include "field/field.h"
 #include "scene/scene.h"
+#include "surface/surface.h"
 #include "system/thread.h"
 
 #include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* ---- the solid under construction ---- */
+
+typedef struct WrError WrError;
+typedef struct WrExportJob WrExportJob;
+typedef struct WrField WrField;
+typedef struct WrPool WrPool;
+typedef struct WrScene WrScene;
+
+#define WR_SOLID_FACES 6
+#define WR_SOLID_MAX                                                                               \
+    4000000 /* maximum triangles of the relief; with its back no more than readers accept */
+#define WR_SOLID_SAMPLES ((int64_t)1 << 28) /* maximum */
+
+/* A position in the domain that maps to a point: a seam has two, a pole many. */
+typedef struct WrSolidLocation {
+    double u, v;
+    int32_t face;
+} WrSolidLocation;
+
+typedef struct WrSolidTriangle {
+    int32_t point
+        [3]; /* anticlockwise from outside; the side from corner 0 to corner 1 is the next one to be bisected */
+    int32_t across[3]; /* the triangle beyond the side opposite corner k; -1: none */
+    int32_t face;
+    float error; /* mm: largest distance of its samples; below 0: not measured */
+    double u[3], v[3];
+} WrSolidTriangle;
+
+/* Samples of one face: i, j stand for u = (first_u + i + 1/2) step_u and v = (first_v + j + 1/2) step_v. */
+typedef struct WrSolidLattice {
+    double first_u, first_v, step_u, step_v;
+    int count_u, count_v;
+    float (*at)[3]; /* [count_v][count_u], mm; owned */
+} WrSolidLattice;
+
+typedef struct WrSolid {
+    const WrScene *scene;
+    const WrField *field;
+    WrPool *pool;
+    double size;       /* mm: longest side of the smooth surface */
+    double true_width; /* mm: its width instead; 0: use size */
+    double error;      /* requested error, mm */
+    double thickness;  /* mm below the lowest sample; 0: filled, open ends closed flat */
+    WrVec3 stretch, cofactor, middle; /* a point is (stretch P - middle) scale */
+    double scale;                     /* mm per object unit */
+    int faces;
+    WrSolidLattice lattice[WR_SOLID_FACES];
+    double low, high; /* of F over the samples and points, object units */
+    WR_ARRAY(WrSolidTriangle) relief;
+    WR_ARRAY(WrSolidLocation) locations; /* of all points, in their order */
+    WR_ARRAY(int32_t) first;             /* index of each point's first sight */
+    float (*points)[3];                  /* mm; owned */
+    int32_t point_count, point_room;
+    int32_t (*triangles)[3]; /* of the closed mesh; owned */
+    /* (u,v) of their corners in cells: u and v times the number of repeats of the table; owned */
+    float (*uv)[3][2];
+    int32_t triangle_count, triangle_room;
+    double worst; /* mm: the largest error of all */
+} WrSolid;
+
+/* solid.c */
 
 /* ---- the body ---- */
 
@@ -214,6 +291,8 @@ static void join_sides(Base *base)
 
 /* ---- points ---- */
 
+static int32_t solid_add_point(WrSolid *solid, const WrSolidLocation *locations, int count);
+
 /* A point with all sights of a node: those joined with it, and those along sides that are a single point. */
 static int32_t point_of(Base *base, int32_t root)
 {
@@ -228,7 +307,7 @@ static int32_t point_of(Base *base, int32_t root)
             wr_array_push(&seen, at);
         }
     }
-    const int32_t point = wr_solid_add_point(base->solid, seen.data, seen.count);
+    const int32_t point = solid_add_point(base->solid, seen.data, seen.count);
     wr_array_free(&seen);
     return point;
 }
@@ -249,7 +328,8 @@ static void number_points(Base *base)
     wr_free(point);
 }
 
-void wr_solid_lay(WrSolid *solid)
+/* Builds the squares and joins shared sides. */
+static void solid_lay(WrSolid *solid)
 {
     Base base = { .solid = solid };
     for (int face = 0; face < solid->faces; face++) {
@@ -359,7 +439,8 @@ static void sample_row(int j, int worker, void *ctx)
     note(work, low, high, bad);
 }
 
-bool wr_solid_sample(WrSolid *solid, WrError *err)
+/* Computes positions and heights of all samples. */
+static bool solid_sample(WrSolid *solid, WrError *err)
 {
     int64_t samples = 0;
     bool good = true;
@@ -544,7 +625,7 @@ static int32_t middle_point(WrSolid *s, const WrSolidTriangle *t, const WrSolidT
         count += locations[1].face != locations[0].face || locations[1].u != locations[0].u ||
                  locations[1].v != locations[0].v;
     }
-    return wr_solid_add_point(s, locations, count);
+    return solid_add_point(s, locations, count);
 }
 
 /* Replaces a neighbour's number in a triangle. */
@@ -634,7 +715,8 @@ static bool settle(WrSolid *s, WrError *err)
         s->error, s->worst);
 }
 
-bool wr_solid_refine(WrSolid *solid, WrError *err)
+/* Bisects triangles until every sample's error is at most `error`. */
+static bool solid_refine(WrSolid *solid, WrError *err)
 {
     int32_t halved = 1;
     for (int round = 0; halved > 0; round++) {
@@ -769,6 +851,11 @@ static WrVec3 middle_of_loop(const WrSolid *s, const Border *b, const int32_t *m
     return middle;
 }
 
+static int32_t solid_add_bare(WrSolid *solid, const float at[3]);
+
+static void solid_add_triangle(WrSolid *solid, const int32_t corners[3],
+                               const WrSolidLocation at[3]);
+
 /* Adds triangles from all its sides to a point in its middle; false and none if that point does not see all of
    them. */
 static bool fan(WrSolid *s, const Border *b, const int32_t *map, int32_t start)
@@ -776,7 +863,7 @@ static bool fan(WrSolid *s, const Border *b, const int32_t *map, int32_t start)
     WrVec3 up;
     const WrVec3 middle = middle_of_loop(s, b, map, start, &up);
     const float at[3] = { (float)middle.x, (float)middle.y, (float)middle.z };
-    const int32_t centre = wr_solid_add_bare(s, at);
+    const int32_t centre = solid_add_bare(s, at);
     int32_t i = start;
     bool good = true;
     do {
@@ -791,7 +878,7 @@ static bool fan(WrSolid *s, const Border *b, const int32_t *map, int32_t start)
         WrSolidLocation uv[3];
         side_locations(s, b->next[i], i, uv);
         uv[2] = (WrSolidLocation){ (uv[0].u + uv[1].u) / 2, (uv[0].v + uv[1].v) / 2, uv[0].face };
-        wr_solid_add_triangle(s, (const int32_t[3]){ map[b->next[i]], map[i], centre }, uv);
+        solid_add_triangle(s, (const int32_t[3]){ map[b->next[i]], map[i], centre }, uv);
         i = b->next[i];
     } while (i != start);
     return true;
@@ -799,12 +886,15 @@ static bool fan(WrSolid *s, const Border *b, const int32_t *map, int32_t start)
 
 /* ---- backs ---- */
 
+static void solid_point_position(WrSolid *solid, const WrSolidLocation *locations, int count,
+                                 bool back, float out[3]);
+
 static int32_t add_back_point(WrSolid *s, int32_t of)
 {
     const int32_t first = s->first.data[of];
     float at[3];
-    wr_solid_point_position(s, s->locations.data + first, sights_end(s, of) - first, true, at);
-    return wr_solid_add_bare(s, at);
+    solid_point_position(s, s->locations.data + first, sights_end(s, of) - first, true, at);
+    return solid_add_bare(s, at);
 }
 
 /* True if its back faces another way than the triangle. A mirrored object's triangles are clockwise. */
@@ -839,7 +929,7 @@ static bool add_shell(WrSolid *s, int32_t *back, int32_t points, WrError *err)
                 s->thickness);
         WrSolidLocation at[3];
         triangle_locations(t, at);
-        wr_solid_add_triangle(
+        solid_add_triangle(
             s, (const int32_t[3]){ back[t->point[1]], back[t->point[0]], back[t->point[2]] },
             (const WrSolidLocation[3]){ at[1], at[0], at[2] });
     }
@@ -853,10 +943,10 @@ static void add_walls(WrSolid *s, const Border *border, const int32_t *back, int
         if (b < 0) continue;
         WrSolidLocation at[2];
         side_locations(s, a, b, at);
-        wr_solid_add_triangle(s, (const int32_t[3]){ b, a, back[a] },
-                              (const WrSolidLocation[3]){ at[1], at[0], at[0] });
-        wr_solid_add_triangle(s, (const int32_t[3]){ b, back[a], back[b] },
-                              (const WrSolidLocation[3]){ at[1], at[0], at[1] });
+        solid_add_triangle(s, (const int32_t[3]){ b, a, back[a] },
+                           (const WrSolidLocation[3]){ at[1], at[0], at[0] });
+        solid_add_triangle(s, (const int32_t[3]){ b, back[a], back[b] },
+                           (const WrSolidLocation[3]){ at[1], at[0], at[1] });
     }
 }
 
@@ -892,7 +982,7 @@ static bool add_caps(WrSolid *s, const Border *border, WrError *err)
 
 /* ---- the body ---- */
 
-double wr_solid_volume(const WrSolid *solid)
+static double wr_solid_volume(const WrSolid *solid)
 {
     double sum = 0.0;
     for (int32_t i = 0; i < solid->triangle_count; i++) {
@@ -930,14 +1020,15 @@ static bool check_body(const WrSolid *s, WrError *err)
     return true;
 }
 
-bool wr_solid_close(WrSolid *solid, WrError *err)
+/* Adds the back, and walls between it and the relief. */
+static bool solid_close(WrSolid *solid, WrError *err)
 {
     Border border = { 0 };
     for (int32_t i = 0; i < solid->relief.count; i++) {
         const WrSolidTriangle *t = &solid->relief.data[i];
         WrSolidLocation at[3];
         triangle_locations(t, at);
-        if (!is_pole(t)) wr_solid_add_triangle(solid, t->point, at);
+        if (!is_pole(t)) solid_add_triangle(solid, t->point, at);
     }
     bool good = find_border(solid, &border, err);
     if (good && border.loops > 0)
@@ -1163,8 +1254,10 @@ static double height_at(WrSolid *s, const WrSolidLocation *at)
     return f;
 }
 
-void wr_solid_point_position(WrSolid *solid, const WrSolidLocation *locations, int count, bool back,
-                             float out[3])
+/* Position of a point in the file, from its sights. With `back` at the lowest height, and `thickness` below
+   that. */
+static void solid_point_position(WrSolid *solid, const WrSolidLocation *locations, int count,
+                                 bool back, float out[3])
 {
     WrVec3 p = { 0, 0, 0 }, n = p, across = p;
     double f = 0.0;
@@ -1188,7 +1281,8 @@ void wr_solid_point_position(WrSolid *solid, const WrSolidLocation *locations, i
     out[0] = (float)end.x, out[1] = (float)end.y, out[2] = (float)end.z;
 }
 
-int32_t wr_solid_add_bare(WrSolid *solid, const float at[3])
+/* Adds a point with these sights; returns its number. */
+static int32_t solid_add_bare(WrSolid *solid, const float at[3])
 {
     if (solid->point_count == solid->point_room) {
         const int32_t room = solid->point_room ? 2 * solid->point_room : 1024;
@@ -1200,16 +1294,19 @@ int32_t wr_solid_add_bare(WrSolid *solid, const float at[3])
     return solid->point_count++;
 }
 
-int32_t wr_solid_add_point(WrSolid *solid, const WrSolidLocation *locations, int count)
+/* Adds a point with these sights; returns its number. */
+static int32_t solid_add_point(WrSolid *solid, const WrSolidLocation *locations, int count)
 {
     float at[3];
     wr_array_push(&solid->first, solid->locations.count);
     for (int i = 0; i < count; i++) wr_array_push(&solid->locations, locations[i]);
-    wr_solid_point_position(solid, locations, count, false, at);
-    return wr_solid_add_bare(solid, at);
+    solid_point_position(solid, locations, count, false, at);
+    return solid_add_bare(solid, at);
 }
 
-void wr_solid_add_triangle(WrSolid *solid, const int32_t corners[3], const WrSolidLocation at[3])
+/* at: (u,v) of the corners. */
+static void solid_add_triangle(WrSolid *solid, const int32_t corners[3],
+                               const WrSolidLocation at[3])
 {
     if (solid->triangle_count == solid->triangle_room) {
         const int32_t room = solid->triangle_room ? 2 * solid->triangle_room : 1024;
@@ -1298,14 +1395,14 @@ static bool make(WrSolid *s, WrError *err)
 {
     WrProgressPart part;
     const WrProgress *whole = wr_progress_enter(&part, 0.0, 0.3);
-    bool good = wr_solid_sample(s, err);
+    bool good = solid_sample(s, err);
     wr_progress_set(whole);
     if (!good) return false;
-    wr_solid_lay(s);
+    solid_lay(s);
     wr_progress_enter(&part, 0.3, 0.7);
-    good = wr_solid_refine(s, err);
+    good = solid_refine(s, err);
     wr_progress_set(whole);
-    return good && wr_solid_close(s, err);
+    return good && solid_close(s, err);
 }
 
 static void free_solid(WrSolid *s)

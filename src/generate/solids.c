@@ -1,19 +1,83 @@
-/* Meshes from files, seen from above. */
+/* Solids drawn into the table: their positions, repetition and height, closed forms, letters, surfaces and meshes. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/text.h"
 #include "field/field.h"
+#include "generate/generator.h"
 #include "generate/pattern.h"
-#include "generate/solid.h"
 #include "generate/text.h"
 #include "generate/tile_builder.h"
+#include "generate/zbuffer.h"
 #include "image/font.h"
 #include "image/mesh.h"
 #include "surface/data.h"
 #include "surface/surface.h"
 
+#include <stdbool.h>
+#include <stdint.h>
 #include <string.h>
+
+/* ---- shared parts ---- */
+
+#define WR_S_TUPLE(n, l, v, lowest, highest, soft_lowest, soft_highest, u, s, h)                   \
+    {                                                                                              \
+        .name = (n), .label = (l), .help = (h), .unit = (u), .kind = WR_PARAM_TUPLE,               \
+        .fallback = { (v), (v), (v) }, .low = (lowest), .high = (highest),                         \
+        .soft_low = (soft_lowest), .soft_high = (soft_highest), .shape = (s),                      \
+        .components = sizeof(s) == sizeof "x,y,z" ? 3 : 2                                          \
+    }
+#define WR_S_ABOVE(n, l, v, soft, s, h)                                                            \
+    {                                                                                              \
+        .name = (n), .label = (l), .help = (h), .unit = "texels", .kind = WR_PARAM_TUPLE,          \
+        .fallback = { (v), (v), (v) }, .low = 0, .above = true, .high = 16384, .soft_low = 0,      \
+        .soft_high = (soft), .shape = (s), .components = 3                                         \
+    }
+#define WR_S_RADIUS(n, l, v, h) WR_P_ABOVE(n, l, v, 0, 16384, 256, "texels", h)
+
+/* Common parameters, after those of the solid. */
+#define WR_S_POSE                                                                                  \
+    WR_S_TUPLE("at", "At", 0.5, -16, 16, 0, 1, "", "u,v", "where its middle stands"),              \
+        WR_S_TUPLE("rotate", "Rotate", 0, -36000, 36000, -180, 180, "degrees", "x,y,z",            \
+                   "about the axes x, y, z in that order")
+#define WR_S_HEIGHT(h)                                                                             \
+    WR_P_NUMBER("height", "Height", 1, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units", h)
+#define WR_S_PLACE                                                                                 \
+    WR_P_NUMBER("sink", "Sink", 0, -16384, 16384, 64, "texels",                                    \
+                "depth of its part below the ground, which is hidden"),                            \
+        WR_P_TEXELS("soft", "Soft", 0, 16, "height over the ground up to which its edge fades"),   \
+        WR_P_WHOLE("across", "Across", 1, 1, WR_SOLID_MAX, 32, "how many side by side"),           \
+        WR_P_WHOLE("rows", "Rows", 1, 1, WR_SOLID_MAX, 32, "how many above one another"),          \
+        WR_S_TUPLE("spacing", "Spacing", 0, 0, 16384, 0, 256, "texels", "x,y",                     \
+                   "from one to the next; 0: spread over the table"),                              \
+        WR_P_PART("stagger", "Stagger", 0, "every other row moved by so much of the spacing"),     \
+        WR_P_TEXELS("jitter", "Jitter", 0, 32, "how far each is moved at random"),                 \
+        WR_P_NUMBER("alternate", "Alternate", 0, -360, 360, 90, "degrees",                         \
+                    "turn of every other one about its own x, as of a chain's links"),             \
+        WR_P_NUMBER("turn", "Turn", 0, 0, 180, 180, "degrees",                                     \
+                    "random turn about the upright, up to that"),                                  \
+        WR_P_NUMBER("tilt", "Tilt", 0, 0, 180, 45, "degrees", "random tilt, up to that"),          \
+        WR_P_NUMBER("vary", "Vary", 0, 0, 0.9, 0.9, "", "random change of size, as a part of it"), \
+        WR_P_SEED
+#define WR_SOLID_MAX 1024
+
+/* One copy: at x, y (wr_z_place) and z; rotated and scaled about its origin. */
+typedef struct WrSolidPlace {
+    double at[3], turn[9], scale;
+} WrSolidPlace;
+
+/* A triangle mesh to be placed. */
+typedef struct WrSolidNet {
+    const double (*points)[3];   /* [point_count], texels */
+    const int32_t (*corners)[3]; /* [count] point indices */
+    int64_t point_count, count;
+} WrSolidNet;
+
+/* ---- the rows that have files of their own ---- */
+
+extern const WrParam wr_params_solid_mesh[], wr_params_solid_letters[], wr_params_solid_surface[];
+
+/* Meshes from files, seen from above. */
 
 /* ---- meshes ---- */
 
@@ -54,8 +118,11 @@ static bool fit(const WrMesh *mesh, double size, double (*points)[3])
     return true;
 }
 
-bool wr_solid_mesh(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
-                   WrError *err)
+static bool solid_draw_net(const WrParams *params, const WrSolidNet *net, const WrGenerateJob *job,
+                           WrRelief *out, WrError *err);
+
+static bool solid_mesh(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
+                       WrError *err)
 {
     const WrParams params = { wr_params_solid_mesh, values };
     const char *file = wr_param_value(&params, "file")->text;
@@ -70,7 +137,7 @@ bool wr_solid_mesh(const WrParamValue *values, const WrGenerateJob *job, WrRelie
                              .corners = mesh.corners,
                              .point_count = mesh.point_count,
                              .count = mesh.triangle_count };
-    good = good && wr_solid_draw_net(&params, &net, job, out, err);
+    good = good && solid_draw_net(&params, &net, job, out, err);
     wr_free(points);
     wr_mesh_fini(&mesh);
     return good;
@@ -303,8 +370,8 @@ static bool make_net(const WrShape *shape, double size, double error, Net *net, 
     return !wr_progress_stopped() || wr_fail(err, "cancelled");
 }
 
-bool wr_solid_surface(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
-                      WrError *err)
+static bool solid_surface(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
+                          WrError *err)
 {
     const WrParams params = { wr_params_solid_surface, values };
     WrShape shape;
@@ -316,7 +383,7 @@ bool wr_solid_surface(const WrParamValue *values, const WrGenerateJob *job, WrRe
                              .corners = (const int32_t(*)[3])made.corners,
                              .point_count = made.point_count,
                              .count = made.count };
-    good = good && wr_solid_draw_net(&params, &net, job, out, err);
+    good = good && solid_draw_net(&params, &net, job, out, err);
     wr_surface_data_free((WrSurfaceData *)shape.data);
     wr_free(made.points);
     wr_free(made.corners);
@@ -424,13 +491,19 @@ static void box_range(const WrZSolid *solid, double range[2])
     }
 }
 
+static bool solid_places(const WrParams *params, const WrGenerateJob *job, WrSolidPlace **places,
+                         int64_t *count, WrError *err);
+
+static bool solid_draw(const WrParams *params, WrZScene *scene, double rise,
+                       const WrGenerateJob *job, WrRelief *out, WrError *err);
+
 static bool draw_letters(const WrParams *params, const WrZLetters *letters,
                          const WrGenerateJob *job, WrRelief *out, WrError *err)
 {
     WrSolidPlace *places = NULL;
     int64_t count;
     double rise = 1.0;
-    if (!wr_solid_places(params, job, &places, &count, err)) return false;
+    if (!solid_places(params, job, &places, &count, err)) return false;
     WrZSolid *solids = wr_try_alloc((size_t)count, sizeof *solids, "letters", err);
     bool good = solids;
     for (int64_t i = 0; good && i < count; i++) {
@@ -444,14 +517,14 @@ static bool draw_letters(const WrParams *params, const WrZLetters *letters,
         if (i == 0) rise = (range[1] - range[0]) / p->scale;
     }
     WrZScene scene = { .solids = solids, .solid_count = count };
-    good = good && wr_solid_draw(params, &scene, rise, job, out, err);
+    good = good && solid_draw(params, &scene, rise, job, out, err);
     wr_free(solids);
     wr_free(places);
     return good;
 }
 
-bool wr_solid_letters(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
-                      WrError *err)
+static bool solid_letters(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
+                          WrError *err)
 {
     const WrParams params = { wr_params_solid_letters, values };
     WrFontOutline outline = { 0 };
@@ -535,8 +608,9 @@ static WrSolidPlace place(const Lattice *l, int i, int j)
     return p;
 }
 
-bool wr_solid_places(const WrParams *params, const WrGenerateJob *job, WrSolidPlace **places,
-                     int64_t *count, WrError *err)
+/* Positions of all copies. *places is owned by the caller (wr_free), [*count]. */
+static bool solid_places(const WrParams *params, const WrGenerateJob *job, WrSolidPlace **places,
+                         int64_t *count, WrError *err)
 {
     const double *at = wr_param_value(params, "at")->number;
     const double *spacing = wr_param_value(params, "spacing")->number;
@@ -566,8 +640,9 @@ bool wr_solid_places(const WrParams *params, const WrGenerateJob *job, WrSolidPl
     return true;
 }
 
-bool wr_solid_draw(const WrParams *params, WrZScene *scene, double rise, const WrGenerateJob *job,
-                   WrRelief *out, WrError *err)
+/* Draws the scene with the parameters' height (for `rise` texels of z), cut at the ground. */
+static bool solid_draw(const WrParams *params, WrZScene *scene, double rise,
+                       const WrGenerateJob *job, WrRelief *out, WrError *err)
 {
     scene->floor = 0.0;
     scene->soft = wr_param_number(params, "soft");
@@ -616,12 +691,14 @@ static void put_copy(const Copies *c, const WrSolidPlace *p, double low, WrZTria
         }
 }
 
-bool wr_solid_draw_net(const WrParams *params, const WrSolidNet *net, const WrGenerateJob *job,
-                       WrRelief *out, WrError *err)
+/* Draws copies of a mesh with their lowest point on the ground. The points are rotated about the
+ * origin. */
+static bool solid_draw_net(const WrParams *params, const WrSolidNet *net, const WrGenerateJob *job,
+                           WrRelief *out, WrError *err)
 {
     WrSolidPlace *places = NULL;
     int64_t count;
-    if (!wr_solid_places(params, job, &places, &count, err)) return false;
+    if (!solid_places(params, job, &places, &count, err)) return false;
     bool good = count * net->count <= TRIANGLES_MAX;
     if (!good)
         wr_fail(err, "%lld copies of %lld triangles: must be at most %d triangles together",
@@ -643,7 +720,7 @@ bool wr_solid_draw_net(const WrParams *params, const WrSolidNet *net, const WrGe
         good = !wr_progress_stopped() || wr_fail(err, "cancelled");
     }
     WrZScene scene = { .triangles = triangles, .triangle_count = count * net->count };
-    good = good && wr_solid_draw(params, &scene, rise, job, out, err);
+    good = good && solid_draw(params, &scene, rise, job, out, err);
     wr_free(c.turned);
     wr_free(triangles);
     wr_free(places);
@@ -711,7 +788,7 @@ static bool draw(const WrParams *params, WrZShape shape, double param, const dou
     WrSolidPlace *places = NULL;
     int64_t count;
     double rise = 1.0;
-    if (!wr_solid_places(params, job, &places, &count, err)) return false;
+    if (!solid_places(params, job, &places, &count, err)) return false;
     WrZSolid *solids = wr_try_alloc((size_t)count, sizeof *solids, "solids", err);
     bool good = solids;
     for (int64_t i = 0; good && i < count; i++) {
@@ -721,7 +798,7 @@ static bool draw(const WrParams *params, WrZShape shape, double param, const dou
         if (good && i == 0) rise = wr_zsolid_rise(&solids[0]) / p->scale;
     }
     WrZScene scene = { .solids = solids, .solid_count = count };
-    good = good && wr_solid_draw(params, &scene, rise, job, out, err);
+    good = good && solid_draw(params, &scene, rise, job, out, err);
     wr_free(solids);
     wr_free(places);
     return good;
@@ -814,10 +891,10 @@ const WrGenerator wr_solids[] = {
     ROW("torus", "Torus", "a ring; alternate=90 makes links of chains", torus_params, make_torus),
     ROW("capsule", "Capsule", "a rod with round ends", capsule_params, make_capsule),
     ROW("mesh", "Mesh file", "triangles of a file: OBJ, PLY, STL, glTF and others",
-        wr_params_solid_mesh, wr_solid_mesh),
+        wr_params_solid_mesh, solid_mesh),
     ROW("letters", "Letters", "letters of any font cut out of a plate, in any pose",
-        wr_params_solid_letters, wr_solid_letters),
+        wr_params_solid_letters, solid_letters),
     ROW("surface", "Surface", "any of the surfaces that can be shown, seen from above",
-        wr_params_solid_surface, wr_solid_surface),
+        wr_params_solid_surface, solid_surface),
     { .family = NULL },
 };

@@ -972,7 +972,7 @@ static bool is_kind(const WrZSolid *a, const WrZSolid *b)
            memcmp(a->inverse, b->inverse, sizeof a->inverse) == 0;
 }
 
-/* At most two kinds alternate: see wr_solid_places. */
+/* At most two kinds alternate: see solid_places. */
 static void list_all(const Many *m, int64_t count, Item *all)
 {
     const WrZSolid *kinds[2] = { NULL, NULL };

@@ -94,6 +94,8 @@ static bool flat_top(const double a[3], double down, double tube, double *t)
     return true;
 }
 
+static WrZSpan zspan_slab(double a, double b, double r);
+
 /* The largest t inside the torus of a ring of radius 1 in the plane of the first two coordinates and a
  * tube of radius `tube`; false if the line misses it. b is not 0. */
 static bool ztorus_top(const double a[3], const double b[3], double tube, double *t)
@@ -103,7 +105,7 @@ static bool ztorus_top(const double a[3], const double b[3], double tube, double
     if (b[2] == 0.0 && fabs(a[2]) >= tube * (1.0 - 1e-9)) return false;
     if (b[0] == 0.0 && b[1] == 0.0) return flat_top(a, b[2], tube, t);
     /* slightly larger than needed, so that no root falls on an end */
-    WrZSpan s = wr_zspan_meet(wr_zspan_slab(a[2], b[2], 1.001 * tube),
+    WrZSpan s = wr_zspan_meet(zspan_slab(a[2], b[2], 1.001 * tube),
                               zspan_round(a, b, 3, 0.0, 1.001 * (1.0 + tube)));
     if (!(s.low <= s.high)) return false;
     /* (|q|^2 + 1 - r^2)^2 - 4 (qx^2 + qy^2) <= 0, about the middle of the span, in its half lengths */
@@ -129,7 +131,8 @@ static bool ztorus_top(const double a[3], const double b[3], double tube, double
 
 static const WrZSpan nothing = { 1.0, -1.0 }, everything = { -INFINITY, INFINITY };
 
-WrZSpan wr_zspan_slab(double a, double b, double r)
+/* The interval with |a + b t| <= r on one axis. */
+static WrZSpan zspan_slab(double a, double b, double r)
 {
     if (b == 0.0) return fabs(a) <= r ? everything : nothing;
     double p = (-r - a) / b, q = (r - a) / b;
@@ -163,7 +166,7 @@ static WrZSpan zspan_round(const double a[3], const double b[3], int axes, doubl
 
 static WrZSpan cone_span(const double a[3], const double b[3])
 {
-    WrZSpan s = wr_zspan_slab(a[2], b[2], 1.0);
+    WrZSpan s = zspan_slab(a[2], b[2], 1.0);
     if (!(s.low <= s.high)) return nothing;
     /* |xy|^2 <= ((1 - z)/2)^2 */
     double c0 = 0.5 * (1.0 - a[2]), c1 = -0.5 * b[2];
@@ -184,7 +187,7 @@ static WrZSpan cone_span(const double a[3], const double b[3])
 
 static WrZSpan capsule_span(const double a[3], const double b[3], double half)
 {
-    WrZSpan middle = wr_zspan_meet(zspan_round(a, b, 2, 0.0, 1.0), wr_zspan_slab(a[2], b[2], half));
+    WrZSpan middle = wr_zspan_meet(zspan_round(a, b, 2, 0.0, 1.0), zspan_slab(a[2], b[2], half));
     WrZSpan ends[2] = { zspan_round(a, b, 3, half, 1.0), zspan_round(a, b, 3, -half, 1.0) };
     for (int i = 0; i < 2; i++)
         if (ends[i].low <= ends[i].high &&
@@ -283,12 +286,11 @@ bool wr_zsolid_top(const WrZSolid *solid, double x, double y, double *z)
     ray(solid, x, y, a, b);
     switch (solid->shape) {
     case WR_Z_BOX:
-        s = wr_zspan_meet(
-            wr_zspan_slab(a[0], b[0], 1.0),
-            wr_zspan_meet(wr_zspan_slab(a[1], b[1], 1.0), wr_zspan_slab(a[2], b[2], 1.0)));
+        s = wr_zspan_meet(zspan_slab(a[0], b[0], 1.0),
+                          wr_zspan_meet(zspan_slab(a[1], b[1], 1.0), zspan_slab(a[2], b[2], 1.0)));
         break;
     case WR_Z_CYLINDER:
-        s = wr_zspan_meet(zspan_round(a, b, 2, 0.0, 1.0), wr_zspan_slab(a[2], b[2], 1.0));
+        s = wr_zspan_meet(zspan_round(a, b, 2, 0.0, 1.0), zspan_slab(a[2], b[2], 1.0));
         break;
     case WR_Z_CONE: s = cone_span(a, b); break;
     case WR_Z_CAPSULE: s = capsule_span(a, b, solid->param); break;
@@ -713,7 +715,7 @@ static WrZSpan box_span(const WrZLetters *l, const double a[3], const double b[3
     for (int k = 0; k < 3; k++) {
         double low = k < 2 ? l->low[k] : 0.0, high = k < 2 ? l->high[k] : l->depth;
         double mid = 0.5 * (low + high);
-        span = wr_zspan_meet(span, wr_zspan_slab(a[k] - mid, b[k], 0.5 * (high - low) + reach));
+        span = wr_zspan_meet(span, zspan_slab(a[k] - mid, b[k], 0.5 * (high - low) + reach));
     }
     return span;
 }

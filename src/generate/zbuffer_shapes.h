@@ -15,9 +15,6 @@ static inline WrZSpan wr_zspan_meet(WrZSpan a, WrZSpan b)
     return (WrZSpan){ a.low > b.low ? a.low : b.low, a.high < b.high ? a.high : b.high };
 }
 
-/* The interval with |a + b t| <= r on one axis. */
-WrZSpan wr_zspan_slab(double a, double b, double r);
-
 /* ---- extrusions ---- */
 
 /* Extruded outlines with a rounded or chamfered upper edge: three-dimensional

@@ -8,7 +8,6 @@
 #include "field/scheme_list.h"
 #include "hardcases/hardcases_frames.h"
 #include "hardcases/hardcases_internal.h"
-#include "hardcases/hardcases_stretch.h"
 #include "render/reference/reference_intersect.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
@@ -19,6 +18,11 @@
 
 #include <float.h>
 #include <string.h>
+
+bool wr_hard_hc33(WrHardMeasurement *gauge, WrError *err);
+bool wr_hard_hc34(WrHardMeasurement *gauge, WrError *err);
+bool wr_hard_hc153(WrHardMeasurement *gauge, WrError *err);
+bool wr_hard_hc154(WrHardMeasurement *gauge, WrError *err);
 
 /* ---- hardcases forms ---- */
 

@@ -63,7 +63,6 @@ bool wr_font_gunzip(const uint8_t *bytes, size_t length, size_t limit, uint8_t *
 
 /* The next character of UTF-8 text[0..length), advances *at; invalid bytes yield U+FFFD each. */
 uint32_t wr_font_character(const char *text, size_t length, size_t *at);
-void wr_font_add_missing(WrFontMaking *making, uint32_t character);
 
 /* Characters of a line, without NUL, with the byte offset of each. */
 typedef struct WrFontChars {
@@ -90,18 +89,9 @@ typedef struct WrFontFace {
     void (*close)(struct WrFontFace *face);
 } WrFontFace;
 
-/* Allocates the table of `count` glyphs, all unknown. */
-void wr_font_face_expect(WrFontFace *face, int count);
-
-/* Opens a font with FreeType over bytes that stay valid; face->making, ask and font must be set. On failure there is
-   nothing to close. */
-bool wr_font_open_free(WrFontFace *face, const uint8_t *bytes, size_t length, WrError *err);
-
 /* Shaping for fonts without shaping tables: one glyph per character. map: returns the index in
  * making->glyphs and the advance. */
 typedef int32_t (*WrFontMap)(WrFontFace *face, uint32_t character, int32_t *advance);
-void wr_font_shape_plain(WrFontFace *face, const WrFontChars *chars, int from, int count,
-                         bool leftwards, WrFontMap map);
 
 /* ---- lines ---- */
 
@@ -114,8 +104,3 @@ typedef struct WrFontRun {
  * parts by direction. */
 typedef bool (*WrFontLineMake)(void *ctx, const WrFontChars *chars, const WrFontRun *runs,
                                int run_count, WrError *err);
-bool wr_font_lines(WrFontMaking *making, const WrFontRequest *ask, WrFontLineMake make, void *ctx,
-                   WrError *err);
-
-/* Shapes the text with open fonts, each part with the first one that contains it. */
-bool wr_font_parts(WrFontFace *faces, int count, WrError *err);

@@ -156,11 +156,13 @@ static int32_t bounded(long x, int32_t most)
 
 /* ---- one glyph per character ---- */
 
+static void font_add_missing(WrFontMaking *making, uint32_t character);
+
 static int32_t map_character(WrFontFace *face, uint32_t character, int32_t *advance)
 {
     Free *f = face->ctx;
     FT_UInt id = FT_Get_Char_Index(f->face, character);
-    if (id == 0) wr_font_add_missing(f->making, character);
+    if (id == 0) font_add_missing(f->making, character);
     int32_t glyph = take(f, id);
     FT_Int32 flags = face->head.bitmap ? FT_LOAD_DEFAULT : FT_LOAD_NO_SCALE | FT_LOAD_NO_BITMAP;
     if (glyph >= 0 && FT_Load_Glyph(f->face, id, flags) == 0) {
@@ -186,13 +188,13 @@ static bool has(const WrFontFace *face, uint32_t character)
 static void add_missing(Free *f, const WrFontChars *chars, int first)
 {
     hb_unicode_funcs_t *unicode = hb_unicode_funcs_get_default();
-    wr_font_add_missing(f->making, chars->code[first]);
+    font_add_missing(f->making, chars->code[first]);
     for (int i = first + 1; i < chars->count; i++) {
         hb_unicode_general_category_t is = hb_unicode_general_category(unicode, chars->code[i]);
         if (is != HB_UNICODE_GENERAL_CATEGORY_NON_SPACING_MARK &&
             is != HB_UNICODE_GENERAL_CATEGORY_SPACING_MARK)
             break;
-        if (!has(f->own, chars->code[i])) wr_font_add_missing(f->making, chars->code[i]);
+        if (!has(f->own, chars->code[i])) font_add_missing(f->making, chars->code[i]);
     }
 }
 
@@ -221,12 +223,15 @@ static bool keep_shaped(Free *f, const WrFontChars *chars, WrError *err)
     return true;
 }
 
+static void font_shape_plain(WrFontFace *face, const WrFontChars *chars, int from, int count,
+                             bool leftwards, WrFontMap map);
+
 static bool shape(WrFontFace *face, const WrFontChars *chars, int from, int count, bool leftwards,
                   uint32_t script, WrError *err)
 {
     Free *f = face->ctx;
     if (!f->shaper) {
-        wr_font_shape_plain(face, chars, from, count, leftwards, map_character);
+        font_shape_plain(face, chars, from, count, leftwards, map_character);
     } else {
         hb_buffer_clear_contents(f->buffer);
         hb_buffer_add_codepoints(f->buffer, chars->code, chars->count, (unsigned)from, count);
@@ -372,7 +377,11 @@ static void close_face(WrFontFace *face)
     wr_free(f);
 }
 
-bool wr_font_open_free(WrFontFace *face, const uint8_t *bytes, size_t length, WrError *err)
+static void font_face_expect(WrFontFace *face, int count);
+
+/* Opens a font with FreeType over bytes that stay valid; face->making, ask and font must be set. On failure there is
+   nothing to close. */
+static bool font_open_free(WrFontFace *face, const uint8_t *bytes, size_t length, WrError *err)
 {
     Free *f = wr_alloc(1, sizeof *f);
     *f = (Free){ .own = face, .making = face->making };
@@ -382,7 +391,7 @@ bool wr_font_open_free(WrFontFace *face, const uint8_t *bytes, size_t length, Wr
     face->close = close_face;
     bool good = open_face(f, bytes, length, err) && measure(f, err);
     if (good) {
-        wr_font_face_expect(face, (int)f->face->num_glyphs);
+        font_face_expect(face, (int)f->face->num_glyphs);
         start_shaper(f);
         good = vary(f, err);
     }
@@ -457,7 +466,7 @@ int wr_font_strange_bytes(const char *text)
     return count;
 }
 
-void wr_font_add_missing(WrFontMaking *making, uint32_t character)
+static void font_add_missing(WrFontMaking *making, uint32_t character)
 {
     for (int i = 0; i < making->missing.count; i++)
         if (making->missing.data[i] == character) return;
@@ -555,8 +564,8 @@ static void free_lines(Lines *lines)
     wr_array_free(&lines->runs);
 }
 
-bool wr_font_lines(WrFontMaking *making, const WrFontRequest *ask, WrFontLineMake make, void *ctx,
-                   WrError *err)
+static bool font_lines(WrFontMaking *making, const WrFontRequest *ask, WrFontLineMake make,
+                       void *ctx, WrError *err)
 {
     size_t length = strlen(ask->text), at = 0;
     Lines lines = { .making = making, .make = make, .ctx = ctx, .direction = ask->direction };
@@ -586,8 +595,8 @@ bool wr_font_lines(WrFontMaking *making, const WrFontRequest *ask, WrFontLineMak
 
 /* ---- without shaping ---- */
 
-void wr_font_shape_plain(WrFontFace *face, const WrFontChars *chars, int from, int count,
-                         bool leftwards, WrFontMap map)
+static void font_shape_plain(WrFontFace *face, const WrFontChars *chars, int from, int count,
+                             bool leftwards, WrFontMap map)
 {
     for (int k = 0; k < count; k++) {
         int i = from + (leftwards ? count - 1 - k : k);
@@ -611,7 +620,8 @@ typedef struct Opened {
     int count;
 } Opened;
 
-void wr_font_face_expect(WrFontFace *face, int count)
+/* Allocates the table of `count` glyphs, all unknown. */
+static void font_face_expect(WrFontFace *face, int count)
 {
     wr_array_reserve(&face->known, count);
     face->known.count = count;
@@ -642,7 +652,7 @@ static bool open_file(Opened *all, const WrFontFile *file, WrFontMaking *making,
         return wr_fail(err, "is a font of the text console (PSF), which cannot be read; use the "
                             "same font as PCF, OTB or "
                             "BDF, such as Terminus in Debian's package xfonts-terminus");
-    const bool good = wr_font_open_free(face, in.bytes, in.length, err);
+    const bool good = font_open_free(face, in.bytes, in.length, err);
     if (good) all->count++;
     return good;
 }
@@ -656,6 +666,8 @@ static bool check_placed(const WrFontMaking *making, WrError *err)
     return true;
 }
 
+static bool font_parts(WrFontFace *faces, int count, WrError *err);
+
 bool wr_font_make(const WrFontFile *files, int count, const WrFontRequest *ask, WrText *block,
                   WrError *err)
 {
@@ -668,7 +680,7 @@ bool wr_font_make(const WrFontFile *files, int count, const WrFontRequest *ask, 
     }
     if (good) {
         making.head = all.faces[0].head;
-        good = wr_font_parts(all.faces, all.count, err) && check_placed(&making, err);
+        good = font_parts(all.faces, all.count, err) && check_placed(&making, err);
     }
     if (good) wr_font_pack(&making, block);
     for (int i = 0; i < all.count; i++) all.faces[i].close(&all.faces[i]);
@@ -975,10 +987,11 @@ static bool shape_line(void *ctx, const WrFontChars *chars, const WrFontRun *run
     return true;
 }
 
-bool wr_font_parts(WrFontFace *faces, int count, WrError *err)
+/* Shapes the text with open fonts, each part with the first one that contains it. */
+static bool font_parts(WrFontFace *faces, int count, WrError *err)
 {
     Parts parts = { .faces = faces, .count = count };
-    bool good = wr_font_lines(faces[0].making, faces[0].ask, shape_line, &parts, err);
+    bool good = font_lines(faces[0].making, faces[0].ask, shape_line, &parts, err);
     wr_array_free(&parts.owner);
     return good;
 }

@@ -33,7 +33,6 @@ const char *wr_gltf_chunks(const char *bytes, size_t length, WrGltfChunks *out);
  * The GLSL lines beside them rotate in the other direction; other programs do not follow those.
  *
  *   u' = m[0] u + m[1] v + m[2]      v' = m[3] u + m[4] v + m[5] */
-void wr_gltf_transform(json_object *reference, double m[6]);
 bool wr_gltf_same_transform(json_object *a, json_object *b);
 /* The coordinate set of a reference, which the transform may override. */
 int64_t wr_gltf_set(json_object *reference);

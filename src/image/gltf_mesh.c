@@ -118,7 +118,7 @@ static double number_in(json_object *of, const char *name, int index, double mis
 }
 
 /* Translation by rotation by scale, in the order of the extension's specification. */
-void wr_gltf_transform(json_object *reference, double m[6])
+static void gltf_transform(json_object *reference, double m[6])
 {
     json_object *all = wr_gltf_member(reference, "extensions", json_type_object);
     json_object *moved = wr_gltf_member(all, "KHR_texture_transform", json_type_object);
@@ -131,8 +131,8 @@ void wr_gltf_transform(json_object *reference, double m[6])
 bool wr_gltf_same_transform(json_object *a, json_object *b)
 {
     double m[6], n[6];
-    wr_gltf_transform(a, m);
-    wr_gltf_transform(b, n);
+    gltf_transform(a, m);
+    gltf_transform(b, n);
     for (int i = 0; i < 6; i++)
         if (!(fabs(m[i] - n[i]) <= 1e-9)) return false;
     return true;
@@ -650,7 +650,7 @@ static bool add_body(Gltf *file, json_object *mesh, json_object *primitive, json
     if (++file->bodies > BODIES_MAX)
         return wr_fail(err, "more than %d placings of meshes", BODIES_MAX);
     if (mode < 4 || mode > 6) return true; /* points and lines have no area */
-    wr_gltf_transform(wr_gltf_mapped(material), uv_m);
+    gltf_transform(wr_gltf_mapped(material), uv_m);
     name_part(file, mesh, material);
     bool good = read_body(file, primitive, skin, &body, err) &&
                 (!body.points.at || (add_points(file->build, &body, m, uv_m, &mirrored, err) &&

@@ -140,7 +140,8 @@ static bool start_order(int control, const WrWireOrder *order, int file, int cha
     return wr_channel_send(control, order, sizeof *order, NULL, 0, fds, 2);
 }
 
-bool wr_process_order(const WrWireOrder *order, int file, int channel, WrError *err)
+/* Sends it an order with the file and one end of a channel, both borrowed for the call. Any thread. */
+static bool process_order(const WrWireOrder *order, int file, int channel, WrError *err)
 {
     Process *process = the_process();
     bool sent = false;
@@ -379,7 +380,7 @@ static bool send_order(WrReader *reader, const WrWireOrder *order, int fd, WrErr
     int ends[2];
     if (!wr_channel_pair(ends, false))
         return wr_fail(err, "%s: no socket for the reader", reader->name);
-    bool sent = wr_process_order(order, fd, ends[1], err);
+    bool sent = process_order(order, fd, ends[1], err);
     wr_fd_close(ends[1]);
     reader->channel = ends[0];
     reader->dead = false;

@@ -14,9 +14,6 @@
 /* Starts the process if there is none; returns at once, while it still loads. Any thread. */
 bool wr_process_start(WrError *err);
 
-/* Sends it an order with the file and one end of a channel, both borrowed for the call. Any thread. */
-bool wr_process_order(const WrWireOrder *order, int file, int channel, WrError *err);
-
 /* ---- requests ---- */
 
 /* Reading of image, mesh and font files by the reader process (reader_protocol.h).

@@ -1,3 +1,7 @@
+/* The reader process: reads untrusted image, mesh and font files, so that a hostile one harms nothing
+   else. Its protocol is reader_protocol.h. It forks for each file, so that no file is affected by
+   another one. The process itself reads only the first bytes of a file, to determine whether the image
+   library is needed. The library is loaded once: when a file needs it, or when the process is idle. */
 #include "base/array.h"
 #include "base/error.h"
 #include "base/memory.h"
@@ -6,7 +10,6 @@
 #include "image/font_internal.h"
 #include "image/mesh_decode.h"
 #include "image/oiio.h"
-#include "image/reader_child.h"
 #include "image/reader_protocol.h"
 #include "system/channel.h"
 #include "system/child.h"
@@ -213,7 +216,7 @@ static void serve_block(const WrWireOrder *order)
 
 /* ---- all ---- */
 
-void wr_serve(const WrWireOrder *order, int file, int channel)
+static void serve(const WrWireOrder *order, int file, int channel)
 {
     WrError err = { "" };
     bool memory = false;
@@ -242,11 +245,6 @@ void wr_serve(const WrWireOrder *order, int file, int channel)
 }
 
 /* ---- the process ---- */
-
-/* The reader process: reads untrusted image, mesh and font files, so that a hostile one harms nothing
-   else. Its protocol is reader_protocol.h. It forks for each file, so that no file is affected by
-   another one. The process itself reads only the first bytes of a file, to determine whether the image
-   library is needed. The library is loaded once: when a file needs it, or when the process is idle. */
 
 #define CONTROL 0        /* descriptor of the control socket */
 #define CHILDREN_MAX 256 /* files being read at once */
@@ -310,7 +308,7 @@ static void start_child(Process *process, const WrWireOrder *order, int file, in
     WrPid pid = wr_child_fork();
     if (pid == 0) {
         if (!wr_process_die_with(self)) wr_process_leave(1);
-        wr_serve(order, file, channel);
+        serve(order, file, channel);
         wr_process_leave(0);
     }
     if (pid < 0) {

@@ -165,7 +165,7 @@ static void noise_band(const WrOctave *octave, const WrNoiseGrid *grid, bool slo
 
 /* ---- sheared ---- */
 
-/* One octave of sheared noise over a piece of a grid: wr_noise_sheared's three corners, in float, with
+/* One octave of sheared noise over a piece of a grid: noise_sheared's three corners, in float, with
    the lattice's rows hashed once for all texel rows between two of them. In row v of the lattice points
    are at integer x, shifted right by half a cell for odd v: point m of a LatticeRow is at x = first + m
    (+ 1/2), which is u0 = x + v/2 in the sheared coordinate. So corner (u0, v) is point u0 - ceil(v/2) -
@@ -257,7 +257,7 @@ static inline float part_m(float x, float y)
     return m > 0.0f ? m : 0.0f;
 }
 
-#define SCALE 10.92f /* wr_noise_sheared's */
+#define SCALE 10.92f /* noise_sheared's */
 
 static void span_heights(const Columns *columns, const Places *places, const LatticeRow *near,
                          const LatticeRow *far, int odd, float y, float *restrict f)

@@ -247,8 +247,10 @@ static WrNoiseBlend blend(const WrNoiseBlend *p, const WrNoiseBlend *q, int dim,
     return out;
 }
 
-double wr_noise_blend(const WrFadeInfo *fade, int dim, const double *x, WrNoiseBlend *corner,
-                      double *slope)
+/* Blends 2^dim corners along each axis in turn; corner k is at 1 along axis a if bit a of k is set. x:
+ * the position in the cube, 0..1. corner is overwritten. Returns f, its gradient in slope[dim]. */
+static double noise_blend(const WrFadeInfo *fade, int dim, const double *x, WrNoiseBlend *corner,
+                          double *slope)
 {
     for (int a = 0; a < dim; a++) {
         const double alpha = wr_fade_alpha(fade, x[a]), rate = wr_fade_slope(fade, x[a]);
@@ -282,8 +284,16 @@ static double cells(const WrNoise *noise, const double *t, double *slope)
         for (int a = 0; a < dim; a++)
             corner[k].f += corner[k].d[a] * (k >> a & 1 ? x[a] - 1.0 : x[a]);
     }
-    return wr_noise_blend(fade, dim, x, corner, slope);
+    return noise_blend(fade, dim, x, corner, slope);
 }
+
+static double noise_simplex(const WrNoise *noise, const double *t, double *slope);
+
+static double noise_sheared(const WrNoise *noise, const double *t, double *slope);
+
+static double noise_torus(const WrNoise *noise, const double *t, double *slope);
+
+static double noise_cubes(const WrNoise *noise, const double *t, double *slope);
 
 double wr_noise_at(const WrNoise *noise, const double *t, double *slope)
 {
@@ -294,10 +304,10 @@ double wr_noise_at(const WrNoise *noise, const double *t, double *slope)
         reduced[a] = wr_noise_reduce(t[a], period ? period : fabs(t[a]) > 0x1p40 ? 0x1p40 : 0.0);
     }
     switch (noise->kind) {
-    case WR_NOISE_SIMPLEX: return wr_noise_simplex(noise, reduced, slope);
-    case WR_NOISE_SHEARED: return wr_noise_sheared(noise, reduced, slope);
-    case WR_NOISE_TORUS: return wr_noise_torus(noise, reduced, slope);
-    case WR_NOISE_CUBES: return wr_noise_cubes(noise, reduced, slope);
+    case WR_NOISE_SIMPLEX: return noise_simplex(noise, reduced, slope);
+    case WR_NOISE_SHEARED: return noise_sheared(noise, reduced, slope);
+    case WR_NOISE_TORUS: return noise_torus(noise, reduced, slope);
+    case WR_NOISE_CUBES: return noise_cubes(noise, reduced, slope);
     default: return cells(noise, reduced, slope);
     }
 }
@@ -393,7 +403,8 @@ static double simplex(int dim, const WrLattice *lattice, const double *t, double
     return f * skew->scale;
 }
 
-double wr_noise_simplex(const WrNoise *noise, const double *t, double *slope)
+/* The simplex kinds; t reduced to one period, or within 2^40. slope as in wr_noise_at, never NULL. */
+static double noise_simplex(const WrNoise *noise, const double *t, double *slope)
 {
     return simplex(noise->dim, &noise->lattice, t, slope);
 }
@@ -402,7 +413,7 @@ double wr_noise_simplex(const WrNoise *noise, const double *t, double *slope)
  * second row is directly above the first, so that an even number of rows repeats. The shortest height
  * is 1/sqrt(5/4), hence the reach 4/5. 10.92 is 1 over the largest sum, 1/(0.55^4), rounded down. A
  * lattice point is hashed by 2x and y. */
-double wr_noise_sheared(const WrNoise *noise, const double *t, double *slope)
+static double noise_sheared(const WrNoise *noise, const double *t, double *slope)
 {
     static const double scale = 10.92;
     const WrLattice *lattice = &noise->lattice;
@@ -445,7 +456,7 @@ static double cubes(const WrLattice *lattice, const double *t, double *slope)
             corner[k].f += corner[k].d[a] * (x[a] - (k >> a & 1));
         }
     }
-    return wr_noise_blend(&wr_fades[WR_FADE_QUINTIC], MAX_MOST, x, corner, slope);
+    return noise_blend(&wr_fades[WR_FADE_QUINTIC], MAX_MOST, x, corner, slope);
 }
 
 static double simplices(const WrLattice *lattice, const double *t, double *slope)
@@ -471,12 +482,14 @@ static double on_torus(const WrNoise *noise, const double *t, double *slope,
     return f;
 }
 
-double wr_noise_torus(const WrNoise *noise, const double *t, double *slope)
+/* The simplex kinds; t reduced to one period, or within 2^40. slope as in wr_noise_at, never NULL. */
+static double noise_torus(const WrNoise *noise, const double *t, double *slope)
 {
     return on_torus(noise, t, slope, simplices);
 }
 
-double wr_noise_cubes(const WrNoise *noise, const double *t, double *slope)
+/* The simplex kinds; t reduced to one period, or within 2^40. slope as in wr_noise_at, never NULL. */
+static double noise_cubes(const WrNoise *noise, const double *t, double *slope)
 {
     return on_torus(noise, t, slope, cubes);
 }

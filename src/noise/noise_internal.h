@@ -5,22 +5,12 @@
 
 #include <stdbool.h>
 
-/* The simplex kinds; t reduced to one period, or within 2^40. slope as in wr_noise_at, never NULL. */
-double wr_noise_simplex(const WrNoise *noise, const double *t, double *slope);
-double wr_noise_sheared(const WrNoise *noise, const double *t, double *slope);
-double wr_noise_torus(const WrNoise *noise, const double *t, double *slope);
-double wr_noise_cubes(const WrNoise *noise, const double *t, double *slope); /* on cubes in 4D */
-
 #define WR_NOISE_DIMENSIONS 4 /* maximum of any kind: a torus lies in four dimensions */
 
 /* The linear function at a corner of a cube, at a point: its value and gradient. */
 typedef struct WrNoiseBlend {
     double f, d[WR_NOISE_DIMENSIONS];
 } WrNoiseBlend;
-/* Blends 2^dim corners along each axis in turn; corner k is at 1 along axis a if bit a of k is set. x:
- * the position in the cube, 0..1. corner is overwritten. Returns f, its gradient in slope[dim]. */
-double wr_noise_blend(const WrFadeInfo *fade, int dim, const double *x, WrNoiseBlend *corner,
-                      double *slope);
 
 /* The scale of perlin noise's slopes from the fixed set. */
 double wr_noise_perlin_scale(int dim);

@@ -131,7 +131,6 @@ void wr_accuracy_free(WrApp *app);
 /* True if a measurement is running or due; alternating pictures do not count. */
 bool wr_accuracy_pending(const WrApp *app);
 /* clock of the next necessary update; 0: only after events */
-void wr_accuracy_forget(WrApp *app);      /* drop textures, which were lost */
 bool wr_accuracy_rests(const WrApp *app); /* nothing is dragged, drawn or rotating */
 /* True if there is a ladder for the table and the scene, except for the dials. */
 bool wr_accuracy_plot_fits(const WrApp *app);

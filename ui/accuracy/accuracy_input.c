@@ -386,6 +386,8 @@ bool wr_accuracy_busy(WrApp *app, WrWorkKind kind, double *fraction)
     return a->measuring && a->measures == kind && wr_job_busy(a->measure, fraction, NULL);
 }
 
+static void accuracy_forget(WrApp *app);
+
 /* a progress bar is visible */
 static bool accuracy_works(WrApp *app)
 {
@@ -398,7 +400,7 @@ const WrPart wr_part_accuracy = { .update = accuracy_update,
                                   .next_time = accuracy_next_time,
                                   .works = accuracy_works,
                                   .draw = wr_accuracy_draw,
-                                  .forget = wr_accuracy_forget };
+                                  .forget = accuracy_forget };
 
 /* ---- changes of dials ---- */
 
@@ -570,7 +572,8 @@ static void layer_forget(WrPatchLayer *layer)
     *layer = (WrPatchLayer){ 0 };
 }
 
-void wr_accuracy_forget(WrApp *app)
+/* clock of the next necessary update; 0: only after events */
+static void accuracy_forget(WrApp *app)
 {
     WrAccuracy *a = app->accuracy;
     for (int i = 0; i < 2; i++) layer_forget(&a->pair[i]);
@@ -588,7 +591,7 @@ void wr_accuracy_free(WrApp *app)
     wr_work_tools_fini(&a->measure_tools);
     wr_work_tools_fini(&a->look_tools);
     wr_work_tools_fini(&a->probe_tools);
-    wr_accuracy_forget(app);
+    accuracy_forget(app);
     wr_work_free(a->error);
     wr_work_free(a->plot);
     wr_work_free(a->illusion);

@@ -207,7 +207,7 @@ static void handle(WrApp *app, const SDL_Event *event)
     WrPenEvent pen;
     wr_busy_update(app);
     if (is_hand(event)) app->fitted = true;
-    if (event->type == app->ready_event) return; /* wr_patch_update fetches the picture */
+    if (event->type == app->ready_event) return; /* patch_update fetches the picture */
     if (event->type == app->rest_event) {
         wr_idle_probe_requested(app);
         return;

@@ -21,6 +21,8 @@
 
 /* ---- creation ---- */
 
+static void pen_finger_event(WrPen *pen, const SDL_TouchFingerEvent *event);
+
 /* Called by SDL in the thread that reads the server's events, the window's. Other threads push events too; from them
    only keys and buttons are of these kinds, and they are not user input. */
 static int SDLCALL watch(void *data, SDL_Event *event)
@@ -32,7 +34,7 @@ static int SDLCALL watch(void *data, SDL_Event *event)
         break;
     case SDL_FINGERDOWN:
     case SDL_FINGERMOTION:
-    case SDL_FINGERUP: wr_pen_finger_event(pen, &event->tfinger); break;
+    case SDL_FINGERUP: pen_finger_event(pen, &event->tfinger); break;
     case SDL_WINDOWEVENT:
         if (event->window.event == SDL_WINDOWEVENT_HIDDEN ||
             event->window.event == SDL_WINDOWEVENT_MINIMIZED)
@@ -439,7 +441,7 @@ static int unit_of(WrPen *pen, SDL_TouchID touch)
     return index;
 }
 
-void wr_pen_finger_event(WrPen *pen, const SDL_TouchFingerEvent *event)
+static void pen_finger_event(WrPen *pen, const SDL_TouchFingerEvent *event)
 {
     if (event->touchId == SDL_MOUSE_TOUCHID ||
         SDL_GetTouchDeviceType(event->touchId) != SDL_TOUCH_DEVICE_DIRECT)

@@ -127,7 +127,6 @@ void wr_pen_x11_sync(WrPenX11 *x11);
 void wr_pen_x11_event(WrPen *pen, const SDL_Event *event);
 
 /* ---- pen.c: touches ---- */
-void wr_pen_finger_event(WrPen *pen, const SDL_TouchFingerEvent *event);
 
 /* ---- pen_record.c ---- */
 void wr_pen_record_event(WrPen *pen, const WrPenEvent *event);

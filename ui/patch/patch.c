@@ -231,7 +231,8 @@ static void face_sheet(WrPatch *p, const WrScene *scene)
     if (turn > WR_ROCK_DEG && turn < 360.0 - WR_ROCK_DEG && rocks(p, scene)) p->turn_deg = 0.0;
 }
 
-void wr_patch_update(WrApp *app)
+/* Send requests; fetch results. */
+static void patch_update(WrApp *app)
 {
     WrPatch *p = app->patch;
     double now = wr_clock_seconds();
@@ -393,7 +394,7 @@ static void forget(WrApp *app)
     app->patch->serial = 0;
 }
 
-const WrPart wr_part_patch = { .update = wr_patch_update,
+const WrPart wr_part_patch = { .update = patch_update,
                                .next_time = wr_patch_next_time,
                                .look = wr_patch_look,
                                .draw = patch_draw,

@@ -67,7 +67,6 @@ typedef struct WrPatch {
     WrPatchLate meanwhile;
 } WrPatch;
 
-void wr_patch_update(WrApp *app); /* send requests; fetch results */
 void wr_patch_overlay(WrApp *app);
 void wr_patch_draw_lights(const WrApp *app);
 /* Rotation by the pointer, dragging of a light, wheel zoom. press: false if there is nothing to drag. */

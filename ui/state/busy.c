@@ -229,6 +229,8 @@ void wr_busy_settle(WrApp *app)
 
 /* ---- for the main loop ---- */
 
+static void waits_run(WrApp *app);
+
 void wr_busy_update(WrApp *app)
 {
     WrBusy *busy = app->busy;
@@ -240,7 +242,7 @@ void wr_busy_update(WrApp *app)
         const bool ok = wr_busy_end(app, &err);
         after(app, ctx, ok, &err);
     }
-    if (!app->busy) wr_waits_run(app);
+    if (!app->busy) waits_run(app);
 }
 
 static void open_late(WrApp *app, const char *path, bool dropped)
@@ -299,6 +301,8 @@ bool wr_busy_look(WrApp *app, const SDL_Event *event)
 
 #define REFUSED_SECONDS 2.0 /* duration of the note about a refused action */
 
+static void waits_words(const WrApp *app, const char *between, char *text, size_t size);
+
 /* The command's name, or a note about actions requested meanwhile. */
 static void say(const WrApp *app, bool refused, double wide)
 {
@@ -313,7 +317,7 @@ static void say(const WrApp *app, bool refused, double wide)
                         wide);
         return;
     }
-    wr_waits_words(app, ", ", waits, sizeof waits);
+    waits_words(app, ", ", waits, sizeof waits);
     snprintf(text, sizeof text, wr_words(count == 1 ? "%d thing waits: %s" : "%d things wait: %s"),
              count, waits);
     wr_gui_as_it_is(true); /* already translated */
@@ -328,16 +332,18 @@ static double squeezed(double wide, double share, double whole)
     return fmax(wr_gui_px(20), wr_gui_px(wide) - share * lacking);
 }
 
+static void waits_drop(WrApp *app, WrDropped why);
+
 static void drop_button(WrApp *app)
 {
     char waits[600];
-    wr_waits_words(app, "\n", waits, sizeof waits);
+    waits_words(app, "\n", waits, sizeof waits);
     wr_gui_same_line(12);
     const bool drops = wr_gui_chip(NULL, "Drop waiting actions");
     wr_gui_as_it_is(true);
     wr_gui_tip(waits);
     wr_gui_as_it_is(false);
-    if (drops) wr_waits_drop(app, WR_DROPPED_WISH);
+    if (drops) waits_drop(app, WR_DROPPED_WISH);
 }
 
 static void bar(WrApp *app, bool refused, double now)
@@ -437,7 +443,8 @@ void wr_busy_take_back(WrApp *app, WrBusyLate *late, const char *text)
     }
 }
 
-void wr_waits_words(const WrApp *app, const char *between, char *text, size_t size)
+/* Names of the queued actions, separated by `between`. */
+static void waits_words(const WrApp *app, const char *between, char *text, size_t size)
 {
     const WrWaits *waits = app->waits;
     size_t used = 0;
@@ -447,11 +454,12 @@ void wr_waits_words(const WrApp *app, const char *between, char *text, size_t si
                                  waits->items.data[i].words);
 }
 
-void wr_waits_drop(WrApp *app, WrDropped why)
+/* With a message. */
+static void waits_drop(WrApp *app, WrDropped why)
 {
     char words[300];
     if (app->waits->items.count == 0) return;
-    wr_waits_words(app, ", ", words, sizeof words);
+    waits_words(app, ", ", words, sizeof words);
     while (app->waits->items.count > 0) {
         WrWaiting first = take(app->waits, 0);
         first.late(app, first.text, true);
@@ -464,16 +472,16 @@ void wr_waits_drop(WrApp *app, WrDropped why)
     if (why == WR_DROPPED_WISH) wr_app_say(app, "Not done any more: %s", words);
 }
 
-void wr_waits_run(WrApp *app)
+static void waits_run(WrApp *app)
 {
     WrWaits *waits = app->waits;
     if (waits->running) return;
-    if (waits->given_up) wr_waits_drop(app, WR_DROPPED_CANCELLED);
+    if (waits->given_up) waits_drop(app, WR_DROPPED_CANCELLED);
     waits->given_up = false;
     waits->running = true;
     while (waits->items.count > 0 && !app->busy) {
         if (waits->items.data[0].layers && waits->items.data[0].layers != layers_key(app)) {
-            wr_waits_drop(app, WR_DROPPED_LAYERS);
+            waits_drop(app, WR_DROPPED_LAYERS);
             break;
         }
         WrWaiting first = take(waits, 0);

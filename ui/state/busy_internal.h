@@ -61,8 +61,4 @@ struct WrWaits {
     bool running, given_up;
 };
 
-void wr_waits_run(WrApp *app);
 typedef enum WrDropped { WR_DROPPED_CANCELLED, WR_DROPPED_LAYERS, WR_DROPPED_WISH } WrDropped;
-void wr_waits_drop(WrApp *app, WrDropped why); /* with a message */
-/* Names of the queued actions, separated by `between`. */
-void wr_waits_words(const WrApp *app, const char *between, char *text, size_t size);

@@ -275,17 +275,20 @@ static bool write_preset(WrApp *app, const char *folder, const char *name, WrErr
     return ok;
 }
 
+static bool preset_browser_save(WrApp *app, const char *name);
+
 void wr_preset_browser_open_save(WrApp *app, const char *name)
 {
     char *folder = is_name(name) ? wr_library_user_folder(NULL) : NULL;
     char *path = folder ? preset_path(folder, name) : NULL;
     bool asks = path && wr_replace_confirm(app, WR_REPLACE_PRESET, WR_FILE_PRESET, path);
-    if (!asks) wr_preset_browser_save(app, name);
+    if (!asks) preset_browser_save(app, name);
     wr_free(path);
     wr_free(folder);
 }
 
-bool wr_preset_browser_save(WrApp *app, const char *name)
+/* Save the brush as a user preset, and choose it. */
+static bool preset_browser_save(WrApp *app, const char *name)
 {
     WrError err;
     char *folder = NULL;
@@ -307,7 +310,7 @@ bool wr_preset_browser_save(WrApp *app, const char *name)
 void wr_preset_browser_overwrite(WrApp *app, const char *path)
 {
     (void)path; /* of that name, as typed */
-    wr_preset_browser_save(app, app->shelf->name);
+    preset_browser_save(app, app->shelf->name);
 }
 
 bool wr_preset_browser_delete(WrApp *app, const char *id)

@@ -56,8 +56,6 @@ WrBrush wr_preset_browser_own(const WrApp *app);
 void wr_preset_browser_tune(WrApp *app, const char *name, double value);
 /* override all at once; NULL: restore all */
 void wr_preset_browser_tune_all(WrApp *app, const char *set);
-/* Save the brush as a user preset, and choose it. */
-bool wr_preset_browser_save(WrApp *app, const char *name);
 /* the same, with a question if the name exists */
 void wr_preset_browser_open_save(WrApp *app, const char *name);
 void wr_preset_browser_overwrite(WrApp *app,

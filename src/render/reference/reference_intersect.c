@@ -41,7 +41,9 @@ static WrReferenceBounds box_of(const float *points)
     return box;
 }
 
-bool wr_reference_bezier_init(WrReferenceBezier *set, const WrPatches *source, WrError *err)
+static bool reference_patches_init(WrReferencePatches *patches, const WrShape *shape, WrError *err);
+
+static bool reference_bezier_init(WrReferenceBezier *set, const WrPatches *source, WrError *err)
 {
     *set = (WrReferenceBezier){ .source = source };
     set->pieces = wr_try_alloc((size_t)source->count, sizeof *set->pieces, "the reference", err);
@@ -56,21 +58,28 @@ bool wr_reference_bezier_init(WrReferenceBezier *set, const WrPatches *source, W
             wr_reference_bounds_add(group, k, piece->box.low[k]);
             wr_reference_bounds_add(group, k, piece->box.high[k]);
         }
-        if (!wr_reference_patches_init(&piece->tree, &piece->shape, err)) return false;
+        if (!reference_patches_init(&piece->tree, &piece->shape, err)) return false;
     }
     return true;
 }
 
-void wr_reference_bezier_fini(WrReferenceBezier *set)
+static void reference_patches_fini(WrReferencePatches *patches);
+
+/* Also for a zeroed one. */
+static void reference_bezier_fini(WrReferenceBezier *set)
 {
     for (int32_t i = 0; set->pieces && i < set->source->count; i++)
-        wr_reference_patches_fini(&set->pieces[i].tree);
+        reference_patches_fini(&set->pieces[i].tree);
     wr_free(set->pieces);
     *set = (WrReferenceBezier){ 0 };
 }
 
-bool wr_reference_bezier_hit(const WrReferenceBezier *set, bool cull, const WrReferenceRay *ray,
-                             WrReferenceHit *hit)
+static bool reference_patches_hit(const WrReferencePatches *patches, const WrShape *shape,
+                                  bool cull, const WrReferenceRay *ray, WrReferenceHit *hit);
+
+/* Nearest hit beyond s_min: fills s, u, v (the table's), triangle (here the patch) and share (its own u, v). */
+static bool reference_bezier_hit(const WrReferenceBezier *set, bool cull, const WrReferenceRay *ray,
+                                 WrReferenceHit *hit)
 {
     WrReferenceHit best = { .s = INFINITY, .triangle = -1 };
     for (int32_t i = 0; i < set->source->count; i++) {
@@ -81,8 +90,7 @@ bool wr_reference_bezier_hit(const WrReferenceBezier *set, bool cull, const WrRe
         }
         WrReferenceHit own = { 0 };
         if (!wr_reference_bounds_met(&piece->box, ray, best.s, PATCH_SLACK) ||
-            !wr_reference_patches_hit(&piece->tree, &piece->shape, cull, ray, &own) ||
-            own.s >= best.s)
+            !reference_patches_hit(&piece->tree, &piece->shape, cull, ray, &own) || own.s >= best.s)
             continue;
         best = own;
         best.triangle = i;
@@ -96,8 +104,8 @@ bool wr_reference_bezier_hit(const WrReferenceBezier *set, bool cull, const WrRe
 }
 
 /* The point with derivatives by the table's u and v, from the gradients of the patch's parameters. */
-void wr_reference_bezier_at(const WrReferenceBezier *set, const WrReferenceHit *hit,
-                            WrSurfacePoint *out)
+static void reference_bezier_at(const WrReferenceBezier *set, const WrReferenceHit *hit,
+                                WrSurfacePoint *out)
 {
     const float *c = set->source->patch[hit->triangle].chart;
     WrSurfacePoint at;
@@ -226,7 +234,7 @@ static void halve(WrReferencePatches *patches, int index, const WrShape *shape)
 
 /* Larger pieces are subdivided first, so that a surface with too many is subdivided evenly. Then boxes shrink to
    those of their halves. */
-bool wr_reference_patches_init(WrReferencePatches *patches, const WrShape *shape, WrError *err)
+static bool reference_patches_init(WrReferencePatches *patches, const WrShape *shape, WrError *err)
 {
     int capacity = 1024;
     WrReferencePatches made = { .count = 1, .size = wr_shape_radius(shape) };
@@ -255,7 +263,8 @@ bool wr_reference_patches_init(WrReferencePatches *patches, const WrShape *shape
     return true;
 }
 
-void wr_reference_patches_fini(WrReferencePatches *patches)
+/* Also for a zeroed one. */
+static void reference_patches_fini(WrReferencePatches *patches)
 {
     wr_free(patches->pieces);
     *patches = (WrReferencePatches){ 0 };
@@ -377,8 +386,9 @@ static double reciprocal(double d)
     return fabs(d) > 1e-150 ? 1 / d : d < 0 ? -1e150 : 1e150;
 }
 
-bool wr_reference_patches_hit(const WrReferencePatches *patches, const WrShape *shape, bool cull,
-                              const WrReferenceRay *ray, WrReferenceHit *hit)
+/* Nearest root beyond s_min. cull: ignores roots whose N = Pu x Pv points away from the viewer. */
+static bool reference_patches_hit(const WrReferencePatches *patches, const WrShape *shape,
+                                  bool cull, const WrReferenceRay *ray, WrReferenceHit *hit)
 {
     Search search = { .shape = shape,
                       .ray = ray,
@@ -583,7 +593,7 @@ bool wr_reference_mesh_hit(const WrReferenceMesh *m, bool cull, const WrReferenc
 
 /* ---- tangent frames ---- */
 
-bool wr_reference_mesh_frame(WrReferenceMesh *mesh, WrNormalFrame frame, WrError *err)
+static bool reference_mesh_frame(WrReferenceMesh *mesh, WrNormalFrame frame, WrError *err)
 {
     const WrTriangles *t = mesh->source;
     const size_t corners = 3 * (size_t)t->triangle_count;
@@ -643,8 +653,12 @@ static WrVec3 seen_normal(WrVec3 n, WrVec3 face, WrVec3 to)
     return v3_unit(v3_mad(n, to, side * (least - now)), face);
 }
 
-void wr_reference_mesh_at(const WrReferenceMesh *m, const WrReferenceHit *hit, WrVec3 eye,
-                          bool perspective, WrSurfacePoint *out)
+/* The point there: P, n, and Pu, Pv, perpendicular to n, as  grad v x n  and  n x grad u  times |N|, so that
+   Blinn's formula yields unit(n - grad F). With mirrored (u,v) both have the opposite sign; with (u,v) of area 0,
+   |N| is 1. The normal of a face towards the eye is turned towards the eye as well, by a cosine of at least
+   1e-4. */
+static void reference_mesh_at(const WrReferenceMesh *m, const WrReferenceHit *hit, WrVec3 eye,
+                              bool perspective, WrSurfacePoint *out)
 {
     const WrTriangles *t = m->source;
     const int32_t *c = t->triangles[hit->triangle].corner;
@@ -742,13 +756,13 @@ static bool take_mesh(WrReferenceView *view, const WrScene *scene, WrError *err)
         scene->triangles ? wr_triangles_share(scene->triangles) : wr_triangles_square();
     if (mesh->patches) {
         view->mesh.source = mesh; /* contains the patches */
-        return wr_reference_bezier_init(&view->bezier, mesh->patches, err);
+        return reference_bezier_init(&view->bezier, mesh->patches, err);
     }
     const WrNormalFrame frame = wr_scene_frame(scene);
     const bool framed =
         scene->normals.image && (frame == WR_FRAME_MIKK || frame == WR_FRAME_LECTURE);
     return wr_reference_mesh_init(&view->mesh, mesh, err) &&
-           (!framed || wr_reference_mesh_frame(&view->mesh, frame, err));
+           (!framed || reference_mesh_frame(&view->mesh, frame, err));
 }
 
 bool wr_reference_view_init(WrReferenceView *view, const WrScene *scene, double turn_deg, int width,
@@ -789,14 +803,14 @@ bool wr_reference_view_init(WrReferenceView *view, const WrScene *scene, double 
     take_lights(view, scene, &place);
     if (view->info->held) return take_mesh(view, scene, err);
     return view->info->inversion != WR_INVERT_MESH ||
-           wr_reference_patches_init(&view->patches, view->shape, err);
+           reference_patches_init(&view->patches, view->shape, err);
 }
 
 void wr_reference_view_fini(WrReferenceView *view)
 {
     wr_free(view->lights);
-    wr_reference_patches_fini(&view->patches);
-    wr_reference_bezier_fini(&view->bezier);
+    reference_patches_fini(&view->patches);
+    reference_bezier_fini(&view->bezier);
     wr_reference_mesh_fini(&view->mesh);
     *view = (WrReferenceView){ 0 };
 }
@@ -944,11 +958,11 @@ void wr_reference_view_at(const WrReferenceView *view, const WrReferenceHit *hit
         return;
     }
     if (view->bezier.source) {
-        wr_reference_bezier_at(&view->bezier, hit, out);
+        reference_bezier_at(&view->bezier, hit, out);
         return;
     }
-    wr_reference_mesh_at(&view->mesh, hit, view->perspective ? view->eye : view->toward,
-                         view->perspective, out);
+    reference_mesh_at(&view->mesh, hit, view->perspective ? view->eye : view->toward,
+                      view->perspective, out);
 }
 
 bool wr_reference_view_hit(const WrReferenceView *view, const WrReferenceRay *ray,
@@ -961,9 +975,9 @@ bool wr_reference_view_hit(const WrReferenceView *view, const WrReferenceRay *ra
     case WR_INVERT_PLANE:
     case WR_INVERT_CUBE: return hit_faces(view, ray, hit);
     case WR_INVERT_TRIANGLES:
-        return view->bezier.source ? wr_reference_bezier_hit(&view->bezier, view->cull, ray, hit)
+        return view->bezier.source ? reference_bezier_hit(&view->bezier, view->cull, ray, hit)
                                    : wr_reference_mesh_hit(&view->mesh, view->cull, ray, hit);
     case WR_INVERT_MESH: break;
     }
-    return wr_reference_patches_hit(&view->patches, view->shape, view->cull, ray, hit);
+    return reference_patches_hit(&view->patches, view->shape, view->cull, ray, hit);
 }

@@ -37,11 +37,6 @@ typedef struct WrReferencePatches {
     double size; /* of the object, object units */
 } WrReferencePatches;
 
-bool wr_reference_patches_init(WrReferencePatches *patches, const WrShape *shape, WrError *err);
-void wr_reference_patches_fini(WrReferencePatches *patches); /* also for a zeroed one */
-/* Nearest root beyond s_min. cull: ignores roots whose N = Pu x Pv points away from the viewer. */
-bool wr_reference_patches_hit(const WrReferencePatches *patches, const WrShape *shape, bool cull,
-                              const WrReferenceRay *ray, WrReferenceHit *hit);
 /* A step of Newton's method: P + Pu du + Pv dv on the ray. False if the ray is in the tangent plane. */
 bool wr_reference_newton_step(const WrReferenceRay *ray, WrVec3 p, WrVec3 pu, WrVec3 pv, double *du,
                               double *dv);
@@ -115,15 +110,6 @@ typedef struct WrReferenceBezier {
     WrReferenceBezierPiece *pieces; /* [source->count], owned */
 } WrReferenceBezier;
 
-bool wr_reference_bezier_init(WrReferenceBezier *set, const WrPatches *source, WrError *err);
-void wr_reference_bezier_fini(WrReferenceBezier *set); /* also for a zeroed one */
-/* Nearest hit beyond s_min: fills s, u, v (the table's), triangle (here the patch) and share (its own u, v). */
-bool wr_reference_bezier_hit(const WrReferenceBezier *set, bool cull, const WrReferenceRay *ray,
-                             WrReferenceHit *hit);
-/* As wr_reference_mesh_at. */
-void wr_reference_bezier_at(const WrReferenceBezier *set, const WrReferenceHit *hit,
-                            WrSurfacePoint *out);
-
 /* ---- mesh files ---- */
 
 /* Ray intersection with a mesh file, for the reference.
@@ -142,8 +128,6 @@ typedef struct WrReferenceMesh {
 
 /* Builds the tree and takes ownership of the mesh. Errors: no memory. */
 bool wr_reference_mesh_init(WrReferenceMesh *mesh, WrTriangles *source, WrError *err);
-/* Computes tangent frames for a normal map that needs them. Errors: no memory. */
-bool wr_reference_mesh_frame(WrReferenceMesh *mesh, WrNormalFrame frame, WrError *err);
 /* Axes of such a map at a hit; false: there is no frame. */
 bool wr_reference_mesh_axes(const WrReferenceMesh *mesh, const WrReferenceHit *hit,
                             WrMapAxes *axes);
@@ -152,12 +136,6 @@ void wr_reference_mesh_fini(WrReferenceMesh *mesh); /* also for a zeroed one */
    edge or a corner that triangles share hits one of them. */
 bool wr_reference_mesh_hit(const WrReferenceMesh *mesh, bool cull, const WrReferenceRay *ray,
                            WrReferenceHit *hit);
-/* The point there: P, n, and Pu, Pv, perpendicular to n, as  grad v x n  and  n x grad u  times |N|, so that
-   Blinn's formula yields unit(n - grad F). With mirrored (u,v) both have the opposite sign; with (u,v) of area 0,
-   |N| is 1. The normal of a face towards the eye is turned towards the eye as well, by a cosine of at least
-   1e-4. */
-void wr_reference_mesh_at(const WrReferenceMesh *mesh, const WrReferenceHit *hit, WrVec3 eye,
-                          bool perspective, WrSurfacePoint *out);
 
 /* ---- camera, rays and closed forms ---- */
 
@@ -216,7 +194,7 @@ WrReferenceRay wr_reference_view_ray(const WrReferenceView *view, double x, doub
 /* Change of that ray's q and d per pixel. */
 void wr_reference_view_spread(const WrReferenceView *view, WrReferenceRay *per_x,
                               WrReferenceRay *per_y);
-/* The surface's point there; for a mesh as wr_reference_mesh_at. */
+/* The surface's point there; for a mesh as reference_mesh_at. */
 void wr_reference_view_at(const WrReferenceView *view, const WrReferenceHit *hit,
                           WrSurfacePoint *out);
 /* Nearest visible point of the surface on the ray, beyond the near plane. */

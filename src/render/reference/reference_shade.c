@@ -90,9 +90,12 @@ static bool is_blocked(const WrReferenceStage *stage, WrVec3 from, WrVec3 n, WrV
     return false;
 }
 
-double wr_reference_cast_share(const WrReferenceStage *stage, const WrSurfacePoint *at,
-                               const WrReferenceHit *hit, WrVec3 perturbed, WrVec3 l, double away,
-                               double radius, WrReferenceShare share)
+/* Visible share of a lamp past all objects. l: unit vector to it, along the object's axes, and away, its
+   distance, both in world proportions; radius: of an area lamp, radians, of whose points each sample uses its
+   share. Below the surface's own horizon the object itself is tested along the horizon. */
+static double reference_cast_share(const WrReferenceStage *stage, const WrSurfacePoint *at,
+                                   const WrReferenceHit *hit, WrVec3 perturbed, WrVec3 l,
+                                   double away, double radius, WrReferenceShare share)
 {
     const WrReferenceView *view = &stage->view;
     const WrVec3 n = to_world(view, outward(stage, at, hit, perturbed)), to = to_world(view, l);
@@ -201,8 +204,9 @@ static int places(int texels, int parts)
     return n < FINE ? FINE : n;
 }
 
-void wr_reference_surround_init(WrReferenceSurround *surround, const WrScene *scene,
-                                const double rotation[9])
+/* Prepares the environment. rotation: the object's axes -> the world. */
+static void reference_surround_init(WrReferenceSurround *surround, const WrScene *scene,
+                                    const double rotation[9])
 {
     const WrEnvironment *e = &scene->environment;
     *surround = (WrReferenceSurround){ 0 };
@@ -226,7 +230,8 @@ void wr_reference_surround_init(WrReferenceSurround *surround, const WrScene *sc
         }
 }
 
-void wr_reference_surround_fini(WrReferenceSurround *surround)
+/* Prepares the environment. rotation: the object's axes -> the world. */
+static void reference_surround_fini(WrReferenceSurround *surround)
 {
     wr_free(surround->sectors);
     *surround = (WrReferenceSurround){ 0 };
@@ -310,9 +315,11 @@ static void add_shine(const WrReferenceStage *stage, const WrMatter *is, WrVec3 
     }
 }
 
-void wr_reference_surround_light(const WrReferenceStage *stage, const WrMatter *is, WrVec3 n,
-                                 WrVec3 v, const double colour[3], WrReferenceShare share,
-                                 double own[3], double white[3])
+/* Adds the environment's light: `own` is multiplied by the surface's colour, `white` by none. is: the material
+   there; n: facing the viewer; colour: as in wr_reference_reflect. */
+static void reference_surround_light(const WrReferenceStage *stage, const WrMatter *is, WrVec3 n,
+                                     WrVec3 v, const double colour[3], WrReferenceShare share,
+                                     double own[3], double white[3])
 {
     const WrMaterial *m = &stage->scene->material;
     for (int c = 0; c < 3; c++) own[c] = white[c] = 0;
@@ -861,7 +868,7 @@ bool wr_reference_stage_init(WrReferenceStage *stage, const WrField *field, cons
     if (wr_surfaces[scene->shape.kind]->held && stage->bump == WR_BUMP_EXACT)
         stage->bump = WR_BUMP_BLINN; /* triangles are flat: it is exact there */
     if (!wr_reference_view_init(&stage->view, scene, turn_deg, width, height, err)) return false;
-    wr_reference_surround_init(&stage->surround, scene, stage->view.rotation);
+    reference_surround_init(&stage->surround, scene, stage->view.rotation);
     if (!table || formula || scene->height == 0) return true;
     note_shadow(stage, field);
     return wr_reference_table_init(&stage->table, field, pool, err);
@@ -908,7 +915,7 @@ void wr_reference_stage_fini(WrReferenceStage *stage)
     wr_reference_view_fini(&stage->view);
     wr_free(stage->rough);
     wr_reference_table_fini(&stage->table);
-    wr_reference_surround_fini(&stage->surround);
+    reference_surround_fini(&stage->surround);
 }
 
 void wr_reference_height(const WrReferenceStage *stage, double u, double v, double *f, double *fu,
@@ -1067,8 +1074,7 @@ void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at,
                                                                light->radius, share)
                                         : 1;
         if (light->shadow && seen > 0)
-            seen *=
-                wr_reference_cast_share(stage, at, hit, perturbed, l, away, light->radius, share);
+            seen *= reference_cast_share(stage, at, hit, perturbed, l, away, light->radius, share);
         if (seen == 0) continue;
         wr_reference_lamp(m, &matter, perturbed, l, to, has, own, &white);
         for (int c = 0; c < 3; c++) {
@@ -1077,7 +1083,7 @@ void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at,
         }
     }
     double around[3], mirrored[3];
-    wr_reference_surround_light(stage, &matter, perturbed, to, has, share, around, mirrored);
+    reference_surround_light(stage, &matter, perturbed, to, has, share, around, mirrored);
     for (int c = 0; c < 3; c++)
         rgb[c] = has[c] * (diffuse[c] + open * around[c]) + shine[c] + mirrored[c];
 }

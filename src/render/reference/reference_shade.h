@@ -45,16 +45,6 @@ typedef struct WrReferenceSurround {
     double around[WR_REFERENCE_FACETS][2]; /* rotations of facets about the normal */
 } WrReferenceSurround;
 
-/* Prepares the environment. rotation: the object's axes -> the world. */
-void wr_reference_surround_init(WrReferenceSurround *surround, const WrScene *scene,
-                                const double rotation[9]);
-void wr_reference_surround_fini(WrReferenceSurround *surround);
-/* Adds the environment's light: `own` is multiplied by the surface's colour, `white` by none. is: the material
-   there; n: facing the viewer; colour: as in wr_reference_reflect. */
-void wr_reference_surround_light(const WrReferenceStage *stage, const WrMatter *is, WrVec3 n,
-                                 WrVec3 v, const double colour[3], WrReferenceShare share,
-                                 double own[3], double white[3]);
-
 /* ---- shading ---- */
 
 /* An object as a shadow caster: without culling, back faces and hidden faces included. */
@@ -141,9 +131,3 @@ bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrRe
 
 /* Makes an object a shadow caster. The stage must not move in memory. */
 void wr_reference_caster(WrReferenceCaster *caster, const WrReferenceStage *stage);
-/* Visible share of a lamp past all objects. l: unit vector to it, along the object's axes, and away, its
-   distance, both in world proportions; radius: of an area lamp, radians, of whose points each sample uses its
-   share. Below the surface's own horizon the object itself is tested along the horizon. */
-double wr_reference_cast_share(const WrReferenceStage *stage, const WrSurfacePoint *at,
-                               const WrReferenceHit *hit, WrVec3 perturbed, WrVec3 l, double away,
-                               double radius, WrReferenceShare share);

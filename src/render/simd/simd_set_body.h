@@ -11,8 +11,6 @@
 #include "render/simd/simd_vector_body.h"
 #ifdef WIDE
 #include "render/simd/simd_light_body.h"
-#include "render/simd/simd_sphere_uv_body.h"
-#include "render/simd/simd_sphere_rows_body.h"
 #include "render/simd/simd_sphere_body.h"
 #include "render/simd/simd_fetch_body.h"
 #include "render/simd/simd_sphere_filter_body.h"

@@ -13,7 +13,7 @@
    Spheres and cylinders: the offset surface at one distance is again a sphere or a cylinder. Rays pass through
    the shell between the lowest and the highest of these, and each point has its own u, v and height. So they hit
    the displaced surface itself, from inside too, and its outline extends beyond the base's
-   (stage_parallax_shell_body.h). For other curved bases the outline stays within the base's own: a torus' shell
+   (stage_parallax_body.h). For other curved bases the outline stays within the base's own: a torus' shell
    is a torus, which has no closed-form intersection here; that of a cone has a round tip; and surfaces from
    profiles and formulas could only be sampled.
 
@@ -44,7 +44,7 @@ typedef struct WrParallax {
     bool closed[2];   /* u, v are periodic */
     bool ends[2][2];  /* the surface ends at 0 and at 1, and that border is not a single point */
     bool bent;        /* the base is curved */
-    bool shell;       /* rays pass through the shell around it (stage_parallax_shell_body.h) */
+    bool shell;       /* rays pass through the shell around it (stage_parallax_body.h) */
 } WrParallax;
 
 /* True if the offset surface has the same kind as the base, a closed-form intersection, and the same u and v.

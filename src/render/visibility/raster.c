@@ -94,6 +94,8 @@ static bool shown(const WrTileJob *job, const WrQuadd *quad)
     return wr_plan_calls(job->plan, WR_EFFECT_BACK) || v3_dot(to, n) > 0;
 }
 
+static bool raster_project(const WrView *view, WrVec3 p, double u, double v, WrRasterVertex *out);
+
 int wr_outline_tips(const WrTileJob *job, WrRasterVertex tips[WR_OUTLINE_TIPS])
 {
     const WrView *view = job->view;
@@ -101,7 +103,7 @@ int wr_outline_tips(const WrTileJob *job, WrRasterVertex tips[WR_OUTLINE_TIPS])
     int count = 0;
     for (int k = 0; k < 4 * view->quad_count; k++)
         count += shown(job, &view->quads_d[k / 4]) &&
-                 wr_raster_project(view, corner_of(&view->quads_d[k / 4], k), 0, 0, &tips[count]);
+                 raster_project(view, corner_of(&view->quads_d[k / 4], k), 0, 0, &tips[count]);
     for (int k = 0; mesh && k < 4; k++) {
         const int at = k / 2 * mesh->mv * (mesh->mu + 1) + k % 2 * mesh->mu;
         tips[count] = (WrRasterVertex){ .x = mesh->sx[at], .y = mesh->sy[at] };
@@ -110,7 +112,7 @@ int wr_outline_tips(const WrTileJob *job, WrRasterVertex tips[WR_OUTLINE_TIPS])
     return count;
 }
 
-WrClipVertex wr_raster_camera_vertex(const WrView *view, WrVec3 p, double u, double v)
+static WrClipVertex raster_camera_vertex(const WrView *view, WrVec3 p, double u, double v)
 {
     WrVec3 w = v3_sub(p, view->eye);
     return (WrClipVertex){ v3_dot(w, view->right), v3_dot(w, view->up), v3_dot(w, view->forward), u,
@@ -139,9 +141,9 @@ static WrRasterVertex project(const WrView *view, const WrClipVertex *c)
                              (float)c->v };
 }
 
-bool wr_raster_project(const WrView *view, WrVec3 p, double u, double v, WrRasterVertex *out)
+static bool raster_project(const WrView *view, WrVec3 p, double u, double v, WrRasterVertex *out)
 {
-    WrClipVertex c = wr_raster_camera_vertex(view, p, u, v);
+    WrClipVertex c = raster_camera_vertex(view, p, u, v);
     double reach = WR_GUARD * (view->perspective ? c.depth : 1.0);
     *out = (WrRasterVertex){ 0 };
     if (!(c.depth >= view->near) || !(fabs(c.x) <= reach * view->half_w) ||
@@ -156,9 +158,11 @@ static int32_t within_int(double x)
     return (int32_t)fmin(fmax(x, -0x1p30), 0x1p30);
 }
 
-bool wr_raster_bound(const WrView *view, WrVec3 p, int32_t *x, int32_t *y)
+/* Position of a vertex outside the guard band, 1/256 samples, clamped to 2^30; false if it is not beyond the
+   near plane. */
+static bool raster_bound(const WrView *view, WrVec3 p, int32_t *x, int32_t *y)
 {
-    const WrClipVertex c = wr_raster_camera_vertex(view, p, 0, 0);
+    const WrClipVertex c = raster_camera_vertex(view, p, 0, 0);
     *x = *y = 0;
     if (!(c.depth >= view->near)) return false;
     const double inv = view->perspective ? 1.0 / c.depth : 1.0;
@@ -179,7 +183,7 @@ typedef struct Projected {
     int in[PROJECTED];                 /* inside the near plane and the guard band */
 } Projected;
 
-/* Projects `count` points as wr_raster_project does. */
+/* Projects `count` points as raster_project does. */
 static void project_many(const WrView *view, int count, const float *restrict px,
                          const float *restrict py, const float *restrict pz,
                          Projected *restrict out)
@@ -207,11 +211,11 @@ static void project_many(const WrView *view, int count, const float *restrict px
 /* Projects a vertex that is not inside. */
 static WrVertexPlace bound_of(const WrView *view, WrVec3 p, int32_t *x, int32_t *y)
 {
-    return wr_raster_bound(view, p, x, y) ? WR_VERTEX_OUT : WR_VERTEX_BEHIND;
+    return raster_bound(view, p, x, y) ? WR_VERTEX_OUT : WR_VERTEX_BEHIND;
 }
 
-void wr_raster_project_row(const WrView *view, int count, const float *x, const float *y,
-                           const float *z, const WrRasterRow *row)
+static void raster_project_row(const WrView *view, int count, const float *x, const float *y,
+                               const float *z, const WrRasterRow *row)
 {
     Projected at;
     for (int from = 0; from < count; from += PROJECTED) {
@@ -433,8 +437,9 @@ void wr_raster_triangle(const WrView *view, WrRasterVertex a, WrRasterVertex b, 
     raster(view, a, b, c, NULL, tile);
 }
 
-void wr_raster_marked(const WrView *view, const WrRasterVertex corner[3], float mark,
-                      WrDepthTile *tile)
+/* Rasterise triangles whose samples get u = `mark` and v = 0; the second one clips first. */
+static void raster_marked(const WrView *view, const WrRasterVertex corner[3], float mark,
+                          WrDepthTile *tile)
 {
     raster(view, corner[0], corner[1], corner[2], &mark, tile);
 }
@@ -483,18 +488,20 @@ static void clipped(const WrView *view, const WrClipVertex corner[3], const floa
         raster(view, first, project(view, &poly[i]), project(view, &poly[i + 1]), mark, tile);
 }
 
-void wr_raster_clipped(const WrView *view, const WrClipVertex corner[3], WrDepthTile *tile)
+/* Clips against the near plane and the guard band, before any division (HC82, HC83), and rasterises. */
+static void wr_raster_clipped(const WrView *view, const WrClipVertex corner[3], WrDepthTile *tile)
 {
     clipped(view, corner, NULL, tile);
 }
 
-void wr_raster_clipped_marked(const WrView *view, const WrClipVertex corner[3], float mark,
-                              WrDepthTile *tile)
+/* Rasterise triangles whose samples get u = `mark` and v = 0; the second one clips first. */
+static void raster_clipped_marked(const WrView *view, const WrClipVertex corner[3], float mark,
+                                  WrDepthTile *tile)
 {
     clipped(view, corner, &mark, tile);
 }
 
-WrRasterBounds wr_raster_bounds(const WrDepthTile *tile, int samples)
+static WrRasterBounds raster_bounds(const WrDepthTile *tile, int samples)
 {
     const int k = tile->k > 0 ? tile->k : samples;
     const int more = tile->shift || k != samples ? 1 : 0; /* samples */
@@ -504,7 +511,7 @@ WrRasterBounds wr_raster_bounds(const WrDepthTile *tile, int samples)
                              (int64_t)(tile->y + tile->h + more) * 256 * samples / k };
 }
 
-bool wr_raster_meets(const WrViewMeshBlock *b, const WrRasterBounds *tile)
+static bool raster_meets(const WrViewMeshBlock *b, const WrRasterBounds *tile)
 {
     return b->clipped ||
            (b->x1 >= tile->x0 && b->x0 <= tile->x1 && b->y1 >= tile->y0 && b->y0 <= tile->y1);
@@ -641,7 +648,7 @@ static void project_row(int j, int worker, void *ctx)
     WrViewMesh *mesh = job->mesh;
     const size_t at = (size_t)j * (size_t)(mesh->mu + 1);
     const WrRasterRow row = { mesh->sx + at, mesh->sy + at, mesh->close + at, mesh->out + at };
-    wr_raster_project_row(job->view, mesh->mu + 1, mesh->x + at, mesh->y + at, mesh->z + at, &row);
+    raster_project_row(job->view, mesh->mu + 1, mesh->x + at, mesh->y + at, mesh->z + at, &row);
 }
 
 static void bound_row(int by, int worker, void *ctx)
@@ -746,12 +753,12 @@ void wr_view_mesh_prepare(WrViewMesh *mesh, const WrShape *shape, const WrView *
 bool wr_view_mesh_box(const WrViewMesh *mesh, const WrView *view, const WrDepthTile *tile,
                       double box[4])
 {
-    const WrRasterBounds bounds = wr_raster_bounds(tile, view->samples);
+    const WrRasterBounds bounds = raster_bounds(tile, view->samples);
     box[0] = box[1] = INFINITY;
     box[2] = box[3] = -INFINITY;
     for (int i = 0; i < mesh->blocks_u * mesh->blocks_v; i++) {
         const WrViewMeshBlock *b = &mesh->blocks[i];
-        if (!wr_raster_meets(b, &bounds)) continue;
+        if (!raster_meets(b, &bounds)) continue;
         box[0] = fmin(box[0], b->clipped ? -INFINITY : b->x0 / 256.0);
         box[1] = fmin(box[1], b->clipped ? -INFINITY : b->y0 / 256.0);
         box[2] = fmax(box[2], b->clipped ? INFINITY : b->x1 / 256.0);
@@ -766,8 +773,8 @@ static void raster_clipped(const WrViewMesh *mesh, const WrView *view, const int
     WrClipVertex corner[3];
     for (int k = 0; k < 3; k++) {
         size_t at = (size_t)ij[k][1] * (size_t)(mesh->mu + 1) + (size_t)ij[k][0];
-        corner[k] = wr_raster_camera_vertex(view, (WrVec3){ mesh->x[at], mesh->y[at], mesh->z[at] },
-                                            (double)ij[k][0] / mesh->mu, (double)mesh->v[ij[k][1]]);
+        corner[k] = raster_camera_vertex(view, (WrVec3){ mesh->x[at], mesh->y[at], mesh->z[at] },
+                                         (double)ij[k][0] / mesh->mu, (double)mesh->v[ij[k][1]]);
     }
     wr_raster_clipped(view, corner, tile);
 }
@@ -865,12 +872,12 @@ void wr_view_mesh_raster(const WrViewMesh *mesh, const WrView *view, WrDepthTile
     const bool own_grid = tile->k <= 0 || tile->k == view->samples;
     Block block = { .mesh = mesh,
                     .view = view,
-                    .bounds = wr_raster_bounds(tile, view->samples),
+                    .bounds = raster_bounds(tile, view->samples),
                     .culls = view->cull && own_grid,
                     .mirrored = view->stretch[0] * view->stretch[1] * view->stretch[2] < 0 };
     for (int i = 0; i < tile->w * tile->h; i++) tile->close[i] = -FLT_MAX;
     for (int b = 0; b < mesh->blocks_u * mesh->blocks_v; b++)
-        if (wr_raster_meets(&mesh->blocks[b], &block.bounds)) raster_block(&block, b, tile);
+        if (raster_meets(&mesh->blocks[b], &block.bounds)) raster_block(&block, b, tile);
 }
 
 /* ---- mesh files ---- */
@@ -993,9 +1000,9 @@ static void project_chunk(int chunk, int worker, void *ctx)
                                   job->view->scale);
         WrRasterVertex vertex;
         to->out[i] = WR_VERTEX_IN;
-        if (!wr_raster_project(job->view, p, 0, 0, &vertex))
-            to->out[i] = wr_raster_bound(job->view, p, &vertex.x, &vertex.y) ? WR_VERTEX_OUT
-                                                                             : WR_VERTEX_BEHIND;
+        if (!raster_project(job->view, p, 0, 0, &vertex))
+            to->out[i] =
+                raster_bound(job->view, p, &vertex.x, &vertex.y) ? WR_VERTEX_OUT : WR_VERTEX_BEHIND;
         to->sx[i] = vertex.x;
         to->sy[i] = vertex.y;
         to->close[i] = vertex.close;
@@ -1090,9 +1097,9 @@ static void raster_out(const WrViewTriangles *from, const WrView *view, int32_t 
 {
     WrClipVertex corner[3];
     for (int k = 0; k < 3; k++)
-        corner[k] = wr_raster_camera_vertex(
-            view, v3_scale(corner_at(from->source, i, k), view->scale), 0, 0);
-    wr_raster_clipped_marked(view, corner, (float)i, tile);
+        corner[k] =
+            raster_camera_vertex(view, v3_scale(corner_at(from->source, i, k), view->scale), 0, 0);
+    raster_clipped_marked(view, corner, (float)i, tile);
 }
 
 /* True if all three are outside the same side. */
@@ -1119,20 +1126,20 @@ static void raster_one(const WrViewTriangles *from, const WrView *view,
     }
     const WrRasterVertex corner[3] = { vertex_of(from, c[0]), vertex_of(from, c[1]),
                                        vertex_of(from, c[2]) };
-    wr_raster_marked(view, corner, (float)i, tile);
+    raster_marked(view, corner, (float)i, tile);
 }
 
 void wr_view_triangles_raster(const WrViewTriangles *from, const WrView *view, WrDepthTile *tile)
 {
-    const WrRasterBounds bounds = wr_raster_bounds(tile, view->samples);
+    const WrRasterBounds bounds = raster_bounds(tile, view->samples);
     for (int i = 0; i < tile->w * tile->h; i++) tile->close[i] = -FLT_MAX;
     for (int32_t b = 0; b < from->block_count; b++) {
         if (b % WR_TRIANGLE_GROUP == 0 &&
-            !wr_raster_meets(&from->groups[b / WR_TRIANGLE_GROUP], &bounds)) {
+            !raster_meets(&from->groups[b / WR_TRIANGLE_GROUP], &bounds)) {
             b += WR_TRIANGLE_GROUP - 1;
             continue;
         }
-        if (!wr_raster_meets(&from->blocks[b], &bounds)) continue;
+        if (!raster_meets(&from->blocks[b], &bounds)) continue;
         const int32_t end = block_end(from, b);
         for (int32_t i = b * WR_TRIANGLE_BLOCK; i < end; i++)
             raster_one(from, view, &bounds, i, tile);
@@ -1142,13 +1149,13 @@ void wr_view_triangles_raster(const WrViewTriangles *from, const WrView *view, W
 bool wr_view_triangles_box(const WrViewTriangles *from, const WrView *view, const WrDepthTile *tile,
                            double box[4])
 {
-    const WrRasterBounds bounds = wr_raster_bounds(tile, view->samples);
+    const WrRasterBounds bounds = raster_bounds(tile, view->samples);
     WrViewMeshBlock all = nothing;
     for (int32_t i = 0; i < from->group_count; i++) {
-        if (!wr_raster_meets(&from->groups[i], &bounds)) continue;
+        if (!raster_meets(&from->groups[i], &bounds)) continue;
         const int32_t end = (i + 1) * WR_TRIANGLE_GROUP;
         for (int32_t b = i * WR_TRIANGLE_GROUP; b < end && b < from->block_count; b++)
-            if (wr_raster_meets(&from->blocks[b], &bounds)) include_box(&all, &from->blocks[b]);
+            if (raster_meets(&from->blocks[b], &bounds)) include_box(&all, &from->blocks[b]);
     }
     box[0] = all.clipped ? -INFINITY : all.x0 / 256.0;
     box[1] = all.clipped ? -INFINITY : all.y0 / 256.0;
