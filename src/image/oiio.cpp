@@ -836,15 +836,18 @@ static bool read_band(WrCodecReader &reader, int part, int y, int rows, int chan
         to = reader.codes.data();
     }
     int top = spec.y + y, subimage = reader.levels ? 0 : part, level = reader.levels ? part : 0;
+    /* Only for no type at all does the library read straight to the caller; else through a buffer of 64 MiB of its own. */
+    const bool as_stored = values.type == spec.format && spec.channelformats.empty();
+    const TypeDesc type = as_stored ? TypeDesc(TypeDesc::UNKNOWN) : values.type;
     bool ok;
     if (spec.tile_width)
         ok = reader.in->read_tiles(subimage, level, spec.x, spec.x + spec.width, top, top + rows,
-                                   spec.z, spec.z + 1, 0, channels, values.type, to);
+                                   spec.z, spec.z + 1, 0, channels, type, to);
     else if (!std::strcmp(reader.in->format_name(), "fits"))
         ok = read_fits_rows(reader, part, top, rows, channels, values.type, to);
     else
-        ok = reader.in->read_scanlines(subimage, level, top, top + rows, spec.z, 0, channels,
-                                       values.type, to);
+        ok = reader.in->read_scanlines(subimage, level, top, top + rows, spec.z, 0, channels, type,
+                                       to);
     if (!check_read(reader, ok, reason)) return false;
     if (to != out || changes_floats(values)) decode_values(to, pixels, channels, values, out);
     return true;
