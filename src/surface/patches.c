@@ -10,6 +10,9 @@
 #include <math.h>
 #include <string.h>
 
+/* A set of bicubic patches. points[p][3 * (4 * j + i) + k] is coordinate k of control point (i, j); i runs
+   along u and fastest. The patches are turned to face one way, their edges paired, charts into the table laid
+   out, and all are cut into triangles whose parts are the patches. */
 /* Edges 0..3 of a patch: v = 0, v = 1, u = 0, u = 1; each runs towards larger u or v. */
 typedef struct WrPatchEdge {
     int32_t other;  /* 4 * patch + edge of the neighbour; -1: none */
@@ -50,6 +53,8 @@ static bool comes_before(const float a[3], const float b[3])
     return false;
 }
 
+/* An edge and its reverse have the same row of bits, so wr_weld finds shared edges exactly. The direction is
+   chosen by the ends; for a closed loop, whose ends are equal, by the inner points. */
 /* Its points in an order independent of the edge's direction. */
 static EdgeRow edge_row(const float *points, int edge, WrPatchEdge *out)
 {
@@ -95,6 +100,8 @@ static void pair_edges(const int32_t *kind, int32_t kinds, int32_t count, WrPatc
     wr_free(first);
 }
 
+/* In (u, v) the counter-clockwise boundary is v = 0 forwards, u = 1 forwards, v = 1 backwards, u = 0
+   backwards. */
 /* True if the counter-clockwise boundary, seen from the normal's side, runs in the direction of the
  * edge. */
 static bool runs_round(int edge)
@@ -108,6 +115,7 @@ static bool is_against(const WrPatchEdge *edges, int32_t i)
     return (runs_round(i % 4) == runs_round(edges[i].other % 4)) != edges[i].turned;
 }
 
+/* Union-find over end points: start with one group per point; each edge that connects two groups removes one. */
 /* Counts connected groups of open edges. */
 static bool count_loops(const float (*points)[48], int32_t count, const WrPatchEdge *edges,
                         WrPatchesReport *report, WrError *err)
@@ -160,6 +168,8 @@ static bool patches_find_edges(const float (*points)[48], int32_t count, WrPatch
 
 /* ---- orientation ---- */
 
+/* Transposes the 4 x 4 points. That exchanges u and v, and so reverses N = Pu x Pv, without moving the surface
+   (HC22). */
 static void turn_patch(float points[48])
 {
     for (int j = 0; j < 4; j++)
@@ -172,7 +182,8 @@ static void turn_patch(float points[48])
 }
 
 /* side: 1 like the first of the island, -1 opposite; 0 unknown. Returns the number of patches in the
- * queue. */
+ * queue.
+ * Breadth first. `queue` keeps all patches of the island in order of discovery. */
 static int32_t face_island(const WrPatchEdge *edges, int32_t first, signed char *side,
                            int32_t *queue)
 {
@@ -189,6 +200,8 @@ static int32_t face_island(const WrPatchEdge *edges, int32_t first, signed char 
     return put;
 }
 
+/* The majority decides because there is no outside yet: a set may be open. Whether the whole body is inside
+   out is decided later by the volume of its triangles, and then all = true reverses everything. */
 /* Orients connected patches to one side, that of the majority; all: then flips all of them. Flipping
  * exchanges u and v; *turned is their number. */
 static bool patches_face(float (*points)[48], int32_t count, bool all, int32_t *turned,
@@ -221,6 +234,8 @@ static bool patches_face(float (*points)[48], int32_t count, bool all, int32_t *
 
 /* ---- charts ---- */
 
+/* An affine map with whole coefficients: the linear part is one of the eight symmetries of the square, so
+   exactly one of of[1], of[2] and one of of[4], of[5] is not 0. */
 /* Table's u = of[0] + of[1] u + of[2] v, v = of[3] + of[4] u + of[5] v. */
 typedef struct Chart {
     int32_t of[6];
@@ -246,6 +261,10 @@ static void edge_spots(int edge, Spot *from, Spot *to, Spot *out)
     *from = froms[edge], *to = tos[edge], *out = outs[edge];
 }
 
+/* The neighbour's unit square must continue the table: its common edge lies on ours (`along` from its own
+   start to its own stop) and its interior lies beyond ours, in direction `on`. These two vectors are the
+   images of its u and v axes, in the order given by the edge; the origin follows from the image of its edge's
+   start. */
 /* The chart of the patch beyond the edge that continues the table. */
 static Chart beyond(const Chart *chart, int edge, const WrPatchEdge *meets)
 {
@@ -290,6 +309,8 @@ typedef struct Layout {
     int32_t columns, rows;
 } Layout;
 
+/* Linear probing; the keys are not stored: a slot holds 1 + patch, and the patch's chart has the cell.
+   Multiplication by 2^64 / golden ratio spreads neighbouring cells (Fibonacci hashing). */
 static size_t cell_slot(const Layout *l, Spot cell)
 {
     const uint64_t key = (uint64_t)(uint32_t)cell.u << 32 | (uint32_t)cell.v;
@@ -301,6 +322,8 @@ static size_t cell_slot(const Layout *l, Spot cell)
     return at;
 }
 
+/* If patches must not overlap (split), a patch whose cell is occupied is not placed: it starts an island of
+   its own later. Otherwise the first patch keeps the slot and others may lie over it. */
 static bool place(Layout *l, int32_t patch, const Chart *chart)
 {
     const size_t slot = cell_slot(l, cell_of(chart));
@@ -310,6 +333,8 @@ static bool place(Layout *l, int32_t patch, const Chart *chart)
     return true;
 }
 
+/* Breadth first from one patch, so that islands grow round and the table is cut far from the start. Charts are
+   relative to the first patch until the island's extent is known. */
 /* Lays out all patches reachable from one across edges; the island is then placed beside the previous
  * ones. */
 static void lay_island(Layout *l, int32_t first)
@@ -337,6 +362,7 @@ static void lay_island(Layout *l, int32_t first)
     l->rows = high.v - low.v + 1 > l->rows ? high.v - low.v + 1 : l->rows;
 }
 
+/* Each chart moves to cell (0, 0): only its turn and mirroring matter, as every patch has the whole table. */
 /* For whole tables: cells are irrelevant. */
 static void gather_cells(Layout *l)
 {
@@ -358,6 +384,7 @@ static bool runs_on(const Layout *l, int32_t i)
     return true;
 }
 
+/* Two neighbours then never share a texel, and interpolation reads only margin texels of its own cell. */
 /* One cell for each patch, row by row from the lower left, with a margin. Nothing is joined. */
 static void take_cells(WrPatches *set, WrPatch *patch)
 {
@@ -564,6 +591,9 @@ void wr_patches_free(WrPatches *patches)
     wr_free(patches);
 }
 
+/* Second derivatives of a Bezier patch are convex combinations of 6 (P0 - 2 P1 + P2) along u or v, and mixed
+   ones of 9 (P00 - P10 - P01 + P11); the largest of these vectors bounds the derivative over the whole patch
+   (convex hull). */
 /* ---- one patch ---- */
 
 static void shape_of(const float *points, WrShape *shape)
@@ -641,6 +671,7 @@ static double extent(const Build *b)
     return 0.5 * hypot(hypot(high[0] - low[0], high[1] - low[1]), high[2] - low[2]);
 }
 
+/* With 2 du dv <= du^2 + dv^2 each axis may have half the error: (|Puu| + |Puv|) / (8 n^2) <= off / 2. */
 /* Chooses counts by |P - its triangle| <= (|Puu| du^2 + 2 |Puv| du dv + |Pvv| dv^2) / 8, half of the
  * error for each direction. */
 static void ask_cuts(Build *b, double off)
@@ -668,6 +699,9 @@ static void count_triangles(Build *b)
     }
 }
 
+/* The two opposite edges of a patch have the same count, and both patches at a shared edge too, else there
+   would be cracks; so whole strips of patches form one class of the union-find, and its largest wish counts.
+   If the total is too large, the tolerance doubles: counts fall by sqrt(2) per step. */
 static void choose_cuts(Build *b)
 {
     for (int32_t i = 0; i < 2 * b->count; i++) b->up[i] = i;
@@ -687,6 +721,7 @@ static void choose_cuts(Build *b)
 
 /* ---- triangles ---- */
 
+/* Bernstein form; the same expression for every edge, so equal control points in equal order yield equal bits. */
 static double mix4(const double p[4], double t)
 {
     const double w = 1 - t;
@@ -708,6 +743,9 @@ static void edge_place(const Build *b, int32_t patch, int edge, int i, int n, fl
     }
 }
 
+/* Normals come from each patch itself: creases stay where patches meet at an angle. Positions on edges are
+   replaced by edge_place's, because wr_surface_at sums sixteen terms in another order and would differ in the
+   last bit. */
 static void put_place(Build *b, int32_t patch, const WrShape *shape, int i, int j)
 {
     const int nu = cuts_of(b, patch, 0), nv = cuts_of(b, patch, 1);
@@ -724,6 +762,8 @@ static void put_place(Build *b, int32_t patch, const WrShape *shape, int i, int 
     if (i == 0 || i == nu) edge_place(b, patch, i == 0 ? 2 : 3, j, nv, b->place[at]);
 }
 
+/* Vertices row by row, i fastest; each patch has its own, wr_weld merges those of shared edges later.
+   Triangles without area (collapsed edges) are dropped by wr_triangles_new. */
 static void cut_patch(Build *b, int32_t patch)
 {
     const int nu = cuts_of(b, patch, 0), nv = cuts_of(b, patch, 1);
@@ -770,6 +810,7 @@ static WrTriangles *cut_all(Build *b, WrError *err)
 
 /* ---- creases ---- */
 
+/* Edges 0 and 1 run along u at v = 0 and 1; edges 2 and 3 along v at u = 0 and 1. */
 static WrVec3 normal_on_edge(const float *points, int edge, double t)
 {
     WrShape shape;
@@ -782,6 +823,9 @@ static WrVec3 normal_on_edge(const float *points, int edge, double t)
 #define CREASE 0.1      /* smallest angle of a crease, in degrees */
 #define CREASE_MEANT 45 /* larger angles are always intended */
 
+/* Five points, none at the ends, where several patches meet. An angle above 90 degrees compares normals of
+   opposite sides. The reported patch pair is the worst crease that may be a slip in the data, such as patch 11
+   of the teapot's list (HC152). */
 static void find_creases(Build *b, WrPatchesReport *report)
 {
     for (int32_t i = 0; i < 4 * b->count; i++) {
@@ -816,6 +860,8 @@ static bool number_triangles(WrTriangles *made, WrPatches *set, WrError *err)
     return of != NULL;
 }
 
+/* The triangles' hash does not contain the charts, so the same body with another table layout must have
+   another key. */
 /* The key distinguishes shapes. */
 static uint64_t key_of(const WrTriangles *made, const WrPatches *set)
 {
