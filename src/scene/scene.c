@@ -51,6 +51,10 @@ static bool same_camera(const WrCamera *a, const WrCamera *b)
            a->size == b->size && a->frame == b->frame;
 }
 
+/* True if two scenes have equal normals, positions and (u,v) at all samples, so that only shading is computed
+   again (E76). Every member that reaches geometry must be compared here; a missing one shows as a stale
+   picture. Scenes of several objects count as different. memcmp is safe for WrShape: it is always copied
+   whole. */
 bool wr_scene_same_normals(const WrScene *a, const WrScene *b)
 {
     if (a == b) return true;
@@ -85,6 +89,7 @@ void wr_scene_name_view(WrScene *scene, const char *name, const WrSceneView *vie
     scene->views[scene->view_count++] = (WrNamedView){ wr_strdup(name), *view };
 }
 
+/* Order is kept: views are listed in the order of their creation. */
 void wr_scene_forget_view(WrScene *scene, int i)
 {
     wr_free(scene->views[i].name);
@@ -120,7 +125,9 @@ const char *const wr_background_names[WR_BACKGROUND_KINDS] = {
 WR_ROWS_END(wr_background_names, WR_BACKGROUND_KINDS);
 
 /* Interpolates two values evenly for the eye. Above 1, where codes are saturated, it is linear in
-   light. */
+   light.
+   The codes of 8-bit sRGB are even for the eye; interpolation in linear light would look dark in the lower
+   half. */
 static float between(double top, double bottom, double share)
 {
     if (top == bottom) return (float)top;
@@ -192,6 +199,8 @@ const char *const wr_tone_names[WR_TONE_KINDS] = {
 };
 WR_ROWS_END(wr_tone_names, WR_TONE_KINDS);
 
+/* The curve is y up to the knee k, then 1 - (1 - k)^2 / (y + 1 - 2k): value k and slope 1 at the knee, and 1
+   in the limit. The clip curve has the knee at infinity and needs no branch in kernels. */
 #define NO_KNEE 3.0e38f /* never reached by light */
 
 WrToneCurve wr_tone_curve(const WrTone *tone)
@@ -278,6 +287,8 @@ void wr_texture_sample_fini(WrTextureSample *laid)
     *laid = (WrTextureSample){ 0 };
 }
 
+/* Copies members one by one: owned blocks are duplicated, immutable objects (images, triangles, other objects)
+   shared. A new member that is missing here stays 0 in every copy. */
 WrScene *wr_scene_clone(const WrScene *scene)
 {
     WrScene *clone = wr_alloc(1, sizeof *clone);
@@ -328,6 +339,7 @@ WrScene *wr_scene_clone(const WrScene *scene)
     return clone;
 }
 
+/* The members that belong to the scene and not to an object: lights, camera, dials, background and so on. */
 void wr_scene_take_shared(WrScene *scene, const WrScene *from)
 {
     wr_free(scene->lights);
@@ -402,6 +414,7 @@ void wr_scene_free(WrScene *scene)
     wr_free(scene);
 }
 
+/* shared first, then freed: the shape may be the scene's own. */
 void wr_scene_set_shape(WrScene *scene, const WrShape *shape)
 {
     const WrSurfaceData *old = scene->shape.data, *shared = wr_surface_data_share(shape->data);
@@ -418,6 +431,7 @@ WrSceneView wr_scene_view(const WrScene *scene)
     return view;
 }
 
+/* A pose is saved only in a view of a single object; in a scene of several it would turn whichever is active. */
 void wr_scene_set_pose(WrScene *scene, const WrSceneView *view)
 {
     scene->camera = view->camera;
@@ -448,6 +462,9 @@ static double table_parameter(double u, double replicate, bool clamped)
     return clamped ? replicate * u : wr_field_reduce(u, replicate);
 }
 
+/* f = h T(ru u, rv v), fu = h ru dT/du: the chain rule, because derivatives are by the patch's parameters
+   (DESIGN). A formula has period 1 on both axes. Results are bounded to the range of float, so that no
+   infinity enters a normal (HC15). */
 void wr_scene_height(const WrScene *scene, const WrField *field, double u, double v, double *f,
                      double *fu, double *fv)
 {
@@ -466,6 +483,8 @@ void wr_scene_height(const WrScene *scene, const WrField *field, double u, doubl
     if (fv) *fv = wr_slope_of(slope_v, scene->height, rv);
 }
 
+/* Runs of WR_HEIGHTS_RUN points keep the scratch arrays on the stack and in the first-level cache. Formulas go
+   point by point. */
 void wr_scene_heights(const WrScene *scene, const WrField *field, int count, const double *u,
                       const double *v, double *f)
 {
@@ -499,6 +518,8 @@ void wr_scene_gloss(const WrMaterial *m, WrEnvironmentBrdf *gloss)
     wr_environment_brdf_init(gloss, &of, &matter, m->specular, m->tint, m->gate);
 }
 
+/* The reflection model's constants, integrated once for each material; kd, ks and the colour are plain copies,
+   so changing them costs nothing. */
 void wr_scene_matter(const WrMaterial *m, WrMatter *matter)
 {
     const WrReflectance of = wr_scene_reflectance(m);

@@ -10,10 +10,10 @@
 #include <math.h>
 #include <string.h>
 
-/* A set of bicubic patches. points[p][3 * (4 * j + i) + k] is coordinate k of control point (i, j); i runs
+/* Edges 0..3 of a patch: v = 0, v = 1, u = 0, u = 1; each runs towards larger u or v.
+   A set of bicubic patches. points[p][3 * (4 * j + i) + k] is coordinate k of control point (i, j); i runs
    along u and fastest. The patches are turned to face one way, their edges paired, charts into the table laid
    out, and all are cut into triangles whose parts are the patches. */
-/* Edges 0..3 of a patch: v = 0, v = 1, u = 0, u = 1; each runs towards larger u or v. */
 typedef struct WrPatchEdge {
     int32_t other;  /* 4 * patch + edge of the neighbour; -1: none */
     bool turned;    /* the neighbour's edge has the opposite direction */
@@ -53,9 +53,9 @@ static bool comes_before(const float a[3], const float b[3])
     return false;
 }
 
-/* An edge and its reverse have the same row of bits, so wr_weld finds shared edges exactly. The direction is
+/* Its points in an order independent of the edge's direction.
+   An edge and its reverse have the same row of bits, so wr_weld finds shared edges exactly. The direction is
    chosen by the ends; for a closed loop, whose ends are equal, by the inner points. */
-/* Its points in an order independent of the edge's direction. */
 static EdgeRow edge_row(const float *points, int edge, WrPatchEdge *out)
 {
     float p[4][3];
@@ -100,10 +100,10 @@ static void pair_edges(const int32_t *kind, int32_t kinds, int32_t count, WrPatc
     wr_free(first);
 }
 
-/* In (u, v) the counter-clockwise boundary is v = 0 forwards, u = 1 forwards, v = 1 backwards, u = 0
-   backwards. */
 /* True if the counter-clockwise boundary, seen from the normal's side, runs in the direction of the
- * edge. */
+ * edge.
+ * In (u, v) the counter-clockwise boundary is v = 0 forwards, u = 1 forwards, v = 1 backwards, u = 0
+ * backwards. */
 static bool runs_round(int edge)
 {
     return edge == 0 || edge == 3;
@@ -115,8 +115,8 @@ static bool is_against(const WrPatchEdge *edges, int32_t i)
     return (runs_round(i % 4) == runs_round(edges[i].other % 4)) != edges[i].turned;
 }
 
-/* Union-find over end points: start with one group per point; each edge that connects two groups removes one. */
-/* Counts connected groups of open edges. */
+/* Counts connected groups of open edges.
+   Union-find over end points: start with one group per point; each edge that connects two groups removes one. */
 static bool count_loops(const float (*points)[48], int32_t count, const WrPatchEdge *edges,
                         WrPatchesReport *report, WrError *err)
 {
@@ -200,10 +200,10 @@ static int32_t face_island(const WrPatchEdge *edges, int32_t first, signed char 
     return put;
 }
 
-/* The majority decides because there is no outside yet: a set may be open. Whether the whole body is inside
-   out is decided later by the volume of its triangles, and then all = true reverses everything. */
 /* Orients connected patches to one side, that of the majority; all: then flips all of them. Flipping
- * exchanges u and v; *turned is their number. */
+ * exchanges u and v; *turned is their number.
+ * The majority decides because there is no outside yet: a set may be open. Whether the whole body is inside
+ * out is decided later by the volume of its triangles, and then all = true reverses everything. */
 static bool patches_face(float (*points)[48], int32_t count, bool all, int32_t *turned,
                          WrError *err)
 {
@@ -234,9 +234,9 @@ static bool patches_face(float (*points)[48], int32_t count, bool all, int32_t *
 
 /* ---- charts ---- */
 
-/* An affine map with whole coefficients: the linear part is one of the eight symmetries of the square, so
+/* Table's u = of[0] + of[1] u + of[2] v, v = of[3] + of[4] u + of[5] v.
+   An affine map with whole coefficients: the linear part is one of the eight symmetries of the square, so
    exactly one of of[1], of[2] and one of of[4], of[5] is not 0. */
-/* Table's u = of[0] + of[1] u + of[2] v, v = of[3] + of[4] u + of[5] v. */
 typedef struct Chart {
     int32_t of[6];
     bool placed;
@@ -261,11 +261,11 @@ static void edge_spots(int edge, Spot *from, Spot *to, Spot *out)
     *from = froms[edge], *to = tos[edge], *out = outs[edge];
 }
 
-/* The neighbour's unit square must continue the table: its common edge lies on ours (`along` from its own
+/* The chart of the patch beyond the edge that continues the table.
+   The neighbour's unit square must continue the table: its common edge lies on ours (`along` from its own
    start to its own stop) and its interior lies beyond ours, in direction `on`. These two vectors are the
    images of its u and v axes, in the order given by the edge; the origin follows from the image of its edge's
    start. */
-/* The chart of the patch beyond the edge that continues the table. */
 static Chart beyond(const Chart *chart, int edge, const WrPatchEdge *meets)
 {
     Spot a, b, out, own_a, own_b, own_out;
@@ -333,10 +333,10 @@ static bool place(Layout *l, int32_t patch, const Chart *chart)
     return true;
 }
 
-/* Breadth first from one patch, so that islands grow round and the table is cut far from the start. Charts are
-   relative to the first patch until the island's extent is known. */
 /* Lays out all patches reachable from one across edges; the island is then placed beside the previous
- * ones. */
+ * ones.
+ * Breadth first from one patch, so that islands grow round and the table is cut far from the start. Charts are
+ * relative to the first patch until the island's extent is known. */
 static void lay_island(Layout *l, int32_t first)
 {
     const Chart start = { { 0, 1, 0, 0, 0, 1 }, true };
@@ -362,8 +362,8 @@ static void lay_island(Layout *l, int32_t first)
     l->rows = high.v - low.v + 1 > l->rows ? high.v - low.v + 1 : l->rows;
 }
 
-/* Each chart moves to cell (0, 0): only its turn and mirroring matter, as every patch has the whole table. */
-/* For whole tables: cells are irrelevant. */
+/* For whole tables: cells are irrelevant.
+   Each chart moves to cell (0, 0): only its turn and mirroring matter, as every patch has the whole table. */
 static void gather_cells(Layout *l)
 {
     for (int32_t i = 0; i < l->count; i++) {
@@ -384,8 +384,8 @@ static bool runs_on(const Layout *l, int32_t i)
     return true;
 }
 
-/* Two neighbours then never share a texel, and interpolation reads only margin texels of its own cell. */
-/* One cell for each patch, row by row from the lower left, with a margin. Nothing is joined. */
+/* One cell for each patch, row by row from the lower left, with a margin. Nothing is joined.
+   Two neighbours then never share a texel, and interpolation reads only margin texels of its own cell. */
 static void take_cells(WrPatches *set, WrPatch *patch)
 {
     const float margin = (float)WR_PATCH_MARGIN, side = 1 - 2 * margin;
@@ -591,10 +591,11 @@ void wr_patches_free(WrPatches *patches)
     wr_free(patches);
 }
 
+/* ---- one patch ---- */
+
 /* Second derivatives of a Bezier patch are convex combinations of 6 (P0 - 2 P1 + P2) along u or v, and mixed
    ones of 9 (P00 - P10 - P01 + P11); the largest of these vectors bounds the derivative over the whole patch
    (convex hull). */
-/* ---- one patch ---- */
 
 static void shape_of(const float *points, WrShape *shape)
 {
@@ -671,9 +672,9 @@ static double extent(const Build *b)
     return 0.5 * hypot(hypot(high[0] - low[0], high[1] - low[1]), high[2] - low[2]);
 }
 
-/* With 2 du dv <= du^2 + dv^2 each axis may have half the error: (|Puu| + |Puv|) / (8 n^2) <= off / 2. */
 /* Chooses counts by |P - its triangle| <= (|Puu| du^2 + 2 |Puv| du dv + |Pvv| dv^2) / 8, half of the
- * error for each direction. */
+ * error for each direction.
+ * With 2 du dv <= du^2 + dv^2 each axis may have half the error: (|Puu| + |Puv|) / (8 n^2) <= off / 2. */
 static void ask_cuts(Build *b, double off)
 {
     for (int32_t i = 0; i < 2 * b->count; i++) b->cuts[i] = 1;
@@ -860,9 +861,9 @@ static bool number_triangles(WrTriangles *made, WrPatches *set, WrError *err)
     return of != NULL;
 }
 
-/* The triangles' hash does not contain the charts, so the same body with another table layout must have
+/* The key distinguishes shapes.
+   The triangles' hash does not contain the charts, so the same body with another table layout must have
    another key. */
-/* The key distinguishes shapes. */
 static uint64_t key_of(const WrTriangles *made, const WrPatches *set)
 {
     const WrHash start = { made->key, 1 + (uint64_t)set->table };

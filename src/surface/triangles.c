@@ -13,17 +13,17 @@
 
 /* ---- meshes ---- */
 
-/* A mesh is three arrays: `corners` (position, normal, u, v; equal rows exist once), `triangles` (three corner
+/* Fills in all members derived from the arrays.
+   A mesh is three arrays: `corners` (position, normal, u, v; equal rows exist once), `triangles` (three corner
    indices, counter- clockwise seen from outside) and `parts` (consecutive triangles). A finished mesh is
    immutable and shared by reference; `key` is a hash of the arrays, so caches compare one number. */
-/* Fills in all members derived from the arrays. */
 static void triangles_measure(WrTriangles *made);
 
 /* ---- Sorting of a mesh's triangles, and its final arrays ---- */
 
-/* Morton code: bit n of x goes to bit 3 n. Each step doubles the number of gaps; 21 bits of three axes fill 63
+/* Spreads 21 bits to every third bit.
+   Morton code: bit n of x goes to bit 3 n. Each step doubles the number of gaps; 21 bits of three axes fill 63
    of 64. */
-/* Spreads 21 bits to every third bit. */
 static uint64_t spread_bits(uint64_t x)
 {
     x &= 0x1fffff;
@@ -34,10 +34,10 @@ static uint64_t spread_bits(uint64_t x)
     return (x | x << 2) & 0x1249249249249249ULL;
 }
 
-/* Faces near each other in space become near in memory: blocks of consecutive triangles then have tight
+/* Position of a face's centre on the space-filling curve.
+   Faces near each other in space become near in memory: blocks of consecutive triangles then have tight
    bounding spheres and narrow normal cones. The mean of corners is inside the bounding sphere, so t is 0 ..
    2^21; only order depends on it. */
-/* Position of a face's centre on the space-filling curve. */
 static uint64_t curve_place(const WrTrianglesBuild *b, int32_t i)
 {
     const WrTriangleCorner *c = b->corner + 3 * (size_t)i;
@@ -56,9 +56,9 @@ typedef struct Item {
     int32_t face;
 } Item;
 
-/* Stable, so that faces with equal keys keep the file's order and the result does not depend on the library's
+/* Stable radix sort by key: eight passes of a byte each.
+   Stable, so that faces with equal keys keep the file's order and the result does not depend on the library's
    qsort. The number of passes is even: the result ends in `items`. */
-/* Stable radix sort by key: eight passes of a byte each. */
 static void sort_items(Item *items, Item *spare, int32_t count)
 {
     for (int shift = 0; shift < 64; shift += 8) {
@@ -71,9 +71,9 @@ static void sort_items(Item *items, Item *spare, int32_t count)
     }
 }
 
-/* Each part is sorted on its own and stays one range. b->of[k] is the source triangle of kept face k,
+/* Sorts faces by parts and the curve.
+   Each part is sorted on its own and stays one range. b->of[k] is the source triangle of kept face k,
    increasing. */
-/* Sorts faces by parts and the curve. */
 static bool sort_faces(const WrTrianglesBuild *b, Item *items, WrError *err)
 {
     const WrTrianglesSource *source = b->source;
@@ -115,10 +115,10 @@ static WrTrianglePart *make_parts(const WrTrianglesBuild *b, int *count)
     return parts;
 }
 
-/* Each corner of a face comes as a row of its own; wr_weld merges rows with equal bits. Rows were cleared of
+/* Numbers corners in the order of their first use.
+   Each corner of a face comes as a row of its own; wr_weld merges rows with equal bits. Rows were cleared of
    -0, which compares equal to 0 but has other bits. At most 2^24 corners: documents store indices as floats,
    exact up to there. */
-/* Numbers corners in the order of their first use. */
 static bool number_corners(WrTriangles *made, WrTriangleCorner *rows, WrError *err)
 {
     const int32_t count = 3 * made->triangle_count;
@@ -151,11 +151,11 @@ static bool all_but_one(const WrTriangleCorner *a, const WrTriangleCorner *b)
     return memcmp(a->n, b->n, sizeof a->n) == 0 && all_but(a->u, b->u) && all_but(a->v, b->v);
 }
 
-/* A list for each position: last[place] is its latest corner, before[corner] the one before, both plus 1. At
-   most 16 are compared, so that a fan with thousands of corners at its hub stays linear. Out of memory reports
-   0: it is only a statistic. */
 /* Counts corners whose position and normal equal another's, and nearly its (u,v): seams by rounding,
- * which split tangent frames (HC129). */
+ * which split tangent frames (HC129).
+ * A list for each position: last[place] is its latest corner, before[corner] the one before, both plus 1. At
+ * most 16 are compared, so that a fan with thousands of corners at its hub stays linear. Out of memory reports
+ * 0: it is only a statistic. */
 static int32_t count_near(const WrTriangles *made)
 {
     const int32_t count = made->corner_count;
@@ -262,8 +262,8 @@ static void report_from_floats(const float *in, WrTrianglesReport *report)
     *report = (WrTrianglesReport){ n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8] != 0, 0 };
 }
 
-/* 3 * 24 bits hold the 53 of a double. join adds the small ones first; all sums are exact. */
-/* A double as three floats whose sum it is. */
+/* A double as three floats whose sum it is.
+   3 * 24 bits hold the 53 of a double. join adds the small ones first; all sums are exact. */
 static void split(double x, float out[3])
 {
     for (int i = 0; i < 3; i++) {
@@ -401,9 +401,10 @@ WrTriangles *wr_triangles_unpack(const float *block, size_t count, WrError *err)
     return NULL;
 }
 
+/* ---- Areas of a mesh with overlapping texture coordinates ---- */
+
 /* The (u,v) plane is divided in cells x cells squares of the unit table; a cell is covered if its centre is
    inside a triangle, modulo 1. The share of cells covered more than once is the overlap. */
-/* ---- Areas of a mesh with overlapping texture coordinates ---- */
 
 /* Coverage count of cell centres: 0, 1, 2 for more. */
 typedef struct Count {
@@ -540,10 +541,10 @@ static WrVec3 place(const WrTrianglesBuild *b, int32_t point)
     return (WrVec3){ (double)p[0], (double)p[1], (double)p[2] };
 }
 
-/* All three corners yield the same cross product in exact arithmetic; the two shortest edges subtract the
-   closest coordinates, so a needle triangle of 1 : 1e7 keeps its normal's digits (HC133). */
 /* The cross product of the triangle's two shortest edges, oriented by the winding; *from: the corner
-   between them. */
+   between them.
+   All three corners yield the same cross product in exact arithmetic; the two shortest edges subtract the
+   closest coordinates, so a needle triangle of 1 : 1e7 keeps its normal's digits (HC133). */
 static WrVec3 face_of(const WrVec3 p[3], int *from)
 {
     double side[3]; /* of the edge opposite corner i, relative to the longest */
@@ -589,10 +590,10 @@ static void keep_faces(WrTrianglesBuild *b)
 
 /* ---- closed bodies ---- */
 
-/* Compressed lists: place[first[p] .. first[p + 1]) are the other ends at position p. Pass 0 counts into
+/* For each position, the other ends of its outgoing (or incoming) directed edges.
+   Compressed lists: place[first[p] .. first[p + 1]) are the other ends at position p. Pass 0 counts into
    first[p + 2], the sums become starts, pass 1 fills and moves first[p + 1] from the start to the end of its
    list. */
-/* For each position, the other ends of its outgoing (or incoming) directed edges. */
 typedef struct Ends {
     int32_t *first; /* [places + 1] into place */
     int32_t *place; /* [3 count] */
@@ -645,9 +646,9 @@ static int32_t how_often(const Ends *leave, const Ends *come, int32_t from, int3
                                                          : times(come, to, from);
 }
 
-/* On a closed, oriented body each directed edge and its reverse exist once. Three faces at one edge, a hole or
+/* True if each directed edge exists once, and its reverse too.
+   On a closed, oriented body each directed edge and its reverse exist once. Three faces at one edge, a hole or
    two neighbours of opposite winding fail. Edges are compared by position, so (u,v) seams do not open a body. */
-/* True if each directed edge exists once, and its reverse too. */
 static bool is_closed(const WrTrianglesBuild *b)
 {
     Ends leave = { NULL, NULL }, come = { NULL, NULL };
@@ -748,9 +749,9 @@ static void turn_normals(WrTrianglesBuild *b)
     for (int32_t i = 0; i < b->source->point_count && sum < 0; i++) b->own[i] = v3_neg(b->own[i]);
 }
 
-/* Sums are by position, not by corner: both sides of a (u,v) seam get one normal, and bumps continue across
+/* Computes missing normals from the faces about the position.
+   Sums are by position, not by corner: both sides of a (u,v) seam get one normal, and bumps continue across
    it. Opposite faces may cancel; then make_corner falls back to the face's own normal (HC136). */
-/* Computes missing normals from the faces about the position. */
 static bool fill_normals(WrTrianglesBuild *b, WrError *err)
 {
     const WrVec3 none = { 0, 0, 0 };
@@ -777,8 +778,8 @@ static bool good_uv(const float *uv)
     return fabsf(uv[0]) <= 1e6f && fabsf(uv[1]) <= 1e6f;
 }
 
-/* Adding 0 turns -0 into 0, because corners are merged by their bits. */
-/* Corner k of face i; returns true if it has (u,v). */
+/* Corner k of face i; returns true if it has (u,v).
+   Adding 0 turns -0 into 0, because corners are merged by their bits. */
 static bool make_corner(WrTrianglesBuild *b, int32_t i, int k, WrTriangleCorner *out)
 {
     const int32_t point = b->face[i].corner[k];
@@ -813,9 +814,9 @@ static void count_bad_uv(WrTrianglesBuild *b)
         b->report.bad_uv += !good_uv(b->source->uv[i]);
 }
 
-/* det = du1 dv2 - du2 dv1 is the signed (u,v) area; it is compared with the sum of its two products, which
+/* Counts the orientations of the (u,v) of mapped faces.
+   det = du1 dv2 - du2 dv1 is the signed (u,v) area; it is compared with the sum of its two products, which
    bounds its rounding error. A test against a fixed number would depend on the map's scale (HC126). */
-/* Counts the orientations of the (u,v) of mapped faces. */
 static void count_maps(WrTrianglesBuild *b)
 {
     for (int32_t i = 0; i < b->count; i++) {
@@ -1023,11 +1024,11 @@ static void add_place(Search *search, int32_t index, double a, double b)
     search->count++;
 }
 
-/* Solves o + a A + b B = (u, v) + (i, j) for the repeats (i, j) that the bounding box admits, by Cramer's
-   rule. EDGE is relative to the triangle, so points on a shared edge are found in at least one of its
-   triangles in spite of rounding. */
 /* The weights (a, b) for which the corner at (o) plus a du, b dv is (u,v) or a repeat of it; in a
- * triangle or a square. */
+ * triangle or a square.
+ * Solves o + a A + b B = (u, v) + (i, j) for the repeats (i, j) that the bounding box admits, by Cramer's
+ * rule. EDGE is relative to the triangle, so points on a shared edge are found in at least one of its
+ * triangles in spite of rounding. */
 typedef struct Frame {
     double o[2], a[2], b[2];
     bool square;

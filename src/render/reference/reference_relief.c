@@ -33,9 +33,9 @@ typedef struct Filter {
     double z;
 } Filter;
 
-/* On a clamped axis the texels outside continue the parabola through the outermost three (Lagrange's form):
+/* Value number i, any i, of n values `stride` apart, extended according to the axis.
+   On a clamped axis the texels outside continue the parabola through the outermost three (Lagrange's form):
    T[-1] = 3 T[0] - 3 T[1] + T[2]. With fewer than three texels the last one repeats. */
-/* Value number i, any i, of n values `stride` apart, extended according to the axis. */
 static double texel(const double *in, size_t stride, int n, int i, bool periodic)
 {
     if (periodic) return in[(size_t)((i % n + n) % n) * stride];
@@ -142,11 +142,11 @@ void wr_reference_table_fini(WrReferenceTable *table)
     *table = (WrReferenceTable){ 0 };
 }
 
-/* Uniform cubic B-spline; the slope is that of the quadratic B-spline of the differences c[k+1] - c[k]. In
+/* Weights of four coefficients for the value at a = 0..1 past the second, and of their three differences for the
+   slope.
+   Uniform cubic B-spline; the slope is that of the quadratic B-spline of the differences c[k+1] - c[k]. In
    this form the slope of a flat table is exactly 0 (HC47); derivative weights of the four coefficients sum to
    rounding noise. */
-/* Weights of four coefficients for the value at a = 0..1 past the second, and of their three differences for the
-   slope. */
 static void weights(double a, double w[4], double d[3])
 {
     const double b = 1 - a;
@@ -269,9 +269,9 @@ typedef struct End {
     double f, u, v;
 } End;
 
-/* A strip's parameter u follows the edge, 0 .. 1 whatever the surface's own range is; v leads from the sheet's
+/* u and v of the patch at t, 0..1, along an edge.
+   A strip's parameter u follows the edge, 0 .. 1 whatever the surface's own range is; v leads from the sheet's
    displaced edge (v = 0) to the shared point (v = 1). */
-/* u and v of the patch at t, 0..1, along an edge. */
 static void raised_edge_at(const WrReferenceRaised *raised, WrRaisedEdge edge, double t, double *u,
                            double *v)
 {
@@ -293,12 +293,12 @@ static End end_of(const WrReferenceRaised *raised, WrRaisedEdge edge, double t)
     return end;
 }
 
-/* Solves d.n_a = f_a and d.n_b = f_b in the plane of the two normals; c = n_a.n_b, and 1 - c^2 is the
+/* Displacement of a point shared by two sheets: onto both their planes; if those are almost parallel, the mean
+   displacement.
+   Solves d.n_a = f_a and d.n_b = f_b in the plane of the two normals; c = n_a.n_b, and 1 - c^2 is the
    determinant of the system. It is small for almost parallel normals, where d would grow without bound; hence
    the limit of twice the larger height. Both sheets compute the same d, so that their strips meet without a
    gap (HC124). */
-/* Displacement of a point shared by two sheets: onto both their planes; if those are almost parallel, the mean
-   displacement. */
 static WrVec3 shared(const End *a, const End *b)
 {
     const double c = v3_dot(a->n, b->n), most = fmax(fabs(a->f), fabs(b->f));
@@ -321,9 +321,9 @@ static void strip_at(const WrReferenceRaised *raised, const WrRaisedSheet *sheet
     *to = v3_add(a.p, shared(&a, &b));
 }
 
-/* The tangent along a strip is a central difference, as strip_at has no closed derivative; P is bilinear
+/* As wr_raised_at, for strips and corners.
+   The tangent along a strip is a central difference, as strip_at has no closed derivative; P is bilinear
    across, so Pv and the blend of the two ends' tangents are exact in v. */
-/* As wr_raised_at, for strips and corners. */
 static void raised_joint_at(const WrReferenceRaised *raised, const WrRaisedSheet *sheet, double u,
                             double v, WrRaisedPoint *out)
 {
@@ -348,8 +348,8 @@ static bool same_place(const WrReferenceRaised *raised, WrVec3 a, WrVec3 b)
     return v3_len(v3_sub(a, b)) < ALIKE * raised->size;
 }
 
-/* Two points that are not symmetric about the middle: an edge and its reverse agree at neither. */
-/* True if both are one edge in space, in equal or opposite direction. */
+/* True if both are one edge in space, in equal or opposite direction.
+   Two points that are not symmetric about the middle: an edge and its reverse agree at neither. */
 static bool mates(const WrReferenceRaised *raised, WrRaisedEdge a, WrRaisedEdge *b)
 {
     const double t[2] = { 0.287, 0.731 };
@@ -675,9 +675,9 @@ typedef struct Search {
     WrReferenceHit best;
 } Search;
 
-/* Slab test. `inverse` is finite even for a component 0 of d (see reciprocal), because 0 * INFINITY would be
+/* Ray parameter at which the box is entered, or INFINITY.
+   Slab test. `inverse` is finite even for a component 0 of d (see reciprocal), because 0 * INFINITY would be
    NaN for a ray within a slab's plane. */
-/* Ray parameter at which the box is entered, or INFINITY. */
 static double enters(const Search *search, const WrRaisedBox *box)
 {
     const double q[3] = { search->ray->q.x, search->ray->q.y, search->ray->q.z };
@@ -710,11 +710,11 @@ static void offer(Search *search, const Cell *c, const WrRaisedPoint *at, double
     raised_place(search->raised, search->sheet, u, v, &search->best);
 }
 
-/* Solves (P'(u, v) - q) x d = 0 by two plane equations. Convergence is quadratic at regular points and linear
+/* Newton's method from (u, v); most: longest step, in cells.
+   Solves (P'(u, v) - q) x d = 0 by two plane equations. Convergence is quadratic at regular points and linear
    at silhouettes, where Pu', Pv' and d are coplanar; there the steps may stay long although the point is on
    the ray already. So `off`, the distance from the ray, decides too: three steps without halving it end the
    search. A start that leaves the neighbouring cells is dropped: their own boxes cover those points. */
-/* Newton's method from (u, v); most: longest step, in cells. */
 static void solve(Search *search, const Cell *c, double u, double v, double most)
 {
     const WrReferenceRay *ray = search->ray;
@@ -770,10 +770,10 @@ typedef struct Entry {
     double from;
 } Entry;
 
-/* Insertion sort of at most four. The nearest child is popped first, so `best` shrinks early and look_through
+/* Pushes the box's four children onto the stack, the farthest first.
+   Insertion sort of at most four. The nearest child is popped first, so `best` shrinks early and look_through
    discards the others by their entry alone. A level adds at most three entries to the stack: 4
    WR_RAISED_LEVELS is enough. */
-/* Pushes the box's four children onto the stack, the farthest first. */
 static int push_children(const Search *search, const Entry *at, Entry *stack, int depth)
 {
     const WrRaisedSheet *sheet = search->sheet;
@@ -842,9 +842,9 @@ typedef struct Walk {
     Row *rows; /* [height] */
 } Walk;
 
-/* The view's axes are skewed if the object is stretched, so the coordinates come from Cramer's rule, with
+/* Screen position of an object's point, pixels.
+   The view's axes are skewed if the object is stretched, so the coordinates come from Cramer's rule, with
    triple products and not with dot products. */
-/* Screen position of an object's point, pixels. */
 static void pixel_of(const WrReferenceView *view, WrVec3 p, double at[2])
 {
     const WrVec3 from = v3_sub(p, view->perspective ? view->eye : view->middle);
@@ -1030,11 +1030,11 @@ static int steps_of(const Shell *shell, const double part[2])
     return (int)fmin(fmax(LEAST, ceil(PER_CELL * cells)), MAX_MOST);
 }
 
-/* The search starts where the ray enters the shell of radius R + highest, or, for a tube, where it passes an
+/* Hit on the relief of a base that has a shell (wr_parallax_has_shell), without the point.
+   The search starts where the ray enters the shell of radius R + highest, or, for a tube, where it passes an
    open end; `side` is -1 if it starts below the relief and hits it from within. A ray that reaches R + lowest
    has crossed the relief, so the interval can end there. The first step with a change of sign is bisected; 48
    halvings reach double precision. */
-/* Hit on the relief of a base that has a shell (wr_parallax_has_shell), without the point. */
 static bool reference_shell(const WrReferenceStage *stage, const WrReferenceRay *ray,
                             WrReferenceHit *hit, double *side)
 {
@@ -1071,11 +1071,11 @@ static bool reference_shell(const WrReferenceStage *stage, const WrReferenceRay 
     return true;
 }
 
-/* To second order in t. (a, b) is the velocity in parameters: the first fundamental form maps it to (d.Pu,
+/* A ray above the base that it hit: (u,v)(t) = base + t (a, b), height(t) = t (rise + t bend).
+   To second order in t. (a, b) is the velocity in parameters: the first fundamental form maps it to (d.Pu,
    d.Pv). The base falls away from its tangent plane by the second fundamental form, so height = t n.d + t^2/2
    (n_u a + n_v b).(Pu a + Pv b). t = 0 is the hit on the base, t < 0 lies before it; `side` is -1 for rays
    that arrive from behind, and `rise` <= 0. */
-/* A ray above the base that it hit: (u,v)(t) = base + t (a, b), height(t) = t (rise + t bend). */
 typedef struct Way {
     const WrReferenceStage *stage;
     double u, v, a, b, rise, bend, side;
@@ -1162,10 +1162,10 @@ static void clip(Way *w, const WrShape *shape, bool across)
     }
 }
 
-/* The ray is at or below `high` between the two roots of height(t) = high. With bend > 0 it comes down, turns
+/* Limits the range of t. false: it is empty.
+   The ray is at or below `high` between the two roots of height(t) = high. With bend > 0 it comes down, turns
    at -rise / (2 bend) and rises again: if it never reaches `low`, the interval ends at the mirror image of its
    start. */
-/* Limits the range of t. false: it is empty. */
 static bool limit(Way *w, const WrShape *shape)
 {
     const double high = w->side > 0 ? w->stage->highest : -w->stage->lowest;
@@ -1215,9 +1215,9 @@ static double within(bool round, double x)
     return round ? x - floor(x) : fmin(fmax(x, 0), 1);
 }
 
-/* Steps: velocity in parameters, parabola above the base, limits, march, and the point at the relief. hit->s
+/* Continues the ray to the relief. at: the base's point at the hit.
+   Steps: velocity in parameters, parabola above the base, limits, march, and the point at the relief. hit->s
    grows by t because d is the derivative of the ray by s. */
-/* Continues the ray to the relief. at: the base's point at the hit. */
 static bool go_on(const WrReferenceStage *stage, const WrReferenceRay *ray, WrReferenceHit *hit,
                   WrSurfacePoint *at, double *side)
 {

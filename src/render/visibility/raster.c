@@ -27,10 +27,10 @@ static WrVec3 sum3(const double a[3], const double b[3], double x, const double 
                      a[2] + x * b[2] + y * c[2] };
 }
 
-/* The ray's distance from the centre is |foot|; within the pixel the foot moves by at most half the
+/* True if the ray's distance from the bounding sphere exceeds the distance of rays within the pixel.
+   The ray's distance from the centre is |foot|; within the pixel the foot moves by at most half the
    derivatives of the ray by x and y at that parameter. The factor 0.51 instead of 0.5 and the 1e-5 are margins
    for rounding: a pixel may be kept for nothing, but never lost. */
-/* True if the ray's distance from the bounding sphere exceeds the distance of rays within the pixel. */
 static bool misses_ball(const WrView *view, const WrRaysd *rays, double x, double y)
 {
     const double R = view->shell_d.value[0];
@@ -46,10 +46,10 @@ static bool misses_ball(const WrView *view, const WrRaysd *rays, double x, doubl
     return v3_len(foot) - slack > R * (1 + 1e-5);
 }
 
-/* The pixel's image on the plane is a quadrilateral if all four rays hit the plane from the same side; then it
+/* True if all four corners of the pixel are outside the same edge of the quad, or none hits its plane in front.
+   The pixel's image on the plane is a quadrilateral if all four rays hit the plane from the same side; then it
    misses the face if one edge of the face separates them. A pixel that contains the horizon has an unbounded
    image: kept. */
-/* True if all four corners of the pixel are outside the same edge of the quad, or none hits its plane in front. */
 static bool misses_quad(const WrView *view, const WrRaysd *rays, const WrQuadd *quad, double x,
                         double y)
 {
@@ -130,9 +130,9 @@ WrClipVertex wr_raster_camera_vertex(const WrView *view, WrVec3 p, double u, dou
                            v };
 }
 
-/* Both functions are shared by the scalar and the vector path, with the same order of operations, so that both
+/* Grid position of x and of y along the camera's axes, 1/256 samples; inv: 1 / depth, or 1.
+   Both functions are shared by the scalar and the vector path, with the same order of operations, so that both
    round a vertex to the same place. */
-/* Grid position of x and of y along the camera's axes, 1/256 samples; inv: 1 / depth, or 1. */
 static inline double column_at(double x, double inv, double half_w, double grid_w)
 {
     return (0.5 + 0.5 * x * inv / half_w) * grid_w * 256.0;
@@ -182,10 +182,10 @@ bool wr_raster_bound(const WrView *view, WrVec3 p, int32_t *x, int32_t *y)
     return true;
 }
 
-/* Adding 1.5 * 2^52 moves the units' digit to the last bit of the mantissa. Unlike rint it vectorises without
-   SSE4.1; the guard band keeps |x| far below 2^51. */
 /* From here on doubles are whole numbers; below 2^51, adding and subtracting it rounds to the nearest whole
-   number, ties to even, like rint. */
+   number, ties to even, like rint.
+   Adding 1.5 * 2^52 moves the units' digit to the last bit of the mantissa. Unlike rint it vectorises without
+   SSE4.1; the guard band keeps |x| far below 2^51. */
 #define WHOLE_FROM 0x1.8p52
 
 /* Vertices during projection. */
@@ -248,12 +248,12 @@ void wr_raster_project_row(const WrView *view, int count, const float *x, const 
     }
 }
 
-/* e(x, y) = (bx - ax) (y - ay) - (by - ay) (x - ax)
+/* Edge from (ax, ay) to (bx, by): e(x, y) > 0 on the inner side; whole numbers, 1/256 sample squared. Samples on the
+   edge belong to it only if it is a left one, or a horizontal one at the bottom (rows run down).
+       e(x, y) = (bx - ax) (y - ay) - (by - ay) (x - ax)
    is twice the signed area of (a, b, sample). Moving by one sample adds -256 dy or 256 dx. For edges that do
    not own their samples 1 is subtracted once at the start, so that the inner loop tests e >= 0 for all three:
    one sign bit of their OR. Coordinates stay below 2^31, products below 2^63. */
-/* Edge from (ax, ay) to (bx, by): e(x, y) > 0 on its left; whole numbers, 1/256 sample squared. Samples on the
-   edge belong to it only if it is a left one, or a horizontal one at the bottom (rows run down). */
 typedef struct Edge {
     int64_t at, step_x, step_y;
 } Edge;
@@ -298,10 +298,10 @@ typedef struct Walk {
     int32_t x0, y0, x1, y1; /* samples of the tile */
 } Walk;
 
-/* l1 and l2 are the barycentric weights of the second and third vertex; the error of each is 2^-24 relative,
+/* Writes sample `cell`, whose edge values are fa, fb, fc; false if it is outside.
+   l1 and l2 are the barycentric weights of the second and third vertex; the error of each is 2^-24 relative,
    from the conversion of the exact integer. u and v are interpolated as u / depth and multiplied by the depth
    at the sample. A tie in depth keeps the earlier triangle (HC85), hence the strict comparison. */
-/* Writes sample `cell`, whose edge values are fa, fb, fc; false if it is outside. */
 static inline bool take(const Walk *walk, int64_t fa, int64_t fb, int64_t fc, size_t cell,
                         WrDepthTile *tile)
 {
@@ -335,10 +335,10 @@ static void cover(Walk *walk, WrDepthTile *tile)
     }
 }
 
-/* e| <= 2 L (distance from the box's corner) with both factors at most L plus the overhang: 16 samples of a vector and 2
-   more for rounding to samples. */
 /* Largest side L of a triangle, 1/256 samples, whose edge values fit in 32 bits over its box, with one vector to
-   its right and one row below: 2 L (L + 18 * 256) < 2^31. */
+   its right and one row below: 2 L (L + 18 * 256) < 2^31.
+     e| <= 2 L (distance from the box's corner) with both factors at most L plus the overhang: 16 samples of a vector and 2
+   more for rounding to samples. */
 #define SMALL_SIDE 30000
 
 static void cover_small(const Walk *walk, WrDepthTile *tile)
@@ -367,10 +367,10 @@ static int64_t shifted(const Edge *edge, int64_t at, const signed char *shift)
     return at + edge->step_x / 256 * shift[0] + edge->step_y / 256 * shift[1];
 }
 
-/* A shift moves a sample by up to half a sample; step / 256 is the edge function's change for 1/256 sample,
+/* Covers a tile whose samples are offset from the grid.
+   A shift moves a sample by up to half a sample; step / 256 is the edge function's change for 1/256 sample,
    exact because the steps are multiples of 256. Shifted samples of a row need not be contiguous, so no row
    ends early. */
-/* Covers a tile whose samples are offset from the grid. */
 static void cover_shifted(Walk *walk, WrDepthTile *tile)
 {
     for (int32_t y = walk->y0; y < walk->y1; y++) {
@@ -386,10 +386,10 @@ static void cover_shifted(Walk *walk, WrDepthTile *tile)
     }
 }
 
-/* floor((2 x k + of) / (2 of)) is x k / of rounded to nearest. C divides towards zero, hence the correction
-   for negative x. */
 /* Converts from the grid of `of` samples a pixel to that of k. Each vertex is rounded independently, so that
-   triangles that share it still do. */
+   triangles that share it still do.
+   floor((2 x k + of) / (2 of)) is x k / of rounded to nearest. C divides towards zero, hence the correction
+   for negative x. */
 static int32_t to_grid(int32_t x, int k, int of)
 {
     int64_t twice = 2 * (int64_t)x * k + of;
@@ -417,11 +417,11 @@ static void farthest_first(WrRasterVertex *a, WrRasterVertex *b, WrRasterVertex 
     }
 }
 
-/* Order of the vertices: first to the tile's grid, then the area's sign by the rounded places (else a sliver
-   could have a sign here and another area below), then so that the area is positive, then the farthest first. The box is
-   widened by half a sample for shifted samples. Outside the tile nothing is set up, so `at` starts from the
-   tile's first sample. */
-/* mark: value of u over the whole triangle; NULL: u and v are interpolated. */
+/* mark: value of u over the whole triangle; NULL: u and v are interpolated.
+   Order of the vertices: first to the tile's grid, then the area's sign by the rounded places (else a sliver
+   could have a sign here and another area below), then so that the area is positive, then the farthest first.
+   The box is widened by half a sample for shifted samples. Outside the tile nothing is set up, so `at` starts
+   from the tile's first sample. */
 static void raster(const WrView *view, WrRasterVertex a, WrRasterVertex b, WrRasterVertex c,
                    const float *mark, WrDepthTile *tile)
 {
@@ -478,9 +478,9 @@ void wr_raster_marked(const WrView *view, const WrRasterVertex corner[3], float 
     raster(view, corner[0], corner[1], corner[2], &mark, tile);
 }
 
-/* Planes of the view pyramid, slightly inside of those wr_raster_project tests against: a vertex that clipping
+/* Signed distance of a vertex from clip plane k: near, left, right, bottom, top.
+   Planes of the view pyramid, slightly inside of those wr_raster_project tests against: a vertex that clipping
    makes then passes project() in spite of rounding, and 1 / depth stays finite (HC82, HC83). */
-/* Signed distance of a vertex from clip plane k: near, left, right, bottom, top. */
 static double inside(const WrView *view, int k, const WrClipVertex *c)
 {
     double reach = 0.99 * WR_GUARD * (view->perspective ? c->depth : 1.0);
@@ -625,9 +625,9 @@ static void measure_bend(WrViewMesh *mesh, const WrShape *shape)
     mesh->measured = true;
 }
 
-/* With 2 du dv <= du^2 + dv^2 the bound separates into (|Puu| + |Puv|) du^2 / 8 and (|Pvv| + |Puv|) dv^2 / 8;
+/* The error of a cell's chord is at most (|Puu| du^2 + 2 |Puv| du dv + |Pvv| dv^2) / 8 (Taylor).
+   With 2 du dv <= du^2 + dv^2 the bound separates into (|Puu| + |Puv|) du^2 / 8 and (|Pvv| + |Puv|) dv^2 / 8;
    each may be half the tolerance. Hence cells = sqrt(2 k bend), k = samples per unit / (8 tolerance). */
-/* The error of a cell's chord is at most (|Puu| du^2 + 2 |Puv| du dv + |Pvv| dv^2) / 8 (Taylor). */
 static void choose_cells(const WrViewMesh *mesh, const WrShape *shape, const WrView *view,
                          int finer, int *mu, int *mv)
 {
@@ -872,9 +872,9 @@ static bool looks_away(const Block *block, size_t a, size_t b, size_t c)
     return block->culls && (area == 0 || (area > 0) != block->mirrored);
 }
 
-/* (i, j) is the cell's upper left vertex. Both triangles share the diagonal a - d, drawn with the same two
+/* Draws a cell whose four vertices are in front of the eye and near the picture.
+   (i, j) is the cell's upper left vertex. Both triangles share the diagonal a - d, drawn with the same two
    vertices: no crack. */
-/* Draws a cell whose four vertices are in front of the eye and near the picture. */
 static void raster_whole(const Block *block, size_t at, int i, int j, WrDepthTile *tile)
 {
     const size_t low = at + (size_t)block->mesh->mu + 1;
@@ -903,8 +903,8 @@ static void raster_cell(const Block *block, size_t at, int i, int j, WrDepthTile
     raster_clipped(block->mesh, block->view, two, tile);
 }
 
-/* Two rows of bits, used alternately: each vertex is classified once, though two rows of cells use it. */
-/* Draws the cells of block b that may overlap the tile: those whose corners are not all outside the same side. */
+/* Draws the cells of block b that may overlap the tile: those whose corners are not all outside the same side.
+   Two rows of bits, used alternately: each vertex is classified once, though two rows of cells use it. */
 static void raster_block(Block *block, int b, WrDepthTile *tile)
 {
     const WrViewMesh *mesh = block->mesh;
@@ -1018,12 +1018,12 @@ static void make_cone(int block, int worker, void *ctx)
     to->cones[block] = cone;
 }
 
-/* Derivation: P = centre + r with |r| <= radius, so n.(eye - P) <= n.w + radius; n.w <= |w| cos(angle), and
+/* True if all faces of the block certainly face away from the eye. With the axis at angle b from the direction
+   to the eye and normals within a of it, n . (eye - P) <= |w| cos(b - a) + radius.
+   Derivation: P = centre + r with |r| <= radius, so n.(eye - P) <= n.w + radius; n.w <= |w| cos(angle), and
    the angle between n and w is at least b - a. cos(b - a) = cos b cos a + sin b sin a. Strictly negative by
    1e-6 |w|: float normals and the integer area test may differ from this by rounding, and a visible face must
    not be lost (E61). */
-/* True if all faces of the block certainly face away from the eye. With the axis at angle b from the direction
-   to the eye and normals within a of it, n . (eye - P) <= |w| cos(b - a) + radius. */
 static bool cone_looks_away(const WrTriangleCone *cone, const WrView *view)
 {
     if (cone->cosine < 0) return false;
@@ -1164,9 +1164,9 @@ static void raster_out(const WrViewTriangles *from, const WrView *view, int32_t 
     wr_raster_clipped_marked(view, corner, (float)i, tile);
 }
 
-/* Marked triangles hold their index in u, and no depth-corrected (u, v): these are computed later, exactly,
+/* True if all three are outside the same side.
+   Marked triangles hold their index in u, and no depth-corrected (u, v): these are computed later, exactly,
    for the visible triangle alone. */
-/* True if all three are outside the same side. */
 static bool beyond(int32_t a, int32_t b, int32_t c, int64_t from, int64_t to)
 {
     return (a < from && b < from && c < from) || (a > to && b > to && c > to);
