@@ -26,7 +26,7 @@ static uint32_t reduced_index(double whole, int period)
     return (uint32_t)(int64_t)wr_noise_reduce(whole, period);
 }
 
-/* chain[k] is the hash of seed and x: a lattice row adds one link for y, one multiplication per point.
+/* chain[k] is the hash of seed and x: a lattice row adds one link for y.
    Positions are computed in double and only the fraction, 0..1, is converted to float (HC61). `narrow`: a
    texel is at most half a cell, so that neighbouring texels use the same or adjacent lattice points. */
 static void fill_columns(const WrNoiseKernels *kern, const WrOctave *octave,

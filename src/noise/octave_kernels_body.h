@@ -7,6 +7,8 @@
 #include <immintrin.h>
 #endif
 
+/* Counts are rounded up to whole vectors: arrays have room for it, and surplus lanes repeat the pattern
+   without being used. */
 static void place(const WrFadeInfo *fade, double frequency, double offset, int i, int width,
                   WrNoiseColumns *columns)
 {
@@ -24,6 +26,7 @@ static void place(const WrFadeInfo *fade, double frequency, double offset, int i
     }
 }
 
+/* v = 1 - (j + 1/2) / height: rows run down, v up. */
 static void stand(const WrFadeInfo *fade, double frequency, double offset, int j, int height,
                   WrNoiseRows *rows)
 {
@@ -39,12 +42,14 @@ static void stand(const WrFadeInfo *fade, double frequency, double offset, int j
     }
 }
 
-/* wr_lattice_number in float: exact. */
+/* wr_lattice_number in float: exact.
+   The upper 23 bits h' as (2 h' + 1) / 2^23 - 1: odd multiples of 2^-23 in (-1, 1), symmetric and never 0. */
 static inline float number(uint32_t h)
 {
     return (float)(2 * (int32_t)(h >> 9) + 1) * 0x1p-23f - 1.0f;
 }
 
+/* The hash's link for y is the only one left for a row; a slope of Perlin noise is one of 16, already scaled. */
 static void prescribe(WrNoiseKind kind, const WrNoiseColumns *columns, uint32_t part,
                       WrNoiseLattice *row)
 {
@@ -69,6 +74,8 @@ static void prescribe(WrNoiseKind kind, const WrNoiseColumns *columns, uint32_t 
     }
 }
 
+/* At column k and height y within the cell the noise is a function of x alone: value a + b x, and df/dy = c +
+   d x. The next point contributes with x - 1. */
 static void blend(int points, const WrNoiseLattice *near, const WrNoiseLattice *far, float y,
                   float alpha, float rate, WrNoiseBlended *out)
 {
@@ -159,7 +166,8 @@ static void heights(const WrNoiseColumns *columns, const WrNoiseBlended *in, flo
     plain_heights(columns, in, f);
 }
 
-/* a and b of a lattice row, as in `blend`. */
+/* a and b of a lattice row, as in `blend`.
+   c and d are needed for slopes only. */
 static inline void blend_heights(int points, const WrNoiseLattice *near, const WrNoiseLattice *far,
                                  float y, float alpha, WrNoiseBlended *out)
 {
@@ -183,6 +191,8 @@ static inline void count_in(WrNoiseShare share, const float *restrict f, int cou
     for (int i = 0; i < count; i++) n[i] += share.factor * f[i];
 }
 
+/* Up to LANES lattice points per strip: a and b of the whole row are one register each, and V_TAKE picks a
+   texel's point from it. */
 #ifdef LANES
 /* Few points: they stay in registers, so that a row is blended once for all its texels. */
 static inline Vec v_share(WrNoiseShare share, Vec f, Vec n)
@@ -253,6 +263,7 @@ static void scale(double level, double amplitude, int count, float *restrict f)
     for (int i = 0; i < count; i++) f[i] = (float)(level + amplitude * (double)f[i]);
 }
 
+/* fx has the term rate (q - p) because alpha depends on x; fy has its own in c and d. */
 static void slopes(const WrNoiseColumns *columns, const WrNoiseBlended *in, float *restrict fx,
                    float *restrict fy)
 {

@@ -60,7 +60,7 @@ static WrVec3 turned(const double m[9], WrVec3 p)
 }
 
 /* A size relative to the largest, at least the thinnest; 0 becomes positive.
-   1e-3 or so instead of 0: cofactors divide by it, and rays to object space too (HC153). */
+   WR_THINNEST instead of 0: cofactors divide by it, and rays to object space too (HC153). */
 static double part_of(double size, double largest)
 {
     const double part = size / largest;

@@ -13,6 +13,8 @@
 #include "surface/surface_list.h"
 #undef WR_SURFACE_FORMULAS
 
+/* One file for each surface, listed in surface_list.h, which is included three times: formulas in double,
+   rows, enumeration. */
 const WrSurfaceInfo *const wr_surfaces[WR_SURFACE_COUNT] = {
 #define WR_X(name) [WR_SURFACE_##name] = &name##_row,
 #include "surface/surface_list.h"
@@ -49,6 +51,7 @@ void wr_shape_default(WrSurfaceKind kind, WrShape *shape)
     double *value = shape->value;
     const WrSurfaceParam *param = NULL;
     while ((param = next_param(wr_surfaces[kind], param))) {
+        /* value[] is the row's params one after another, `components` doubles each; there is no index by name. */
         memcpy(value, param->fallback, (size_t)param->components * sizeof *value);
         value += param->components;
     }
@@ -135,6 +138,7 @@ static double sampled_radius(const WrShape *shape)
     return 1.01 * most;
 }
 
+/* Never 0: it is a divisor of tolerances and camera distances. */
 double wr_shape_radius(const WrShape *shape)
 {
     WR_ASSERT(kind_exists(shape->kind));
@@ -157,6 +161,7 @@ bool wr_shape_endless(const WrShape *shape)
     return wr_surfaces[shape->kind]->endless && shape->value[2] > 0.5;
 }
 
+/* Faces of a cube share the table as an atlas with margins; 1 x 1 for all other surfaces. */
 void wr_surface_cells(const WrShape *shape, int *columns, int *rows)
 {
     const double part = 1 - 2 * WR_CELL_MARGIN;
@@ -205,6 +210,8 @@ void wr_surface_at(const WrShape *shape, int face, double u, double v, WrSurface
     wr_surfaces[shape->kind]->at(shape, face, u, v, out);
 }
 
+/* Kernels work in units in which the object's size is near 1: lengths are multiplied by `scale`, angles and
+   ratios are not. The clamp keeps the conversion to float finite (HC09). */
 void wr_shape_scaled(const WrShape *shape, double scale, WrShapef *out)
 {
     WR_ASSERT(kind_exists(shape->kind));

@@ -733,8 +733,7 @@ static void oren_nayar(const WrMatter *m, WrEnergy energy, const Incidence *at, 
     }
 }
 
-/* A polynomial in sqrt(mu), fitted once per material: the albedo's slope is infinite at mu = 0 but smooth in
-   the root. */
+/* A polynomial in sqrt(mu), fitted once per material: the albedo is very steep at mu = 0, less so in the root. */
 static double kept_albedo(const WrMatter *m, double mu)
 {
     const double x = sqrt(fmin(fmax(0, mu), 1));

@@ -1,5 +1,5 @@
-/* Shadow casters: closed forms and facets, and the visibility of a lamp past them. */
-/* A body is a caster in its own object space: closed form, quads or a tree of triangles. WrShadowRaysTo adds
+/* Shadow casters: closed forms and facets, and the visibility of a lamp past them.
+   A body is a caster in its own object space: closed form, quads or a tree of triangles. WrShadowRaysTo adds
    the affine map from the lighting space of the shaded object to it. Rays keep their parameter through the
    map, so t compares with the distance to the lamp. */
 #include "render/shadows/shadow_rays.h"
