@@ -16,6 +16,9 @@
 
 /* ---- Cost counters of a frame, by stage and by effect ---- */
 
+/* scratch[i] belongs to thread i and is reused from frame to frame; counters are summed when all threads have
+   finished. */
+
 void wr_frame_start_counts(WrRenderer *renderer)
 {
     for (int i = 0; i < renderer->threads; i++) {
@@ -85,6 +88,8 @@ static double add_thread(const WrTileScratch *s, double seconds[WR_STAGE_COUNT])
     return left - share * strips;
 }
 
+/* Work is threads x (total - prepared) + prepared: the time that all threads had. The parts not spent in tiles
+   are waiting. */
 void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrFrame *frame)
 {
     double seconds[WR_STAGE_COUNT] = { 0 }, rest = 0, busy = 0;
@@ -150,7 +155,9 @@ void wr_frame_drop_horizon(WrRenderer *renderer)
     renderer->horizon_edit = NULL;
 }
 
-/* Updates the horizons after an edit of the table. */
+/* Updates the horizons after an edit of the table.
+   horizon_before -> horizon_key: the edit marks texels whose horizons changed between these two versions of
+   the table. */
 static bool update_horizon(WrRenderer *renderer, WrError *err)
 {
     WrHorizon *horizon = &renderer->horizon;
@@ -170,7 +177,8 @@ static bool update_horizon(WrRenderer *renderer, WrError *err)
     return true;
 }
 
-/* Updates the table's horizons; after an edit, only the changed ones. */
+/* Updates the table's horizons; after an edit, only the changed ones.
+   Horizons of -F are those of a negative height; a change of sign rebuilds them. */
 bool wr_frame_update_horizon(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const double sign = request->scene->height < 0 ? -1 : 1;
@@ -292,7 +300,9 @@ static bool touches_patch(const FrameJob *job, int index, int column, int row)
     return any;
 }
 
-/* Renders the tile's patches that those changes reach: runs of patches, and rows with the same runs at once. */
+/* Renders the tile's patches that those changes reach: runs of patches, and rows with the same runs at once.
+   A run is contiguous patches; runs of equal extent in successive rows become one rectangle, because a
+   pipeline strip has a fixed overhead. */
 static void render_touched(const FrameJob *job, WrTilePart tile, int index, WrTileScratch *scratch)
 {
     const WrDirty *keep = job->keeps[0];
@@ -540,7 +550,8 @@ static bool same_view(const WrRenderer *renderer, const WrFrameRequest *request)
            last->height == request->height;
 }
 
-/* Bounding radius, cached while the shape is unchanged. */
+/* Bounding radius, cached while the shape is unchanged.
+   memcmp of shapes is valid: they are copied whole, padding included. */
 static double radius_of(WrRenderer *renderer, const WrShape *shape)
 {
     if (renderer->radius > 0 && memcmp(&renderer->sized, shape, sizeof *shape) == 0)
@@ -558,7 +569,7 @@ static bool find_outside(WrRenderer *renderer, const WrFrameRequest *request, bo
                            request->turn_deg, request->width, request->height, outside, err);
 }
 
-/* Largest displacement on screen by F, in pixels; 0 where it displaces nothing. */
+/* Largest displacement on screen by F, in pixels; -1 where it displaces nothing, or is unknown. */
 static bool find_rise(WrRenderer *renderer, const WrFrameRequest *request, double *rise,
                       WrError *err)
 {
@@ -575,7 +586,8 @@ static int reach_of(const WrPlan *plan)
     return wr_schemes[plan->scheme].reach + (plan->sampling == WR_SAMPLING_ADAPTIVE ? 2 : 0);
 }
 
-/* Adds the region that shadows and occlusion reach beyond the edit: the changed horizons. False: it is unknown. */
+/* Adds the region that shadows and occlusion reach beyond the edit: the changed horizons. False: it is unknown.
+   A relief's shadow reaches beyond the edited texels; horizon_edit lists the texels whose horizon changed. */
 static bool add_horizon_edit(WrRenderer *renderer)
 {
     const WrPlan *plan = &renderer->plan;
@@ -589,7 +601,8 @@ static bool add_horizon_edit(WrRenderer *renderer)
     return true;
 }
 
-/* True if the last picture fits this request, apart from edits of the table. */
+/* True if the last picture fits this request, apart from edits of the table.
+   Then only edited tiles are rendered (E29). Every input of a picture must be compared here. */
 static bool rests(WrRenderer *renderer, const WrFrameRequest *request, const WrPlan *before,
                   const WrKernels *kernels)
 {
@@ -602,7 +615,8 @@ static bool rests(WrRenderer *renderer, const WrFrameRequest *request, const WrP
            add_horizon_edit(renderer);
 }
 
-/* True if view and mesh of the last picture fit this request. */
+/* True if view and mesh of the last picture fit this request.
+   A plan that differs only in sampling, chosen by look_for_life, also keeps view and mesh. */
 static bool view_stands(const WrRenderer *renderer, const WrFrameRequest *request,
                         const WrPlan *before, const WrPlanRequest *ask)
 {
@@ -630,7 +644,8 @@ static void look_for_life(WrRenderer *renderer, const WrFrameRequest *request, W
     if (ask->facts.lively) wr_plan_samples(plan, ask);
 }
 
-/* Prepares view and mesh of a completely new picture. */
+/* Prepares view and mesh of a completely new picture.
+   The scene is shared first: forget_view releases the old one, which may be the same object. */
 static bool prepare_view(WrRenderer *renderer, const WrFrameRequest *request,
                          const WrKernels *kernels, WrError *err)
 {
@@ -656,6 +671,8 @@ static bool prepare_view(WrRenderer *renderer, const WrFrameRequest *request,
     return wr_fail(err, "cancelled");
 }
 
+/* The order is fixed by dependencies: facts of the view and the table, the plan, textures the plan calls for,
+   the choice of samples, and last whether the picture rests, which compares the finished plan. */
 bool wr_frame_decide(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const WrDials *dials = request->dials ? request->dials : &request->scene->dials;
@@ -727,7 +744,9 @@ void wr_frame_mark_current(WrRenderer *renderer)
     if (renderer->keep.patches) wr_dirty_field(&renderer->keep, renderer->looked);
 }
 
-/* Renders a picture of one object. */
+/* Renders a picture of one object.
+   Invariant: after success `last`, `plan`, `keep` describe the picture in memory. After cancellation `keep` is
+   dropped, so that the next frame renders everything. */
 static bool single_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame *frame,
                          WrError *err)
 {

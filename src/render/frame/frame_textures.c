@@ -30,7 +30,9 @@ void wr_frame_drop_tables(WrRenderer *renderer)
     wr_frames_drop(&renderer->frames);
 }
 
-/* Updates the height copies that the plan needs and frees the others. */
+/* Updates the height copies that the plan needs and frees the others.
+   `hold` keeps copies that this plan does not read: several plans alternate then (passes of a tolerance,
+   bench). */
 static bool update_copies(WrRenderer *renderer, const WrFrameRequest *request, bool slope_free,
                           WrError *err)
 {
@@ -78,7 +80,8 @@ static bool round_heights(WrRenderer *renderer, const WrFrameRequest *request, W
     return renderer->looked != NULL;
 }
 
-/* Share of the table's tiles with non-zero slopes. */
+/* Share of the table's tiles with non-zero slopes.
+   Decides whether runs over flat parts are worth testing for. */
 static double sloped_share(const WrRenderer *renderer, const WrField *field)
 {
     const WrTable *table = &renderer->table;
@@ -90,6 +93,8 @@ static double sloped_share(const WrRenderer *renderer, const WrField *field)
     return (double)sloped / tiles;
 }
 
+/* The plan is built up to twice: the first one decides whether a gradient table is needed, whose slopes may
+   prove that bump has no effect; the second one uses that fact. */
 bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request, WrPlanRequest *ask,
                             WrError *err)
 {
@@ -217,7 +222,9 @@ static void cells_of(const WrScene *scene, int *columns, int *rows)
 }
 
 /* Largest footprint: filters may not read beyond the margin of a cell. A fetch of side s reads 3 s, the blocks
-   on both sides of its position in the next coarser level, and one more texel for slopes. */
+   on both sides of its position in the next coarser level, and one more texel for slopes.
+   Faces of a cube share a table: a filter that reads past a cell's margin would blend in the neighbouring
+   face. */
 static double reach_of(const WrScene *scene, double width, double height)
 {
     int columns, rows;
@@ -249,7 +256,8 @@ static WrLookd make_look(const WrRenderer *renderer, const WrFrameRequest *reque
                       .range = renderer->range.seen ? &renderer->range : NULL };
 }
 
-/* Effects of a fetch at level 0, by its inputs. */
+/* Effects of a fetch at level 0, by its inputs.
+   The effects are reported per pixel in the effect map. */
 static WrEffects looks_of(const WrFrameRequest *request, const WrRenderer *renderer,
                           const WrLookd *look)
 {
@@ -268,6 +276,8 @@ static bool spares(const WrPlan *plan, WrEffect effect)
     return plan->rows[effect].verdict == WR_VERDICT_SPARED && !wr_plan_runs(plan, effect);
 }
 
+/* Tiles' slope bounds for skipping: parts without slopes (ground), and sides that no bump can turn to the
+   light (dark). */
 static void fill_level(const WrRenderer *renderer, const WrFrameRequest *request, WrTileJob *job)
 {
     const WrPlan *plan = &renderer->plan;
@@ -294,7 +304,8 @@ static void fill_level(const WrRenderer *renderer, const WrFrameRequest *request
     }
 }
 
-/* Single-precision fetch parameters, with the copies that they read. */
+/* Single-precision fetch parameters, with the copies that they read.
+   One description in double is the source of both, so that they cannot differ in anything but precision. */
 static WrLook narrowed(const WrLookd *look, const float *heights, const float *gradient)
 {
     return (WrLook){ .heights = heights,
