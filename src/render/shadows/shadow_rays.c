@@ -190,8 +190,7 @@ static int32_t first_of(const WrShadowRaysBody *body, int32_t box, int32_t besid
     return (int32_t)(count * box / beside);
 }
 
-/* tree_bring builds the tree of boxes around body->triangles; tree_meets intersects a ray with it. Errors: no
-   memory.
+/* Builds the tree of boxes around body->triangles. Errors: no memory.
    boxes[2^l - 1 + k] is box k of level l, an implicit complete binary tree; children of `at` are 2 at + 1 and
    2 at + 2. The number of leaves is the smallest power of two with at most LEAF triangles each. */
 static bool shadow_rays_tree_update(WrShadowRaysBody *body, WrError *err)
@@ -388,8 +387,7 @@ static int steps_of(const Cut *cut, bool along_u, double enough)
     return n < MAX_MOST ? n : MAX_MOST;
 }
 
-/* Chooses the steps in both directions; returns their error.
-   Twice the error of one direction is allowed across a cell. The sum of both directions' errors bounds the
+/* Chooses the steps in both directions; returns the number along v, cut->off holds their error. Twice the error of one direction is allowed across a cell. The sum of both directions' errors bounds the
    rest. */
 static int choose_steps(Cut *cut, double enough)
 {
