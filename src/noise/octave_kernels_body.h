@@ -8,7 +8,9 @@
 #endif
 
 /* Counts are rounded up to whole vectors: arrays have room for it, and surplus lanes repeat the pattern
-   without being used. */
+   without being used.
+   t = f (i + 1/2) / W + offset in double: in float a cell far from 0 would lose the bits of x. Cells are
+   stored relative to the first, which keeps them small. */
 static void place(const WrFadeInfo *fade, double frequency, double offset, int i, int width,
                   WrNoiseColumns *columns)
 {
@@ -90,7 +92,8 @@ static void blend(int points, const WrNoiseLattice *near, const WrNoiseLattice *
     }
 }
 
-/* Heights and slopes from the blended rows, in plain C; the vector versions below compute the same. */
+/* Heights and slopes from the blended rows, in plain C; the vector versions below compute the same.
+   p and q are the contributions of the points left and right of the texel, mixed by alpha(x), the fade. */
 static void plain_heights(const WrNoiseColumns *columns, const WrNoiseBlended *in,
                           float *restrict f)
 {
@@ -147,6 +150,8 @@ static inline Lanes lanes_of(const int32_t *cell)
 }
 #endif
 
+/* narrow: at most half a cell per texel, so the texels of a vector need at most LANES / 2 + 1 points and one
+   load per array. */
 static void heights(const WrNoiseColumns *columns, const WrNoiseBlended *in, float *restrict f)
 {
 #ifdef LANES
@@ -179,6 +184,7 @@ static inline void blend_heights(int points, const WrNoiseLattice *near, const W
     }
 }
 
+/* magnitude: factor |f| - below, of billow 2 |f| - 1 (L6). */
 static inline void count_in(WrNoiseShare share, const float *restrict f, int count,
                             float *restrict n)
 {
@@ -201,6 +207,7 @@ static inline Vec v_share(WrNoiseShare share, Vec f, Vec n)
     return V_ADD(n, V_SUB(V_MUL(V_SET(share.factor), V_ABS(f)), V_SET(share.below)));
 }
 
+/* The remainder is stored apart: n has no room beyond `count`, because it is the caller's row. */
 static inline void sum_row(const WrNoiseColumns *columns, const Vec a, const Vec b,
                            WrNoiseShare share, float *restrict n)
 {
@@ -221,6 +228,7 @@ static inline void sum_row(const WrNoiseColumns *columns, const Vec a, const Vec
     }
 }
 
+/* Loads f, gx, gy of both lattice rows once for all texel rows between them. */
 static void sum_few(const WrNoiseColumns *columns, const WrNoiseLattice *near,
                     const WrNoiseLattice *far, const WrNoiseRows *rows, int first, int count,
                     WrNoiseShare share, float *n, size_t pitch)
@@ -237,6 +245,7 @@ static void sum_few(const WrNoiseColumns *columns, const WrNoiseLattice *near,
 }
 #endif
 
+/* V_DEAL loads whole vectors, so lanes beyond `points` are set once. */
 static void sum(const WrNoiseColumns *columns, const WrNoiseLattice *near,
                 const WrNoiseLattice *far, const WrNoiseRows *rows, int first, int count,
                 WrNoiseShare share, float *n, size_t pitch)
@@ -257,6 +266,7 @@ static void sum(const WrNoiseColumns *columns, const WrNoiseLattice *near,
     }
 }
 
+/* In double: level + amplitude f is rounded once. */
 static void scale(double level, double amplitude, int count, float *restrict f)
 {
 #pragma omp simd

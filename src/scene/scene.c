@@ -70,6 +70,8 @@ bool wr_scene_same_normals(const WrScene *a, const WrScene *b)
 
 /* ---- named view ---- */
 
+/* Names are unique: a second view of the same name replaces the first. */
+
 int wr_scene_find_view(const WrScene *scene, const char *name)
 {
     for (int i = 0; i < scene->view_count; i++)
@@ -136,6 +138,7 @@ static float between(double top, double bottom, double share)
     return wr_srgb_decode((float)(a + (b - a) * share));
 }
 
+/* The first and the last row have exactly the given colours, whatever the height. */
 void wr_background_row(const WrBackground *background, int row, int height, float out[3])
 {
     const bool gradient = background->kind == WR_BACKGROUND_GRADIENT;
@@ -178,6 +181,7 @@ static void environment_copy(WrEnvironment *to, const WrEnvironment *from)
     *to = copy;
 }
 
+/* A new environment keeps turn and strength of the one before, so that maps can be compared. */
 void wr_environment_set(WrEnvironment *environment, WrEnvironmentMapKind kind,
                         WrEnvironmentMap *light, const char *path, const char *sha256)
 {
@@ -203,6 +207,7 @@ WR_ROWS_END(wr_tone_names, WR_TONE_KINDS);
    in the limit. The clip curve has the knee at infinity and needs no branch in kernels. */
 #define NO_KNEE 3.0e38f /* never reached by light */
 
+/* k = 1/2; y = exposure in powers of two times light. */
 WrToneCurve wr_tone_curve(const WrTone *tone)
 {
     return (WrToneCurve){ .gain = (float)exp2(tone->exposure),
@@ -375,12 +380,15 @@ void wr_scene_drop_colour(WrScene *scene)
     scene->colouring = (WrHeightColormap){ 0 };
 }
 
+/* own: repetitions of this picture alone; otherwise it follows the table's. */
 void wr_scene_repeat(const WrScene *scene, const WrTextureSample *laid, double *ru, double *rv)
 {
     *ru = laid->own ? laid->ru : scene->replicate_u;
     *rv = laid->own ? laid->rv : scene->replicate_v;
 }
 
+/* Relaxed: a new reference needs an existing one, so no other memory is ordered by it. The last release
+   acquires, so that all writes of other threads are visible before memory is freed. */
 WrScene *wr_scene_share(const WrScene *scene)
 {
     WrScene *shared = (WrScene *)scene; /* only the reference count changes */
@@ -423,6 +431,7 @@ void wr_scene_set_shape(WrScene *scene, const WrShape *shape)
     wr_surface_data_free((WrSurfaceData *)old);
 }
 
+/* of_one: the pose of a single object is part of its view; among several, only the camera is. */
 WrSceneView wr_scene_view(const WrScene *scene)
 {
     const bool one = scene->other_count == 0;
@@ -505,6 +514,7 @@ void wr_scene_heights(const WrScene *scene, const WrField *field, int count, con
     }
 }
 
+/* The part of a material that its tables of albedo depend on. */
 WrReflectance wr_scene_reflectance(const WrMaterial *m)
 {
     return (WrReflectance){ m->model, m->energy, m->shininess, m->roughness, m->metalness, m->ior };

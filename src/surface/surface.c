@@ -20,6 +20,7 @@ const WrSurfaceInfo *const wr_surfaces[WR_SURFACE_COUNT] = {
 #include "surface/surface_list.h"
 };
 
+/* Names of rows are the words of documents: they never change, while the order of the list may. */
 int wr_surface_find(const char *name)
 {
     for (int kind = 0; kind < WR_SURFACE_COUNT; kind++) {
@@ -69,6 +70,7 @@ int wr_surface_param_offset(WrSurfaceKind kind, const char *name)
     return -1;
 }
 
+/* ends: only the two limits themselves are valid, as for switches 0 and 1. */
 static bool check_param(const WrSurfaceInfo *info, const WrSurfaceParam *param, const double *value,
                         WrError *err)
 {
@@ -104,6 +106,8 @@ bool wr_shape_check(const WrShape *shape, WrError *err)
     return !info->check || info->check(shape, err);
 }
 
+/* Meshes and patches hold their own centre, in units before `scale`; formulas have a constant one, or half the
+   sides a, b. */
 WrVec3 wr_shape_centre(const WrShape *shape)
 {
     WR_ASSERT(kind_exists(shape->kind));
@@ -149,6 +153,7 @@ double wr_shape_radius(const WrShape *shape)
     return radius > 0 ? radius : 1;
 }
 
+/* The part of the table's (u, v) that a face shows. */
 WrSurfaceCell wr_surface_cell(const WrShape *shape, int face)
 {
     const WrSurfaceInfo *info = wr_surfaces[shape->kind];
@@ -156,6 +161,7 @@ WrSurfaceCell wr_surface_cell(const WrShape *shape, int face)
     return (WrSurfaceCell){ 0, 1, 0, 1 };
 }
 
+/* value[2] is the plane's switch `endless`, a number like all parameters. */
 bool wr_shape_endless(const WrShape *shape)
 {
     return wr_surfaces[shape->kind]->endless && shape->value[2] > 0.5;
@@ -189,6 +195,8 @@ const char *wr_shape_without_parallax(const WrShape *shape)
     return NULL;
 }
 
+/* A cell extends to the middle of the margin between neighbours: half a column or row on either side of its
+   centre. */
 int wr_surface_face(const WrShape *shape, int face, double u, double v)
 {
     int columns, rows;

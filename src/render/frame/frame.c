@@ -48,7 +48,9 @@ typedef struct Counts {
     WrEffects ran;
 } Counts;
 
-/* Writes cost and touched samples of each effect to the plan's rows. */
+/* Writes cost and touched samples of each effect to the plan's rows.
+   A row's pixels are those that were shaded, without the runs in which the effect was skipped (`spared`);
+   spared_tiles is indexed by the union of the bits. */
 static void account(WrPlan *plan, const double seconds[WR_STAGE_COUNT], const Counts *counts)
 {
     const int64_t shaded = counts->shaded;
@@ -146,6 +148,8 @@ void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrF
 
 /* ---- Horizon and ambient occlusion tables of the height field, updated with each frame ---- */
 
+/* Both tables follow the field, not the view: turning the object keeps them. */
+
 void wr_frame_drop_horizon(WrRenderer *renderer)
 {
     wr_horizon_drop(&renderer->horizon);
@@ -200,6 +204,8 @@ bool wr_frame_update_horizon(WrRenderer *renderer, const WrFrameRequest *request
     return wr_horizon_make(horizon, renderer->looked, plan->horizons, sign, renderer->pool, err);
 }
 
+/* `horizon_edit` marks the texels whose horizons changed between the keys before and after; the occlusion of those
+   alone is summed again. */
 bool wr_frame_update_occlusion(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_OCCLUSION))
@@ -226,6 +232,7 @@ static bool keeps_bases(const WrFrameRequest *request)
     return request->force && request->force[WR_EFFECT_DISPLACED] == WR_FORCE_OFF;
 }
 
+/* A caster's mesh is kept in its renderer's `body`, so that several pictures of a still object build it once. */
 bool wr_frame_casts(WrRenderer *const *renderers, const WrScene *const *scenes,
                     const WrField *const *fields, int count, const WrFrameRequest *request,
                     WrError *err)
@@ -277,7 +284,9 @@ static bool touches(const FrameJob *job, int index)
     return any;
 }
 
-/* Renders the requested blocks of the tile, neighbouring ones at once: long rows are faster. */
+/* Renders the requested blocks of the tile, neighbouring ones at once: long rows are faster.
+   only [blocks down][blocks across] of the whole picture, WR_FRAME_BLOCK pixels wide; a tile is a whole number
+   of blocks, so one row of `only` is read. */
 static void render_asked(const FrameJob *job, WrTilePart tile, int index, WrTileScratch *scratch)
 {
     const int blocks = (job->tile.width + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK;
@@ -324,6 +333,8 @@ static void render_touched(const FrameJob *job, WrTilePart tile, int index, WrTi
     if (next.h > 0) render_part(job, next, index, scratch);
 }
 
+/* Tile `index` counts along rows. Threads share the counter of the pool; a tile writes only its own pixels and
+   its thread's scratch. */
 static void render_tile(int index, int worker, void *ctx)
 {
     FrameJob *job = ctx;
@@ -392,6 +403,7 @@ static void forget_view(WrRenderer *renderer)
     renderer->seen = false;
 }
 
+/* Drops everything that can be computed again; the picture, its size and the thread scratch remain. */
 void wr_renderer_forget(WrRenderer *renderer)
 {
     forget_view(renderer);
@@ -426,6 +438,7 @@ void wr_renderer_free(WrRenderer *renderer)
     wr_free(renderer);
 }
 
+/* 16384: coordinates in 1/256 samples stay within 32 bits, their products within 64 (raster.c). */
 static bool check_size(const WrFrameRequest *request, WrError *err)
 {
     const int width = request->width, height = request->height;
@@ -486,6 +499,7 @@ static void want_codes(WrRenderer *renderer, const WrFrameCodes *codes, WrTileJo
     job->backdrop = &renderer->backdrop;
 }
 
+/* request NULL: a job for picking, without codes and by exact kernels. */
 WrTileJob wr_frame_canvas(WrRenderer *renderer, const WrFrameRequest *request)
 {
     const WrPlan *plan = &renderer->plan;
@@ -519,6 +533,8 @@ WrTileJob wr_frame_canvas(WrRenderer *renderer, const WrFrameRequest *request)
     return job;
 }
 
+/* Pointers into the renderer's tables: valid until the next frame prepares its own. Looks and parallax are
+   kept for picks, which come between frames. */
 WrTileJob wr_frame_job(WrRenderer *renderer, const WrFrameRequest *request)
 {
     WrTileJob job = wr_frame_canvas(renderer, request);
@@ -542,6 +558,7 @@ WrTileJob wr_frame_job(WrRenderer *renderer, const WrFrameRequest *request)
     return job;
 }
 
+/* Scenes are immutable while shared: equal pointers mean equal content. */
 static bool same_view(const WrRenderer *renderer, const WrFrameRequest *request)
 {
     const WrFrameRequest *last = &renderer->last;
@@ -560,6 +577,7 @@ static double radius_of(WrRenderer *renderer, const WrShape *shape)
     return renderer->radius = wr_shape_radius(shape);
 }
 
+/* Depends on view and shape only, so a view that is kept keeps the result. */
 static bool find_outside(WrRenderer *renderer, const WrFrameRequest *request, bool *outside,
                          WrError *err)
 {
@@ -703,6 +721,7 @@ bool wr_frame_decide(WrRenderer *renderer, const WrFrameRequest *request, WrErro
     return true;
 }
 
+/* Only where tiles are rendered anew in full; a resting view keeps its view, mesh and notes. */
 bool wr_frame_prepare(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     if (!wr_plan_runs(&renderer->plan, WR_EFFECT_AGAIN)) return true;
@@ -738,6 +757,7 @@ static void start_keep(WrRenderer *renderer, const WrFrameRequest *request, Fram
     job->tile.seen = &renderer->keep;
 }
 
+/* After success only: a cancelled frame must not count as complete. */
 void wr_frame_mark_current(WrRenderer *renderer)
 {
     if (renderer->uses_uv_cache) renderer->uv_cache.whole = true;
@@ -777,6 +797,7 @@ static bool single_frame(WrRenderer *renderer, const WrFrameRequest *request, Wr
     return true;
 }
 
+/* A hidden single object is a group as well: its picture is the background alone. */
 bool wr_renderer_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame *frame,
                        WrError *err)
 {
@@ -793,6 +814,7 @@ bool wr_renderer_pick(WrRenderer *renderer, double x, double y, double *u, doubl
     return wr_renderer_pick_object(renderer, x, y, &object, u, v, face);
 }
 
+/* (x, y) in pixels becomes a sample of the grid, so that a pick meets the point that was drawn there. */
 bool wr_renderer_pick_object(WrRenderer *renderer, double x, double y, int *object, double *u,
                              double *v, int *face)
 {

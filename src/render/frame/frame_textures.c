@@ -52,6 +52,8 @@ static bool update_copies(WrRenderer *renderer, const WrFrameRequest *request, b
     return !heights || wr_table_update(table, WR_COPY_HEIGHTS, field, renderer->pool, err);
 }
 
+/* Slopes for filtering, with second moments if they widen highlights; ranges of slopes bound the intensity's
+   change (E16). */
 static bool update_pyramids(WrRenderer *renderer, bool hold, WrError *err)
 {
     const WrPlan *plan = &renderer->plan;
@@ -68,6 +70,8 @@ static bool update_pyramids(WrRenderer *renderer, bool hold, WrError *err)
                                        renderer->pool, err);
 }
 
+/* 8 and 16 bits are steps between the least and the largest height, so the range must be known first. `looked`
+   is the field that every later copy is made from. */
 static bool round_heights(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const WrPlan *plan = &renderer->plan;
@@ -126,6 +130,7 @@ bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request,
     return true;
 }
 
+/* Tangent frames belong to the corners of triangles: only meshes have them. */
 static bool update_relief(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const WrField *field = request->field;
@@ -143,6 +148,8 @@ static bool update_relief(WrRenderer *renderer, const WrFrameRequest *request, W
     return true;
 }
 
+/* One blurred copy suffices where the width is constant (`mirror`), several where it varies (`grades`); an
+   even environment needs neither. */
 static bool update_mirror(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const WrPlan *plan = &renderer->plan;
@@ -163,7 +170,8 @@ static bool update_mirror(WrRenderer *renderer, const WrFrameRequest *request, W
                                 renderer->pool, err);
 }
 
-/* True if light reads roughness or metalness from a picture of that kind. */
+/* True if light reads roughness or metalness from a picture of that kind.
+   A picture without a reader would cost memory and fetches. */
 static bool wants_facets(const WrPlan *plan, const WrScene *scene, int kind)
 {
     return wr_plan_runs(plan, WR_EFFECT_FACETS) && scene->facets[kind].image &&
@@ -190,6 +198,8 @@ static bool update_facets(WrRenderer *renderer, const WrFrameRequest *request, W
     return true;
 }
 
+/* Order: horizons before occlusion, which sums over them. All wrap as the table does, because they are laid
+   over the same (u, v). */
 bool wr_frame_prepare_maps(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const WrPlan *plan = &renderer->plan;
@@ -234,6 +244,7 @@ static double reach_of(const WrScene *scene, double width, double height)
     return fmax((margin - 1) / 3, 0.01);
 }
 
+/* Lengths in kernel units: `scale` turns the height into them. `reach` limits the footprint, in texels. */
 static WrLookd make_look(const WrRenderer *renderer, const WrFrameRequest *request, double scale)
 {
     const WrScene *scene = request->scene;
@@ -270,7 +281,8 @@ static WrEffects looks_of(const WrFrameRequest *request, const WrRenderer *rende
            (renderer->looked != request->field ? WR_EFFECT_BIT(WR_EFFECT_ROUNDED) : 0);
 }
 
-/* True if the plan considered this effect and left it out. */
+/* True if the plan considered this effect and left it out.
+   WR_RUN rows run everywhere and WR_NONE rows nowhere; only a spared one is tested per run of samples. */
 static bool spares(const WrPlan *plan, WrEffect effect)
 {
     return plan->rows[effect].verdict == WR_VERDICT_SPARED && !wr_plan_runs(plan, effect);
@@ -353,6 +365,7 @@ static void fill_picture(const WrFrameRequest *request, const WrColorMips *tint,
     to->far = narrowed(&to->far_double, NULL, NULL);
 }
 
+/* Only kinds that light reads are filled; the others keep rgba NULL. */
 static void fill_facets(const WrRenderer *renderer, const WrFrameRequest *request, WrTileJob *job)
 {
     for (int k = 0; k < WR_FACET_KINDS; k++)
@@ -399,6 +412,7 @@ static void fill_map(const WrRenderer *renderer, const WrFrameRequest *request, 
     job->relief = narrowed(&look, NULL, NULL);
 }
 
+/* The solid texture is a function of P: its scale is that of the kernel's P. */
 static void fill_grain(const WrPlan *plan, const WrSolidTexture *grain, double scale,
                        WrTileJob *job)
 {
@@ -407,6 +421,7 @@ static void fill_grain(const WrPlan *plan, const WrSolidTexture *grain, double s
     wr_solid_texture_kern_narrow(&job->grain_double, &job->grain);
 }
 
+/* Published energy needs no table of albedos; kd or ks 0 removes the term from the kernel's sum. */
 static void fill_matter(const WrPlan *plan, const WrFrameRequest *request, WrTileJob *job)
 {
     WrMaterial m = request->scene->material;
@@ -416,6 +431,8 @@ static void fill_matter(const WrPlan *plan, const WrFrameRequest *request, WrTil
     if (!wr_plan_runs(plan, WR_EFFECT_SPECULAR)) job->matter.ks = 0;
 }
 
+/* Doubles first, then narrowed copies: `look` and `look_double` describe the same copy of the table, whose
+   pitch and apron are equal in both precisions. */
 void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *request, double scale,
                          WrTileJob *job)
 {
