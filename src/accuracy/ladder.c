@@ -1,4 +1,7 @@
-/* Measurement of the rungs: interleaved times, errors against the reference. */
+/* Measurement of the rungs: interleaved times, errors against the reference.
+   A rung is a setting of one dial (or a combination). Its time and error are measured with all other dials as
+   in the scene; its own error (own_rms) with all other axes at their best, so that one approximation is seen
+   alone. */
 #include "accuracy/ladder.h"
 
 #include "accuracy/ladder_internal.h"
@@ -112,7 +115,9 @@ typedef struct RungList {
     int count, room;
 } RungList;
 
-/* Adds a setting, reduced to its differences from the scene. */
+/* Adds a setting, reduced to its differences from the scene.
+   Values equal to the scene's are dropped; a setting that becomes empty is the scene itself and is not listed
+   twice. */
 static void add(RungList *list, WrAxis axis, const WrSetting *wanted)
 {
     WrRung rung = { .axis = axis };
@@ -140,7 +145,9 @@ static int rungs_of(const WrDial *dial, double *out, int room)
 
 #define RUNGS_MAX 16
 
-/* Adds the dials of that axis that become relevant by that choice: each of their values, one at a time. */
+/* Adds the dials of that axis that become relevant by that choice: each of their values, one at a time.
+   `chosen` is the scene with the setting applied: relevance depends on it (contrast matters only with
+   aa=adaptive). */
 static void add_dependents(RungList *list, WrAxis axis, const WrScene *chosen, WrSetting setting)
 {
     double rungs[RUNGS_MAX];
@@ -227,6 +234,7 @@ int wr_ladder_settings(const WrScene *scene, WrAxis axis, WrRung *out, int room)
     return list.count;
 }
 
+/* The axes other than `axis` get their most accurate rung, so that the remaining error is that axis' share. */
 WrScene *wr_ladder_best_but(const WrScene *scene, WrAxis axis)
 {
     WrScene *best = wr_scene_clone(scene);
@@ -352,6 +360,7 @@ void wr_bench_sort(double *times, int count)
     qsort(times, (size_t)count, sizeof *times, ascending);
 }
 
+/* Linear interpolation between order statistics, as in most statistics packages (type 7). */
 double wr_bench_quantile(const double *sorted, int count, double part)
 {
     const double at = part * (count - 1);
@@ -360,6 +369,7 @@ double wr_bench_quantile(const double *sorted, int count, double part)
     return sorted[i] + (at - i) * (next - sorted[i]);
 }
 
+/* Median and half the interquartile range: a frame interrupted by other processes moves neither. */
 static void settle_times(WrRung *rung, double *times, int count)
 {
     wr_bench_sort(times, count);
@@ -377,7 +387,9 @@ static bool tell(const WrLadderRequest *request, double fraction, WrError *err)
     return wr_fail(err, "cancelled");
 }
 
-/* Rounds over all rungs, one after the other, so that drift of the machine affects all equally. */
+/* Rounds over all rungs, one after the other, so that drift of the machine affects all equally.
+   times[i RUNS_MAX + run]. Three rounds are made in any case; then the budget ends the loop before the round
+   that would exceed it. */
 static bool time_rungs(const WrBench *bench, WrScene **scenes, WrLadder *ladder, WrError *err)
 {
     const WrLadderRequest *request = bench->request;
@@ -442,7 +454,9 @@ static bool arithmetic_as_it_stands(const WrBench *bench, WrLadder *ladder, WrEr
                             &ladder->arithmetic_rms, err);
 }
 
-/* The error of the rung's own picture, and of its normals if it has one sample a pixel. */
+/* The error of the rung's own picture, and of its normals if it has one sample a pixel.
+   Two frames, because normals are captured in a frame of their own: capture switches effects that change the
+   path. */
 static bool error_of(const WrBench *bench, const WrScene *scene, WrLadder *ladder, WrRung *rung,
                      WrFrame *frame, WrError *err)
 {
@@ -477,6 +491,8 @@ static bool measure_errors(const WrBench *bench, WrScene **scenes, WrLadder *lad
 }
 
 /* ---- claim of the paper ---- */
+
+/* Blinn states that bump mapping costs about 4 times Phong shading and 2 times a colour texture (B18). */
 
 /* Noise in place of the colour picture of a scene that has none: fetches from it cost the same. */
 static WrImage *stand_in(const WrField *field, WrError *err)
@@ -626,6 +642,8 @@ void wr_ladder_fini(WrLadder *ladder)
     *ladder = (WrLadder){ 0 };
 }
 
+/* A rung is on the front unless another has at most its error, within the measurement's noise, in less time.
+   Equal rungs: the first one stays. */
 static bool counts(const WrRung *rung)
 {
     return !rung->model && !rung->note.text[0];

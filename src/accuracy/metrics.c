@@ -7,7 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Sum of `count` values, added in pairs; they are overwritten. */
+/* Sum of `count` values, added in pairs; they are overwritten.
+   Rounding grows with log2(count) instead of count: a mean over 10^7 pixels keeps its last digits, and its
+   order is fixed. */
 static double pair_sum(double *values, int64_t count)
 {
     for (; count > 1; count = (count + 1) / 2) {
@@ -48,7 +50,8 @@ static double root_mean(Values *values, int terms)
 }
 
 /* The value that the part `share` of all does not exceed: number ceil(share count) in ascending order, found by
-   partitioning. */
+   partitioning.
+   Hoare's selection, linear on average; no full sort. */
 static double percentile(Values *values, double share)
 {
     if (values->count == 0) return 0;
@@ -94,7 +97,8 @@ static double difference(double a, double b)
     return d >= 0 ? d : INFINITY;
 }
 
-/* A pixel is inside if both coverages are 1, an edge if either is between 0 and 1 or they differ. */
+/* A pixel is inside if both coverages are 1, an edge if either is between 0 and 1 or they differ.
+   Outlines are reported apart: their error is one of coverage and hides that of shading. */
 static void gather_pixel(const float *a, const double *b, Gathered *gathered, WrErrors *out)
 {
     double squares = 0, most = 0;
@@ -121,6 +125,7 @@ static void gather_pixel(const float *a, const double *b, Gathered *gathered, Wr
     gathered->coverage_max = fmax(gathered->coverage_max, d);
 }
 
+/* atan2 of cross and dot product (HC20): acos would return 0.02 degrees or NaN for equal normals in float. */
 static void gather_angle(const float *a, const double *b, Gathered *gathered)
 {
     const WrVec3 ours = { (double)a[0], (double)a[1], (double)a[2] }, theirs = { b[0], b[1], b[2] };

@@ -79,7 +79,9 @@ static bool free_place(const Sheet *sheet, const WrPlotBox *box)
     return true;
 }
 
-/* Ambiguity of a free place: penalty for being mistaken for another point's number. */
+/* Ambiguity of a free place: penalty for being mistaken for another point's number.
+   In pixels: the distance from the point, plus penalties if another point is nearer or a leader line would be
+   ambiguous. */
 static double badness(const Sheet *sheet, int own, WrPlotSpot at)
 {
     const WrPlotSpot point = sheet->points[own];
@@ -97,6 +99,8 @@ static double badness(const Sheet *sheet, int own, WrPlotSpot at)
     return bad + NEAR_OTHER * nearer + THROUGH * through;
 }
 
+/* Rings of growing radius until even a place without penalty would be worse than the best found. A greedy
+   placement: earlier numbers are not moved, so the result depends on the order, which is that of the front. */
 static WrPlotSpot place(const Sheet *sheet, int own)
 {
     const WrPlotSpot point = sheet->points[own];
@@ -138,7 +142,9 @@ void wr_plot_number_places(const WrPlotBox *frame, const WrPlotSpot *points, int
 static const double steps[3] = { 1, 2, 5 };
 
 /* Round number of an index: 0 is 1, 1 is 2, 2 is 5, 3 is 10, -1 is 0.5. Powers of ten below 1 are computed by
-   division, so that they equal the decimal literals. */
+   division, so that they equal the decimal literals.
+   index = 3 k + i is steps[i] 10^k: both directions of the mapping are exact, so ticks equal the decimal
+   literals in labels. */
 static double round_number(int index)
 {
     const int k = (int)floor(index / 3.0);
@@ -154,6 +160,8 @@ static int round_below(double value)
     return index;
 }
 
+/* At least a factor of 3.2 between the ends, extended downwards and upwards in turn, so that each axis has two
+   ticks or more. */
 bool wr_plot_axis(const double *values, int count, WrPlotAxis *out)
 {
     double low = INFINITY, high = 0;
@@ -172,6 +180,7 @@ bool wr_plot_axis(const double *values, int count, WrPlotAxis *out)
     return true;
 }
 
+/* Steps 1, 3, 6, ...: all of 1-2-5, then powers of ten, then every second one, until they fit. */
 int wr_plot_ticks(const WrPlotAxis *axis, double *out, int room)
 {
     const int first = round_below(axis->low * (1 + 1e-12));
@@ -187,6 +196,7 @@ int wr_plot_ticks(const WrPlotAxis *axis, double *out, int room)
     }
 }
 
+/* 0..1 along a logarithmic axis. */
 double wr_plot_place(const WrPlotAxis *axis, double value)
 {
     if (!(value > 0)) return 0;
@@ -238,7 +248,8 @@ static double shown_error(const WrLadder *ladder, const WrRung *rung)
     return isfinite(own) ? fmax(rung->errors.rms, own) : rung->errors.rms;
 }
 
-/* The front, fastest first: in order of insertion, which is quick for the few settings of a ladder. */
+/* The front, fastest first: in order of insertion, which is quick for the few settings of a ladder.
+   The front is the set of rungs that no other rung beats in both time and error. */
 static void find_front(WrPlot *plot)
 {
     const WrRung *rungs = plot->ladder->rungs;
@@ -386,7 +397,8 @@ void wr_plot_draw(const WrPlot *plot, const WrPlotCanvas *canvas, const char *re
 /* ---- the page ---- */
 
 /* The plot of error against time as a file: with spreads, numbers, a key, and the front as a list, each setting in full.
-   Its lines are wrapped and the page is made higher, so that every name is included. */
+   Its lines are wrapped and the page is made higher, so that every name is included.
+   The list is laid out twice: once to count its lines, which set the page's height, and once to draw. */
 
 /* Layout in pixels from the upper left corner. */
 #define WIDTH 1280

@@ -28,6 +28,7 @@ static void add_rung(const WrLadder *ladder, const WrRung *rung, WrText *text)
         wr_text_addf(text, " %s\n", rung->note.text);
         return;
     }
+    /* ns/px is time per covered pixel, so that scenes of different coverage compare. */
     const double pixels = (double)ladder->width * ladder->height;
     const double covered = rung->errors.covered > 0 ? (double)rung->errors.covered : pixels;
     wr_text_addf(text, " %9.3f %7.3f %6.1f", 1e3 * rung->seconds, 1e3 * rung->spread,
@@ -83,6 +84,7 @@ static void add_faults(const WrLadder *ladder, WrText *text)
     }
 }
 
+/* Both ratios are those that Blinn (1978) states; the measured ones are those of this scene. */
 static void add_claim(const WrLadder *ladder, WrText *text)
 {
     wr_text_addf(
@@ -108,6 +110,9 @@ void wr_report_text(const WrLadder *ladder, const char *name, WrText *text)
 }
 
 /* ---- numbers of a rung, for CSV and JSON ---- */
+
+/* NaN stands for numbers that do not exist: an empty field in CSV, null in JSON. placed: errors against the
+   reference are defined. */
 
 typedef struct Number {
     const char *name;
@@ -145,6 +150,8 @@ static const char *axis_name(const WrRung *rung)
 }
 
 /* ---- CSV ---- */
+
+/* RFC 4180: lines end with CR LF, quotes are doubled. */
 
 static void add_csv_string(WrText *text, const char *bytes)
 {

@@ -17,6 +17,9 @@ static double study_factor(double shares, double squares, int64_t count);
 
 /* ---- Blocks of a picture, each with its pictures at increasing levels ---- */
 
+/* block->rgba[level] is BLOCK x BLOCK x 4 floats, rows of 4 BLOCK, or NULL if the block was not rendered at
+   that level or its picture was dropped: only the last two levels are kept. change[level] compares it with the
+   level below. */
 #define BLOCK WR_FRAME_BLOCK
 
 /* ---- blocks of pixels ---- */
@@ -52,6 +55,8 @@ static void put(const Study *study, int64_t block, const float *rgba)
                rgba + (size_t)4 * BLOCK * (size_t)y, (size_t)at.w * 4 * sizeof *rgba);
 }
 
+/* Sums of a row in float, of rows in double: the inner loop vectorises, and a short sum loses no digits that
+   matter. */
 static Change block_change(const float *a, const float *b)
 {
     Change out = { 0, 0 };
@@ -154,7 +159,9 @@ static int study_look_around(const Study *study, int64_t b)
 
 /* Adds the possible error of k x k samples where the outline steps from p to the next pixel across it and does
    the same in the row beside: at most 1/(2k) of the object's colour. share: 1, or
-   1/2 where two blocks meet there, of which one has the error. */
+   1/2 where two blocks meet there, of which one has the error.
+   An outline parallel to the pixels has equal coverage in all pixels along it, so its error has one sign and
+   does not average out: k samples across resolve coverage to 1/k, with an error of up to 1/(2k) of the step. */
 static void add_step(const float *p, const float *across, const float *p_beside,
                      const float *across_beside, int k, double share, Change *sum)
 {
@@ -202,11 +209,15 @@ static void add_line(const Study *study, const Line *line, int level, Change *su
 }
 
 /* The step in colour across a pixel beyond the neighbours' slopes, and the share of it before its mean: p is the
-   middle of five in a row. */
+   middle of five in a row.
+   The colours of five pixels in a row, p0 .. p4; the slopes on both sides are continued to the middle, and the
+   rest of p3 - p1 is the step. `part` is where in the middle pixel it lies, from the share of the step already
+   reached at p2. */
 typedef struct Jump {
     double step[3], sum, part;
 } Jump;
 
+/* A step smaller than the slopes around it is taken for shading. */
 static bool find_jump(const float *const p[5], Jump *out)
 {
     double before = 0, slopes = 0;
@@ -233,7 +244,9 @@ static bool jump_at(const Study *study, int x, int y, int du, int dv, int level,
 }
 
 /* Adds a crease of the object, or an end of its relief: a step between two colours inside the object. If the
-   next row has its step within less than half the distance of samples, the crease is parallel to the pixels. */
+   next row has its step within less than half the distance of samples, the crease is parallel to the pixels.
+   part is a distance in pixels; in both rows within 1 / (2k), and no k x k grid can tell the crease's place
+   from one row to the next. */
 static void add_crease(const Study *study, int x, int y, int du, int dv, int level, Change *sum)
 {
     const double k = wr_level_side(level);
@@ -288,6 +301,8 @@ static Change aligned(const Study *study, int64_t b, int level)
 
 /* ---- frames ---- */
 
+/* All levels use regular samples: with random ones two levels would differ by noise and not by resolution. */
+
 WrScene *wr_level_scene(const WrScene *of, WrScheme scheme, WrBumpMode mode, int level, int mesh)
 {
     WrScene *scene = wr_scene_clone(of);
@@ -310,6 +325,7 @@ WrScene *wr_study_scene(const Study *study, int pair, int level)
                           finer ? study->mesh : scene->dials.mesh);
 }
 
+/* The time of `prepare` (tables, meshes) is paid once and not part of the price of samples. */
 static bool render(Study *study, int pair, int level, const unsigned char *only, WrError *err)
 {
     WrScene *scene = wr_study_scene(study, pair, level);
@@ -348,7 +364,8 @@ static bool keep_block(Study *study, int64_t b, int pair, int level, WrError *er
 }
 
 /* Renders the blocks of study->mask at a level with a pair. keep: stores their pictures of that level; else into
-   `out`, BLOCK_FLOATS for each of them in order, or, if that is NULL too, only into study->frame. */
+   `out`, BLOCK_FLOATS for each of them in order, or, if that is NULL too, only into study->frame.
+   step[level] needs the neighbours' pictures of the same pass, hence the second loop. */
 static bool study_render(Study *study, int pair, int level, bool keep, float *out, WrError *err)
 {
     if (!render(study, pair, level, study->mask, err)) return false;
@@ -387,6 +404,8 @@ static void study_drop(Block *block, int level)
     block->rgba[level] = NULL;
 }
 
+/* Levels from the top down: a block that climbs in this call then has a level that the loop has already
+   passed. */
 bool wr_study_climb(Study *study, const unsigned char *wanted, WrError *err)
 {
     /* From above, so that no block climbs twice. */
@@ -429,6 +448,8 @@ static void doubt_formula(Study *study, int pair)
     wr_free(beside);
 }
 
+/* One sample a pixel suffices for the difference between two formulas: their sampling errors are nearly equal
+   and cancel. */
 bool wr_study_formula(Study *study, int pair, WrError *err)
 {
     float taken[BLOCK_FLOATS];
@@ -517,7 +538,8 @@ static bool mesh_matters(const Study *study)
     return !mesh->matters || mesh->matters(study->request->scene);
 }
 
-/* Squares caused in a block by an outline error of one pixel. */
+/* Squares caused in a block by an outline error of one pixel.
+   An outline that moves by one pixel changes that pixel by the object's full colour. */
 static double outline_squares(const Study *study, int64_t b)
 {
     const Corner at = study_corner(study, b);
@@ -552,6 +574,9 @@ static void choose_mesh(Study *study, const WrTolerance *tolerance)
 }
 
 /* ---- prediction of the change by 2 x 2 ---- */
+
+/* For f with second derivative f'' per pixel the four samples at +-1/4 have the mean f + f''/32 per axis. `rough` = second^2 / (5 first^2) is 1
+   for white noise: a Laplacian has 20 times the variance of a value, two first differences 4 times. */
 
 /* The mean of 2 x 2 differs from the pixel's centre by 1/32 of the pixels' second difference if the picture is
    smooth, by 1/4 of it if the pixels are independent; the ratio of the second to the first difference
@@ -602,7 +627,9 @@ static int by_off(const void *a, const void *b)
     return (x->block > y->block) - (x->block < y->block);
 }
 
-/* Adds every n-th block, from calm to lively, to the mask, including the liveliest. */
+/* Adds every n-th block, from calm to lively, to the mask, including the liveliest.
+   Equal steps of the sorted list include calm and lively blocks alike; the ratio found holds for the
+   whole range. */
 static void look_at_some(Study *study, Inside *list, int64_t count)
 {
     const int64_t wanted = count / LOOKED_AT > LOOKED_MIN ? count / LOOKED_AT : LOOKED_MIN;
@@ -633,7 +660,9 @@ static void look_beside_lively(Study *study, const Inside *list, int64_t count)
     wr_free(off);
 }
 
-/* Corrects the predictions of the others by the results of those rendered. */
+/* Corrects the predictions of the others by the results of those rendered.
+   Each ratio is result / (prediction + floor): the floor, half the mean prediction, keeps a few blocks with
+   tiny predictions from dominating. study_factor undoes its mean effect (1.5). */
 static void correct(Study *study, const Inside *list, int64_t count)
 {
     double sum = 0, shares = 0, squares = 0;
@@ -675,7 +704,8 @@ static void doubt_corner(Study *study, int64_t b)
         }
 }
 
-/* Determines each block's content and frees the empty ones. */
+/* Determines each block's content and frees the empty ones.
+   Blocks are decided by the coverage of 1 x 1 and 2 x 2 samples, their own and that of the pixels around. */
 static void sort_blocks(Study *study)
 {
     unsigned char *seen = wr_alloc((size_t)study->count, 1);
@@ -710,6 +740,7 @@ bool wr_study_begin(Study *study, const WrTolerance *tolerance, WrError *err)
 /* Part of the samples that are beside those of the first picture: outlines. */
 #define BESIDE 1.1
 
+/* If fixed costs of the passes exceed the price of the finest level for all blocks, no choice can pay. */
 bool wr_study_best_is_cheaper(const Study *study, const WrTolerance *tolerance)
 {
     const double side = wr_level_side(TOP), seen = (double)study->shaded;
@@ -767,7 +798,9 @@ bool wr_study_survey(Study *study, const WrTolerance *tolerance, WrError *err)
 /* Error relative to c, the square of the change from k to 2k samples a side, if errors fall as k^-p:
      outlines, p = 3/2   the finer has 1/9 of c if both are independent, 0.3 if they have the same sign;
      noise finer than the samples, p = 1   1/5;   smooth, p = 2   1/9, and the coarser 16/9.
-   The fall of c from one step to the next distinguishes them roughly: by 8, by 4, by 16. */
+   The fall of c from one step to the next distinguishes them roughly: by 8, by 4, by 16.
+   c = (e_k - e_2k)^2 with e ~ k^-p. For equal signs e_2k^2 / c = 1 / (2^p - 1)^2: p = 2 yields 1/9, p = 3/2
+   yields 0.3; for independent errors 1 / (2^2p + 1): p = 3/2 yields 1/9, p = 1 yields 1/5. */
 #define FINER 0.18
 #define COARSER_MIN 1.0
 #define COARSER_MAX 1.8
@@ -824,7 +857,8 @@ static Change predicted(const Block *block, int level)
     return off;
 }
 
-/* Factor from the step from a level to the next. */
+/* Factor from the step from a level to the next.
+   c falls by 16 for p = 2: there the coarser error is (4/3)^2 c = 16/9 c; by 8 or less it is about c. */
 static double coarser(const Block *block, int level)
 {
     const double before = block->change[level].squares, after = block->change[level + 1].squares;
@@ -838,7 +872,9 @@ static Change off_above(Change here, int above)
     return times(here, pow(1 / FALL, above), pow(1 / FALL_MAX, above));
 }
 
-/* At its own level, corrected by the results of others of its kind. */
+/* At its own level, corrected by the results of others of its kind.
+   `right` is the measured part of the predicted squares for blocks of the same level and kind that climbed on;
+   one standard error is added. */
 static Change off_here(const Study *study, const Block *block)
 {
     const int level = block->level;
@@ -1002,7 +1038,9 @@ static void add_probe(const Study *study, const Block *block, const float *fine,
     ratio->count++;
 }
 
-/* Converts shares of estimate and floor to a factor of the estimate: the floors add up to half of the estimates. */
+/* Converts shares of estimate and floor to a factor of the estimate: the floors add up to half of the estimates.
+   The ratios' mean plus CAUTION standard errors of that mean; n - 1 in the denominator for the sample's
+   variance. */
 static double study_factor(double shares, double squares, int64_t count)
 {
     const double n = (double)count, mean = shares / n;

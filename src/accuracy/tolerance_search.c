@@ -1,4 +1,7 @@
-/* Choice under a tolerance: blocks get finer levels until it is met. */
+/* Choice under a tolerance: blocks get finer levels until it is met.
+   The picture is cut in blocks of WR_FRAME_BLOCK pixels. An option of a block is a pair (scheme, normal
+   formula) and a level: 2^level samples a side. `squares` is the sum of squared differences over a block's
+   pixels and three channels, so rms^2 of the picture is the sum over blocks / (3 pixels). */
 #include "accuracy/tolerance_search.h"
 
 #include "accuracy/tolerance_internal.h"
@@ -21,7 +24,8 @@
 /* ---- price ---- */
 
 /* Price of samples by counted work, not time: so the same picture gets the same dials on any machine at any
-   time. */
+   time.
+   A choice by measured times would differ between two runs; a picture must be repeatable from its text. */
 
 /* Nanoseconds of one sample on one thread, by regression over all surfaces, slopes and normals at 512 x 512.
    Only the ratios matter. */
@@ -67,6 +71,7 @@ double wr_price_pass(int64_t pixels)
 
 /* ---- Choice of the cheapest pair and level for each block that together meet the tolerance ---- */
 
+/* Estimates are off by some per cent; the largest error, one pixel of many, by more than a sum. */
 #define MARGIN_RMS 0.93 /* parts of the tolerance that are used */
 #define MARGIN_MAX 0.75
 #define SCATTERED                                                                                  \
@@ -80,6 +85,8 @@ typedef struct Option {
     Change off;
 } Option;
 
+/* A block with few pixels of the object costs at least as much as one pixel, so that options still differ in
+   price. */
 static double cost_of(const Study *study, const Block *block, int pair, int level)
 {
     const double side = wr_level_side(level);
@@ -151,7 +158,9 @@ static void pick_most(Study *study, double most, bool free_pairs)
 
 /* ---- sum of errors: by gain per price ---- */
 
-/* A step of a block to a more expensive option, on the lower hull of cost and error. */
+/* A step of a block to a more expensive option, on the lower hull of cost and error.
+   Among the options of a block only those on the lower convex hull of (cost, squares) can be optimal for a sum
+   over blocks. */
 typedef struct Step {
     int64_t block;
     Option to;
@@ -180,7 +189,9 @@ static double gain_of(const Option *from, const Option *to)
     return (from->off.squares - to->off.squares) / fmax(to->cost - from->cost, 1e-300);
 }
 
-/* Sorts options by cost; moves those on the lower convex hull to the front. Returns their number. */
+/* Sorts options by cost; moves those on the lower convex hull to the front. Returns their number.
+   Graham's scan: options that cost more without a smaller error are dropped, then the last corner while the
+   slope to the new point is steeper than the slope to that corner. */
 static int hull(Option *options, int count)
 {
     int kept = 0;
@@ -195,7 +206,9 @@ static int hull(Option *options, int count)
     return kept;
 }
 
-/* Sets every block to its cheapest option, and lists all steps from there, largest gain first. */
+/* Sets every block to its cheapest option, and lists all steps from there, largest gain first.
+   steps has room for all options of all blocks. Ties are broken by the block's number: the order must not
+   depend on qsort. */
 static Step *list_steps(Study *study, bool free_pairs, int64_t *count, Option *sum)
 {
     Step *steps = wr_alloc((size_t)study->count * OPTIONS + 1, sizeof *steps);
@@ -217,7 +230,9 @@ static Step *list_steps(Study *study, bool free_pairs, int64_t *count, Option *s
     return steps;
 }
 
-/* One setting for all that meets `squares` for less than `cost`, or -1. */
+/* One setting for all that meets `squares` for less than `cost`, or -1.
+   Scattered blocks cost a pass for each setting and shorter runs; a single setting for all may be
+   cheaper than the sum of the blocks' best. */
 static int find_uniform(const Study *study, double squares, double cost)
 {
     int found = -1;
@@ -237,7 +252,8 @@ static int find_uniform(const Study *study, double squares, double cost)
 }
 
 /* Greedy: steps by decreasing gain until the sum of squares is small enough. On a convex hull the gains of one
-   block's steps decrease, so its steps are taken in order. */
+   block's steps decrease, so its steps are taken in order.
+   This is the Lagrangian relaxation of the choice: the result is optimal but for the last step. */
 static void pick_sum(Study *study, double squares, bool free_pairs)
 {
     Option sum;
@@ -273,12 +289,14 @@ static void pick_within(Study *study, double cost, bool free_pairs)
 static void study_pick(Study *study, const WrTolerance *tolerance, bool free_pairs)
 {
     const double value = tolerance->value, rms = MARGIN_RMS * value;
+    /* 3 values a pixel; pixels counts the covered ones only. */
     if (tolerance->kind == WR_TOLERANCE_MAX) pick_most(study, MARGIN_MAX * value, free_pairs);
     else if (tolerance->kind == WR_TOLERANCE_TIME) pick_within(study, value, free_pairs);
     else pick_sum(study, rms * rms * 3 * fmax(study->pixels, 1), free_pairs);
 }
 
-/* Several settings need a pass over the pixels for each, and their blocks are scattered. */
+/* Several settings need a pass over the pixels for each, and their blocks are scattered.
+   `used` is indexed by setting = pair LEVELS + level. */
 double wr_study_cost(const Study *study)
 {
     bool used[OPTIONS] = { false };
@@ -385,7 +403,9 @@ void wr_choice_say(WrChoice *choice, const WrTolerance *tolerance, const char *m
     wr_text_fini(&text);
 }
 
-/* Converts the study's picks to a choice with its parts, owned by the caller. */
+/* Converts the study's picks to a choice with its parts, owned by the caller.
+   part_of[b] is one byte: at most PARTS_MAX settings exist. Parts are numbered in the order of their first
+   block. */
 static void study_settle(const Study *study, WrChoice *out)
 {
     int part_of[PARTS_MAX];
@@ -426,9 +446,12 @@ void wr_choice_fini(WrChoice *choice)
     wr_free(choice->part_of);
     *choice = (WrChoice){ 0 };
 }
+
 /* ---- use ---- */
 
-/* Clears the blocks without the object, which are not rendered. */
+/* Clears the blocks without the object, which are not rendered.
+   The renderer leaves blocks outside `only` as they were in the frame's memory, so blocks in no part are
+   cleared here. */
 static void clear_nothing(const WrChoice *choice, WrFrame *frame)
 {
     const int blocks_u = (choice->width + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK;
@@ -442,6 +465,8 @@ static void clear_nothing(const WrChoice *choice, WrFrame *frame)
         }
 }
 
+/* Each part is a pass of the renderer over its own blocks into the same frame. `hold` keeps caches that the
+   pass does not use, because the next pass or picture does; dials are those of the part's scene. */
 bool wr_choice_frame_plan(WrRenderer *renderer, const WrFrameRequest *request,
                           const WrChoice *choice, WrPlan *plan, WrFrame *frame, WrError *err)
 {
@@ -558,7 +583,9 @@ static void name_line(const WrRenderer *renderer, WrText *out)
                  wr_cpu_level());
 }
 
-/* Seconds per price on the line with that prefix; 0: there is none. */
+/* Seconds per price on the line with that prefix; 0: there is none.
+   The line's prefix contains threads, instruction set and processor level: a file shared by machines keeps
+   them apart. */
 static double find_line(const char *text, const char *start)
 {
     for (const char *line = text; line; line = strchr(line, '\n')) {
@@ -574,7 +601,9 @@ static double find_line(const char *text, const char *start)
     return 0;
 }
 
-/* The fastest of several frames: other load can only make them slower. */
+/* The fastest of several frames: other load can only make them slower.
+   The first run builds caches and is not counted. Bump is forced on: an empty table would be planned away
+   (E6). */
 static bool measure(WrRenderer *renderer, double *out, WrError *err)
 {
     WrField *field = wr_field_new(64, 64, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, err);
@@ -696,7 +725,8 @@ static void find_dearest(const WrChoice *choice, int64_t b, WrChoicePart *level,
     }
 }
 
-/* Each block gets the finest level and the most expensive slopes and normal of both. */
+/* Each block gets the finest level and the most expensive slopes and normal of both. A maximum of
+   levels and prices over the studied frames: a further frame can only make the choice finer. */
 static void merge(WrChoice *sum, const WrChoice *more)
 {
     for (int64_t b = 0; b < blocks_of(sum); b++) {
@@ -739,7 +769,9 @@ typedef struct Look {
     double squares, most;
 } Look;
 
-/* Selects one in LOOKED_SHARE of a part's blocks into `only`. Returns their number. */
+/* Selects one in LOOKED_SHARE of a part's blocks into `only`. Returns their number.
+   Every LOOKED_SHARE-th block of the part, beginning in the middle of the first run: evenly spread and
+   repeatable. */
 static int64_t draw(const Look *look, int part)
 {
     int64_t passed = 0, drawn = 0;
@@ -769,7 +801,9 @@ static double add_difference(Look *look, const WrFrame *fine)
     return squares;
 }
 
-/* Renders some blocks of a part with twice as many samples a side, to estimate the error of all of it. */
+/* Renders some blocks of a part with twice as many samples a side, to estimate the error of all of it.
+   The squared change to twice the samples underestimates the coarser picture's error, as the finer one has an
+   error too: the factor COARSER_LOOK. The sum over the drawn blocks is scaled to all blocks of the part. */
 static bool look_at_part(Look *look, int index, WrError *err)
 {
     const WrChoicePart *part = &look->choice->parts[index];
@@ -817,6 +851,8 @@ static bool look_at(WrRenderer *renderer, const WrFrameRequest *request, const W
 
 /* ---- all frames ---- */
 
+/* `count` angles in turn order; the studied ones are i count / studied, the tested ones lie half-way between. */
+
 typedef struct Turn {
     WrRenderer *renderer;
     WrFrameRequest request;
@@ -842,7 +878,8 @@ static bool study(Turn *turn, double turn_deg, WrError *err)
     return true;
 }
 
-/* Tests a frame. If the choice fails there, that frame is studied too. */
+/* Tests a frame. If the choice fails there, that frame is studied too.
+   A repeated study only adds finer settings (merge), so the loop cannot oscillate. */
 static bool check(Turn *turn, double turn_deg, WrError *err)
 {
     const WrTolerance *tolerance = &turn->request.scene->tolerance;
@@ -927,6 +964,9 @@ bool wr_tolerance_turn(WrRenderer *renderer, const WrFrameRequest *request, cons
 
 /* ---- slopes and normals ---- */
 
+/* The best pair is the truth for all others: their difference to it at one sample a pixel is their error,
+   added to that of the samples. */
+
 static void add_pair(Study *study, WrScheme scheme, WrBumpMode mode)
 {
     const WrScene *scene = study->request->scene;
@@ -947,7 +987,9 @@ static void add_best_pair(Study *study)
                                               : WR_BUMP_EXACT);
 }
 
-/* Adds cheaper pairs if testing them may pay: they are rendered for all visible blocks with one sample each. */
+/* Adds cheaper pairs if testing them may pay: they are rendered for all visible blocks with one sample each.
+   A pair is worth testing if its expected saving exceeds WORTH times the price of rendering it once for all
+   shown pixels. */
 static bool add_cheaper(Study *study, double expected, WrError *err)
 {
     const WrScene *scene = study->request->scene;
@@ -983,7 +1025,9 @@ static int64_t find_climbers(const Study *study, unsigned char *wanted)
 }
 
 /* If many blocks of a level need the next and the accuracy of that estimate is unknown, only some of them climb
-   first: their actual errors may show that the others can stay. */
+   first: their actual errors may show that the others can stay.
+   Rendering all of them at once would be wasted if the estimate was too high; MANY / AHEAD results are enough
+   to correct it. */
 static void send_some_ahead(const Study *study, unsigned char *wanted)
 {
     int64_t climbers[LEVELS][2] = { { 0 } }, passed[LEVELS][2] = { { 0 } };
@@ -1014,6 +1058,8 @@ static bool climb(Study *study, const WrTolerance *tolerance, WrError *err)
     return good;
 }
 
+/* Probes compare some blocks with a much finer level. If they find a larger error than estimated, the
+   estimates of that level are raised and the pick is repeated, at most PROBINGS times. */
 static bool climb_and_probe(Study *study, const WrTolerance *tolerance, WrError *err)
 {
     for (int probing = 0; probing <= PROBINGS; probing++) {
@@ -1027,6 +1073,8 @@ static bool climb_and_probe(Study *study, const WrTolerance *tolerance, WrError 
     return climb(study, tolerance, err);
 }
 
+/* Order: one sample a pixel everywhere; the survey at 2 x 2 of some blocks; cheaper pairs; climbing. Doubt
+   factors start at 1. */
 static bool run(Study *study, const WrTolerance *tolerance, WrError *err)
 {
     add_best_pair(study);
@@ -1109,6 +1157,7 @@ bool wr_tolerance_choose(WrRenderer *renderer, const WrFrameRequest *request, Wr
     study.count = (int64_t)study.blocks_u * study.blocks_v;
     study.block = wr_alloc((size_t)study.count, sizeof *study.block);
     study.mask = wr_alloc((size_t)study.count, 1);
+    /* A time limit becomes a limit of price units; all other tolerances are in linear intensity, price 1. */
     tolerance.value /= price;
     const bool good = run(&study, &tolerance, err);
     if (good) {
@@ -1141,6 +1190,8 @@ static bool is_common(const WrFrameRequest *request)
     return true;
 }
 
+/* With one table for all objects the key is the table's; else a hash over the objects in order, hidden ones as
+   0. */
 uint64_t wr_choice_tables_key(const WrFrameRequest *request)
 {
     WrHash all = { 0, 0 };

@@ -50,6 +50,8 @@ static int64_t count_blocks(int width, int height, int block)
 
 /* ---- writing ---- */
 
+/* Run-length code: neighbours mostly have the same part, so a picture of 10^4 blocks takes a few hundred
+   bytes. */
 static void add_blocks(const unsigned char *part_of, int64_t count, WrText *text)
 {
     for (int64_t b = 0, end; b < count; b = end) {
@@ -73,6 +75,7 @@ static void add_part(const WrChoicePart *part, WrText *text)
                  part->kinds);
 }
 
+/* A text beyond BLOCKS_MAX is replaced by the finest part everywhere: slower, but within the tolerance. */
 static void add_parts(const WrChoice *choice, WrText *text)
 {
     const int64_t count = count_blocks(choice->width, choice->height, WR_FRAME_BLOCK);
@@ -111,6 +114,9 @@ void wr_choice_write(const WrChoice *choice, const WrChoiceOrigin *origin, WrTex
 }
 
 /* ---- parsing ---- */
+
+/* The text may come from a damaged or foreign document: every number has a range, every name a table, and
+   nothing is stored before all is valid. */
 
 /* Parses the text after NAME up to `end`, of 1 to room - 1 bytes; *p moves after `end`. The last item of a list
    has no ';'. */
@@ -201,7 +207,8 @@ static bool take_parts(const char **p, Written *out)
     return *at == '\0';
 }
 
-/* Parses one run of blocks: their part, and their number, at most `most`. */
+/* Parses one run of blocks: their part, and their number, at most `most`.
+   The loop ends once count exceeds `most`, before it can overflow. */
 static bool take_run(const char **p, int parts, int64_t most, int *part, int64_t *count)
 {
     const char letter = *(*p)++;
@@ -265,6 +272,8 @@ bool wr_choice_check(const char *text, WrError *err)
 
 /* ---- reading ---- */
 
+/* Text is used only if its origin, size and turn are those of the request; otherwise the search runs again. */
+
 static bool same_hash(const char *written, WrHash hash)
 {
     char text[33];
@@ -300,7 +309,9 @@ static WrChoicePart make_part(const WrScene *scene, const WrittenPart *written)
     return part;
 }
 
-/* Expands the blocks. The caller frees. */
+/* Expands the blocks. The caller frees.
+   Two blocks along each side show the part of the old, wider one. b / across is the row, b % across the
+   column. */
 static unsigned char *read_blocks(const Written *written, int64_t count)
 {
     unsigned char *part_of = wr_alloc((size_t)count, 1), *wide;

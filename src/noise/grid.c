@@ -13,6 +13,12 @@ static void noise_band_sheared(const WrOctave *octave, const WrNoiseGrid *grid, 
 
 /* ---- octave ---- */
 
+/* A grid is filled in pieces of WR_NOISE_STRIP x WR_NOISE_BAND texels, and each piece octave by octave, so
+   that its arrays stay in the first-level cache. On square cells a column's fraction, fade and lattice index
+   do not depend on the row; they are computed once per piece. A row then needs two rows of lattice data
+   (hashed once for all texel rows between them), a blend along y at each lattice point, and a blend along x at
+   each texel. */
+
 /* One octave over a piece of a grid (grid.h), using the loops of octave_kernels.h. */
 
 static uint32_t reduced_index(double whole, int period)
@@ -20,6 +26,9 @@ static uint32_t reduced_index(double whole, int period)
     return (uint32_t)(int64_t)wr_noise_reduce(whole, period);
 }
 
+/* chain[k] is the hash of seed and x: a lattice row adds one link for y.
+   Positions are computed in double and only the fraction, 0..1, is converted to float (HC61). `narrow`: a
+   texel is at most half a cell, so that neighbouring texels use the same or adjacent lattice points. */
 static void fill_columns(const WrNoiseKernels *kern, const WrOctave *octave,
                          const WrNoiseGrid *grid, WrNoiseColumns *columns)
 {
@@ -45,6 +54,8 @@ static void fill_columns(const WrNoiseKernels *kern, const WrOctave *octave,
             columns->set[a][k] = (float)(scale * wr_lattice_gradient(2, k << 28)[a]);
 }
 
+/* Prescribed values and slopes of lattice row y. From the hash by a vector kernel; other sources point by
+   point. */
 static void fill_row(const WrNoiseKernels *kern, const WrNoise *noise,
                      const WrNoiseColumns *columns, double whole, WrNoiseLattice *row)
 {
@@ -84,7 +95,9 @@ static void begin_cells(Cells *cells, const WrOctave *octave, const WrNoiseGrid 
                        grid->j, grid->height, &cells->rows);
 }
 
-/* The lattice rows on either side of texel row j. */
+/* The lattice rows on either side of texel row j.
+   Rows are visited in ascending order, so of the two lattice rows at most one is new. Even and odd rows have
+   fixed places: the far row of one cell is the near row of the next without a copy. */
 static void enclose(Cells *cells, int j, const WrNoiseLattice **near, const WrNoiseLattice **far)
 {
     double whole = cells->rows.whole[j];
@@ -98,6 +111,8 @@ static void enclose(Cells *cells, int j, const WrNoiseLattice **near, const WrNo
     *far = above;
 }
 
+/* Blending y first costs one blend per lattice point and component; then each texel blends two points. The
+   order of additions differs from wr_noise_at, which works in double: results agree to float rounding only. */
 static void band_of_cells(const WrOctave *octave, const WrNoiseGrid *grid, bool slopes,
                           WrNoiseBand *band)
 {
@@ -115,7 +130,9 @@ static void band_of_cells(const WrOctave *octave, const WrNoiseGrid *grid, bool 
     }
 }
 
-/* Adds one octave over a piece to n. False, without any change, if there is no fast path. */
+/* Adds one octave over a piece to n. False, without any change, if there is no fast path.
+   The fast path for heights only: the octave is blended, weighted and added in one pass, for all texel rows of
+   a cell row at once. */
 static bool noise_sum(const WrOctave *octave, const WrNoiseGrid *grid, WrNoiseShare share, float *n,
                       size_t pitch)
 {
@@ -151,7 +168,9 @@ static void band_of_points(const WrOctave *octave, const WrNoiseGrid *grid, bool
         }
 }
 
-/* grid: at most a piece. Without slopes, fx and fy are unchanged. */
+/* grid: at most a piece. Without slopes, fx and fy are unchanged.
+   Finer octaves than one cell per texel would need more lattice points than a strip has room for; they go
+   point by point. Such octaves are above the sampling limit anyway (HC62). */
 static void noise_band(const WrOctave *octave, const WrNoiseGrid *grid, bool slopes,
                        WrNoiseBand *band)
 {
@@ -197,6 +216,7 @@ typedef struct Places {
     float u[WR_NOISE_STRIP];      /* fraction of the sheared coordinate */
 } Places;
 
+/* The chain is hashed of twice x, because odd rows have points at half-integers; the period in x is 2 P then. */
 static void fill_columns_sheared(const WrOctave *octave, const WrNoiseGrid *grid, Columns *columns)
 {
     const WrLattice *lattice = &octave->noise.lattice;
@@ -259,6 +279,8 @@ static inline float part_m(float x, float y)
 
 #define SCALE 10.92f /* noise_sheared's */
 
+/* Corner 0 is (u0, v), corner 2 (u0 + 1, v + 1), corner 1 the lower right one if u >= y, else the upper left
+   one. x = u - y/2 undoes the shear, so that distances are those of the plane. */
 static void span_heights(const Columns *columns, const Places *places, const LatticeRow *near,
                          const LatticeRow *far, int odd, float y, float *restrict f)
 {
@@ -349,7 +371,8 @@ static inline float sign(float f)
     return (f > 0.0f ? 1.0f : 0.0f) - (f < 0.0f ? 1.0f : 0.0f);
 }
 
-/* The contribution of an octave in the modes other than ridged. */
+/* The contribution of an octave in the modes other than ridged.
+   Billow adds 2 |f| - 1 per octave, turbulence |f|, fBm f (L6). */
 static WrNoiseShare share_of(WrOctavesMode mode, float amplitude)
 {
     bool billow = mode == WR_OCTAVES_BILLOW;
@@ -358,7 +381,8 @@ static WrNoiseShare share_of(WrOctavesMode mode, float amplitude)
                            .magnitude = mode != WR_OCTAVES_FBM };
 }
 
-/* The factor has the sign of f if |f| is added. */
+/* The factor has the sign of f if |f| is added.
+   Turbulence has a crease where f = 0; its slope there uses sign(0) = 0 (HC65). */
 static void add_heights(WrOctavesMode mode, float amplitude, const float *f, const Row *row)
 {
     const WrNoiseKernels *kern = wr_noise_kernels();
@@ -381,7 +405,10 @@ static void add_slopes(WrOctavesMode mode, float amplitude, float frequency,
     for (int i = 0; i < count; i++) na[i] += factor * sign(f[i]) * fa[i];
 }
 
-/* dS = dw h^2 - 2 w h sign(f) df,  h = offset - |f|; computed before the weight is updated. */
+/* dS = dw h^2 - 2 w h sign(f) df,  h = offset - |f|; computed before the weight is updated.
+   S = w h^2 is the octave's signal and min(1, gain S) the next weight. Where it saturates the weight's slope
+   is 0. `frequency` is the chain rule: f and its slopes are by lattice cells, n by the table's u or v. u and v
+   are added apart, but before add_ridge_heights replaces w. */
 static void add_ridge_slopes(const WrOctavesPlan *plan, float amplitude, float frequency,
                              const float *restrict f, const float *restrict fa, const Row *row,
                              float *restrict na, float *restrict wa)
@@ -439,7 +466,9 @@ static void start_row(const Row *row, bool ridged)
         row->nu[i] = row->nv[i] = row->wu[i] = row->wv[i] = 0.0f;
 }
 
-/* Fills one piece with all octaves, in order. */
+/* Fills one piece with all octaves, in order.
+   The octaves' order is that of the plan: sums of floats depend on it, and the result must be the same for
+   each piece. */
 static void fill_piece(const WrOctavesPlan *plan, const WrNoiseGrid *grid, float *f, float *fu,
                        float *fv, size_t pitch)
 {
@@ -461,6 +490,8 @@ static void fill_piece(const WrOctavesPlan *plan, const WrNoiseGrid *grid, float
     }
 }
 
+/* Pieces are cut at multiples from grid->i, not of the table: a texel's result must not depend on the piece it
+   falls in. It does not, since each texel computes its position from its own index. */
 void wr_octaves_grid(const WrOctavesPlan *plan, const WrNoiseGrid *grid, float *f, float *fu,
                      float *fv, size_t pitch)
 {

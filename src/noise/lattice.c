@@ -8,6 +8,8 @@
 
 const char *const wr_fade_words[] = { WR_FADES(WR_WORD) NULL };
 
+/* alpha(x) = sum c[k] x^k. All satisfy alpha(1 - x) = 1 - alpha(x), so the weights of corners sum to 1 (L10).
+   continuity is the number of continuous derivatives across lattice points (L8). */
 WR_ROWS(wr_fades);
 const WrFadeInfo wr_fades[WR_FADE_COUNT] = {
     [WR_ROW(WR_FADE_LINEAR)] = { .continuity = 0, .c = { 0, 1, 0, 0, 0, 0 } },
@@ -23,7 +25,9 @@ uint32_t wr_lattice_hash(uint32_t seed, const uint32_t *c, int dim)
     return h;
 }
 
-/* cos and sin of 11.25 and 33.75 degrees */
+/* cos and sin of 11.25 and 33.75 degrees
+   Sets of gradients without a preferred axis: 16 directions of a circle at odd multiples of 11.25 degrees; the
+   middles of a cube's edges (length sqrt 2) and of a tesseract's (sqrt 3). */
 #define C1 0.98078528040323044
 #define S1 0.19509032201612827
 #define C3 0.83146961230254524
@@ -52,6 +56,8 @@ static const double set_4d[32][4] = {
     { -1, -1, 1, 0 },  { -1, -1, -1, 0 },
 };
 
+/* By the highest bits, the best mixed ones. 12 is not a power of two: a multiplication maps h to 0..11 nearly
+   evenly, without a division. */
 const double *wr_lattice_gradient(int dim, uint32_t h)
 {
     switch (dim) {
@@ -62,6 +68,7 @@ const double *wr_lattice_gradient(int dim, uint32_t h)
     }
 }
 
+/* L13. x - floor(x) rounds to 1 for tiny negative x; 0 then. */
 double wr_hash_lecture(double x, double y, double salt)
 {
     double angle_rad = 12.3456 * x + 78.910 * y + (1.1235 + salt), sine, cosine;

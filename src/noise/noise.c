@@ -8,7 +8,9 @@
 #include <math.h>
 #include <string.h>
 
-/* A period of any integer number of cells, on one to three axes. */
+/* A period of any integer number of cells, on one to three axes.
+   step: the period must be a multiple of it, along each axis; 0 means that no period exists. works = false: no
+   such noise in that dimension. always: the construction has no aperiodic form. */
 #define ANY                                                                                        \
     {                                                                                              \
         [0] = { .works = true, .step = { 1 } }, [1] = { .works = true, .step = { 1, 1 } }, [2] = { \
@@ -97,7 +99,8 @@ static bool check_period(const WrNoise *noise, int axis, WrError *err)
     return true;
 }
 
-/* Number of lattice points of data; 0 if it exceeds possible memory. */
+/* Number of lattice points of data; 0 if it exceeds possible memory.
+   The data index is c[0] + period[0] (c[1] + period[1] c[2]): x runs fastest. */
 static size_t data_points(const WrNoise *noise)
 {
     size_t count = 1;
@@ -167,6 +170,8 @@ double wr_noise_perlin_scale(int dim)
     return scale[dim - 1];
 }
 
+/* One hash of the point is the value; slopes are derived from it by a second hash per axis, so that value and
+   slope are independent. */
 static double prescribed_by_hash(const WrNoise *noise, const uint32_t *c, double *slope)
 {
     uint32_t h = wr_lattice_hash(noise->lattice.seed, c, noise->dim);
@@ -182,6 +187,8 @@ static double prescribed_by_hash(const WrNoise *noise, const uint32_t *c, double
     return wr_lattice_number(h);
 }
 
+/* L13: fract(5678.1234 sin(12.3456 x + 78.910 y + 1.1235 + salt)), double only; float results are uncorrelated
+   (HC66). Slopes of axis a use the next salts. Values 0..1 are scaled to -1..1. */
 static double prescribed_by_lecture(const WrNoise *noise, const uint32_t *c, double *slope)
 {
     double x = c[0], y = noise->dim > 1 ? c[1] : 0.0, salt = noise->lattice.seed;
@@ -219,6 +226,8 @@ double wr_noise_lattice_value(const WrNoise *noise, const uint32_t *c, double *s
     }
 }
 
+/* A convex combination of planes f_k + g_k.(t - p_k): |f| <= max |f_k| + max |g| sqrt(d)/2. Slopes from the
+   hash are in -1..1 per axis, so |g| <= sqrt(d), which is 1 + d/2 in all. */
 double wr_noise_bound(const WrNoise *noise)
 {
     const WrLattice *lattice = &noise->lattice;
@@ -248,7 +257,9 @@ static WrNoiseBlend blend(const WrNoiseBlend *p, const WrNoiseBlend *q, int dim,
 }
 
 /* Blends 2^dim corners along each axis in turn; corner k is at 1 along axis a if bit a of k is set. x:
- * the position in the cube, 0..1. corner is overwritten. Returns f, its gradient in slope[dim]. */
+ * the position in the cube, 0..1. corner is overwritten. Returns f, its gradient in slope[dim].
+   corner[k]: bit a of k is 1 at the far side of axis a. Blending axis 0 halves the array, pairs being
+   neighbours; then axis 1 and so on. 2^d - 1 blends; corners are overwritten. */
 static double noise_blend(const WrFadeInfo *fade, int dim, const double *x, WrNoiseBlend *corner,
                           double *slope)
 {
@@ -262,7 +273,9 @@ static double noise_blend(const WrFadeInfo *fade, int dim, const double *x, WrNo
 }
 
 /* Value, gradient and perlin noise: successive blends along each axis of the 2^d corners' planes
- * lambda_k = f_k + g_k . (t - p_k). */
+ * lambda_k = f_k + g_k . (t - p_k).
+ * t is reduced to 0 .. period; far wraps to 0 by comparison, not by a ceiling, which would be wrong at
+ * integers (L9). */
 static double cells(const WrNoise *noise, const double *t, double *slope)
 {
     const WrFadeInfo *fade = &wr_fades[noise->fade];
@@ -287,6 +300,8 @@ static double cells(const WrNoise *noise, const double *t, double *slope)
     return noise_blend(fade, dim, x, corner, slope);
 }
 
+/* A period is reduced exactly in double (HC61). Without a period coordinates beyond 2^40 are folded, so that
+   the casts to integers are defined and fractions keep 12 bits. */
 static double noise_simplex(const WrNoise *noise, const double *t, double *slope);
 
 static double noise_sheared(const WrNoise *noise, const double *t, double *slope);
@@ -337,7 +352,8 @@ static const Skew skews[MAX_MOST + 1] = {
 };
 
 /* A corner's term of the sum: (m^4)(g . x), m = reach - |x|^2 where that is positive; adds its gradient
- * m^4 g - 8 m^3 (g . x) x to slope. */
+ * m^4 g - 8 m^3 (g . x) x to slope.
+ * The power 4 makes value, slope and second derivative continuous where m reaches 0. */
 static double corner_part(int dim, double reach, const double *gradient, const double *x,
                           double *slope)
 {
@@ -372,6 +388,9 @@ static uint32_t corner_hash(int dim, const WrLattice *lattice, const int64_t *q)
     return wr_lattice_hash(lattice->seed, c, dim);
 }
 
+/* rank[a] counts the axes whose fraction is smaller: corner k has stepped along the k axes of highest rank.
+   Ties go to the first axis; both choices are equal there (HC67). y = x - up + k G is the distance from corner
+   k, back in the unskewed space. */
 static double simplex(int dim, const WrLattice *lattice, const double *t, double *slope)
 {
     const Skew *skew = &skews[dim];
@@ -465,7 +484,9 @@ static double simplices(const WrLattice *lattice, const double *t, double *slope
 }
 
 /* A period of P cells becomes a circle of circumference P: with R = P/(2 pi) and angle 2 pi t/P,
- * (p, q) = R (cos, sin) and df/dt = -sin df/dp + cos df/dq. */
+ * (p, q) = R (cos, sin) and df/dt = -sin df/dp + cos df/dq.
+ * The torus (p, q, r, s) is flat: distances along it are those of the table, so the noise has no stretched
+ * places. */
 static double on_torus(const WrNoise *noise, const double *t, double *slope,
                        double (*four)(const WrLattice *, const double *, double *))
 {

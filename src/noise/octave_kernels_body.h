@@ -7,6 +7,10 @@
 #include <immintrin.h>
 #endif
 
+/* Counts are rounded up to whole vectors: arrays have room for it, and surplus lanes repeat the pattern
+   without being used.
+   t = f (i + 1/2) / W + offset in double: in float a cell far from 0 would lose the bits of x. Cells are
+   stored relative to the first, which keeps them small. */
 static void place(const WrFadeInfo *fade, double frequency, double offset, int i, int width,
                   WrNoiseColumns *columns)
 {
@@ -24,6 +28,7 @@ static void place(const WrFadeInfo *fade, double frequency, double offset, int i
     }
 }
 
+/* v = 1 - (j + 1/2) / height: rows run down, v up. */
 static void stand(const WrFadeInfo *fade, double frequency, double offset, int j, int height,
                   WrNoiseRows *rows)
 {
@@ -39,12 +44,14 @@ static void stand(const WrFadeInfo *fade, double frequency, double offset, int j
     }
 }
 
-/* wr_lattice_number in float: exact. */
+/* wr_lattice_number in float: exact.
+   The upper 23 bits h' as (2 h' + 1) / 2^23 - 1: odd multiples of 2^-23 in (-1, 1), symmetric and never 0. */
 static inline float number(uint32_t h)
 {
     return (float)(2 * (int32_t)(h >> 9) + 1) * 0x1p-23f - 1.0f;
 }
 
+/* The hash's link for y is the only one left for a row; a slope of Perlin noise is one of 16, already scaled. */
 static void prescribe(WrNoiseKind kind, const WrNoiseColumns *columns, uint32_t part,
                       WrNoiseLattice *row)
 {
@@ -69,6 +76,8 @@ static void prescribe(WrNoiseKind kind, const WrNoiseColumns *columns, uint32_t 
     }
 }
 
+/* At column k and height y within the cell the noise is a function of x alone: value a + b x, and df/dy = c +
+   d x. The next point contributes with x - 1. */
 static void blend(int points, const WrNoiseLattice *near, const WrNoiseLattice *far, float y,
                   float alpha, float rate, WrNoiseBlended *out)
 {
@@ -83,7 +92,8 @@ static void blend(int points, const WrNoiseLattice *near, const WrNoiseLattice *
     }
 }
 
-/* Heights and slopes from the blended rows, in plain C; the vector versions below compute the same. */
+/* Heights and slopes from the blended rows, in plain C; the vector versions below compute the same.
+   p and q are the contributions of the points left and right of the texel, mixed by alpha(x), the fade. */
 static void plain_heights(const WrNoiseColumns *columns, const WrNoiseBlended *in,
                           float *restrict f)
 {
@@ -140,6 +150,8 @@ static inline Lanes lanes_of(const int32_t *cell)
 }
 #endif
 
+/* narrow: at most half a cell per texel, so the texels of a vector need at most LANES / 2 + 1 points and one
+   load per array. */
 static void heights(const WrNoiseColumns *columns, const WrNoiseBlended *in, float *restrict f)
 {
 #ifdef LANES
@@ -159,7 +171,8 @@ static void heights(const WrNoiseColumns *columns, const WrNoiseBlended *in, flo
     plain_heights(columns, in, f);
 }
 
-/* a and b of a lattice row, as in `blend`. */
+/* a and b of a lattice row, as in `blend`.
+   c and d are needed for slopes only. */
 static inline void blend_heights(int points, const WrNoiseLattice *near, const WrNoiseLattice *far,
                                  float y, float alpha, WrNoiseBlended *out)
 {
@@ -171,6 +184,7 @@ static inline void blend_heights(int points, const WrNoiseLattice *near, const W
     }
 }
 
+/* magnitude: factor |f| - below, of billow 2 |f| - 1 (L6). */
 static inline void count_in(WrNoiseShare share, const float *restrict f, int count,
                             float *restrict n)
 {
@@ -183,6 +197,8 @@ static inline void count_in(WrNoiseShare share, const float *restrict f, int cou
     for (int i = 0; i < count; i++) n[i] += share.factor * f[i];
 }
 
+/* Up to LANES lattice points per strip: a and b of the whole row are one register each, and V_TAKE picks a
+   texel's point from it. */
 #ifdef LANES
 /* Few points: they stay in registers, so that a row is blended once for all its texels. */
 static inline Vec v_share(WrNoiseShare share, Vec f, Vec n)
@@ -191,6 +207,7 @@ static inline Vec v_share(WrNoiseShare share, Vec f, Vec n)
     return V_ADD(n, V_SUB(V_MUL(V_SET(share.factor), V_ABS(f)), V_SET(share.below)));
 }
 
+/* The remainder is stored apart: n has no room beyond `count`, because it is the caller's row. */
 static inline void sum_row(const WrNoiseColumns *columns, const Vec a, const Vec b,
                            WrNoiseShare share, float *restrict n)
 {
@@ -211,6 +228,7 @@ static inline void sum_row(const WrNoiseColumns *columns, const Vec a, const Vec
     }
 }
 
+/* Loads f, gx, gy of both lattice rows once for all texel rows between them. */
 static void sum_few(const WrNoiseColumns *columns, const WrNoiseLattice *near,
                     const WrNoiseLattice *far, const WrNoiseRows *rows, int first, int count,
                     WrNoiseShare share, float *n, size_t pitch)
@@ -227,6 +245,7 @@ static void sum_few(const WrNoiseColumns *columns, const WrNoiseLattice *near,
 }
 #endif
 
+/* V_DEAL loads whole vectors, so lanes beyond `points` are set once. */
 static void sum(const WrNoiseColumns *columns, const WrNoiseLattice *near,
                 const WrNoiseLattice *far, const WrNoiseRows *rows, int first, int count,
                 WrNoiseShare share, float *n, size_t pitch)
@@ -247,12 +266,14 @@ static void sum(const WrNoiseColumns *columns, const WrNoiseLattice *near,
     }
 }
 
+/* In double: level + amplitude f is rounded once. */
 static void scale(double level, double amplitude, int count, float *restrict f)
 {
 #pragma omp simd
     for (int i = 0; i < count; i++) f[i] = (float)(level + amplitude * (double)f[i]);
 }
 
+/* fx has the term rate (q - p) because alpha depends on x; fy has its own in c and d. */
 static void slopes(const WrNoiseColumns *columns, const WrNoiseBlended *in, float *restrict fx,
                    float *restrict fy)
 {

@@ -36,6 +36,7 @@ static void add_ridge(const WrOctavesPlan *plan, double amplitude, double f, con
     sum->w = next < 1.0 ? next : 1.0;
 }
 
+/* N = sum r^-i f(s^i p + offset_i) (L6) and its modes; the gradient by the chain rule with s^i n0. */
 static void add_octave(const WrOctavesPlan *plan, const WrOctave *octave, const double *p, Sum *sum)
 {
     double t[WR_NOISE_AXES], d[WR_NOISE_AXES], amplitude = octave->amplitude;
@@ -63,6 +64,7 @@ double wr_octaves_at(const WrOctavesPlan *plan, const double *p, double *slope)
     return sum.n;
 }
 
+/* n(p + amount w(p)): the gradient is d + amount W^T d, with W the Jacobian of the warp. */
 double wr_octaves_warped_at(const WrOctavesPlan *plan, const WrOctavesPlan *const *warp,
                             double amount, const double *p, double *slope)
 {
@@ -101,6 +103,7 @@ WrOctaves wr_octaves_default(int dim)
     };
 }
 
+/* Octave i has n0 s^i cells; one cell must have two texels at least (HC62). */
 int wr_octaves_usable(double n0, double s, int texels)
 {
     double limit = texels > 0 ? 0.5 * texels : WR_LATTICE_MAX;
@@ -126,6 +129,7 @@ static bool check_above_one(const char *what, double value, WrError *err)
                    wr_number_print(value, bad));
 }
 
+/* At least one cell per period; a cell of 1e-9 is the limit where frequency * p stays exact enough. */
 static bool check_cells(const WrOctaves *octaves, WrError *err)
 {
     for (int a = 0; a < octaves->dim; a++) {
@@ -161,7 +165,8 @@ static bool check_octaves(const WrOctaves *octaves, WrError *err)
     return true;
 }
 
-/* The number of cells nearest to n that is a valid period of the kind, at least one step. */
+/* The number of cells nearest to n that is a valid period of the kind, at least one step.
+   HC68: the rounded count is used both as frequency and as period, so that the table tiles exactly for any s. */
 static int repeat_cells(const WrOctaves *octaves, int axis, double n)
 {
     int step = 1;
@@ -197,7 +202,8 @@ static void place_octave(const WrOctaves *octaves, int i, int axis, double n, Wr
     }
 }
 
-/* The largest value of one octave's term, for |f| <= most. */
+/* The largest value of one octave's term, for |f| <= most.
+   Of 2 |f| - 1 for 0 <= |f| <= most, and of (o - |f|)^2 at either end. */
 static double term_bound(const WrOctaves *octaves, double most)
 {
     double o = octaves->ridge_offset, far = fabs(o - most);
@@ -211,6 +217,8 @@ static double term_bound(const WrOctaves *octaves, double most)
     return most;
 }
 
+/* Every octave has its own seed, otherwise their lattices would coincide at the origin and add up there. bound
+   is the sum of amplitudes times bounds, an upper limit only. */
 bool wr_octaves_plan(const WrOctaves *octaves, const int *texels, WrOctavesPlan *plan, WrError *err)
 {
     if (!check_octaves(octaves, err)) return false;

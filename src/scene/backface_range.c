@@ -12,7 +12,9 @@
 #define HOLES 2      /* maximum for a surface */
 #define SAME 1e-6    /* relative to the radius: the points are equal */
 
-/* Vector areas of holes, object space: a hole seen from its opposite side shows the back. */
+/* Vector areas of holes, object space: a hole seen from its opposite side shows the back.
+   A closed surface has the vector area 0, so half the sum of p x dp around the border is the area of the
+   missing part. Seen along `look` with area . look > 0 the view passes through the hole and meets the inside. */
 typedef struct Holes {
     WrVec3 area[HOLES];
     int count;
@@ -22,7 +24,9 @@ typedef struct Edge {
     WrVec3 p[EDGE + 1];
 } Edge;
 
-/* side: 0 v = 0, 1 u = 1, 2 v = 1, 3 u = 0; each oriented counter-clockwise about N. */
+/* side: 0 v = 0, 1 u = 1, 2 v = 1, 3 u = 0; each oriented counter-clockwise about N.
+   Counter-clockwise: the border then turns about the same side as N, and joined edges of a face run in
+   opposite directions. */
 static Edge edge_of(const WrShape *shape, int face, int side)
 {
     Edge edge;
@@ -53,7 +57,9 @@ static WrVec3 swept(const Edge *edge, WrVec3 from)
 }
 
 /* The holes of one face, from its four sides: two if it is closed in one direction, one around all of
- * it if open. */
+ * it if open.
+ * At a pole an edge is a point and its area 0. A tube has two holes that must not cancel, so each is measured
+ * apart. */
 static void face_holes(const WrShape *shape, int face, double near, Holes *out)
 {
     Edge edge[4];
@@ -102,7 +108,8 @@ static Holes holes_of(const WrScene *object, double radius)
     return holes;
 }
 
-/* The area of the holes that faces the viewer. */
+/* The area of the holes that faces the viewer.
+   Directions transform to object space by the cofactors, as normals do. */
 static double seen(const Holes *holes, const WrPlacement *place)
 {
     const WrVec3 look = v3_times(wr_place_turn_back(place, place->forward), place->cofactor);
@@ -111,6 +118,7 @@ static double seen(const Holes *holes, const WrPlacement *place)
     return sum;
 }
 
+/* CLEARLY is the least increase over the view at turn 0: small glimpses at the rim do not count. */
 static bool object_shows(const WrScene *part)
 {
     WrPlacement place;

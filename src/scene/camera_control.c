@@ -55,6 +55,8 @@ void wr_camera_control_side(WrScene *scene, WrSide side)
         (WrVec3){ right_angle(pose[0]), right_angle(pose[1]), right_angle(pose[2]) };
 }
 
+/* Longitude and latitude of the eye about the target. STEEPEST keeps the view off the poles, where the
+   longitude is undefined. */
 void wr_camera_control_orbit(WrScene *scene, double right_deg, double up_deg)
 {
     WrCamera *camera = &scene->camera;
@@ -95,6 +97,8 @@ bool wr_camera_control_pan(WrScene *scene, double right, double up, double aspec
     const double height = 2 * place.half_height * (place.orthographic ? 1 : away);
     const WrVec3 by = v3_mad(v3_scale(place.right, right * height), place.up, up * height);
     camera->eye = v3_add(camera->eye, by);
+    /* At the target's distance the picture is 2 half_height away high: the point under the pointer follows it
+       exactly. */
     camera->target = v3_add(camera->target, by);
     return true;
 }
@@ -110,6 +114,8 @@ bool wr_camera_control_dolly(WrScene *scene, double factor, double aspect, WrErr
 }
 
 /* ---- filling the picture ---- */
+
+/* One pass over the objects' points determines the closest eye from which all are visible; no iteration. */
 
 #define SLOPES 32
 
@@ -136,6 +142,7 @@ static Reach reach_start(WrVec3 right, WrVec3 up, WrVec3 forward, double slope_x
     return r;
 }
 
+/* least and most are maxima, so points can come in any order; for each point SLOPES multiplications per axis. */
 static void reach_point(Reach *r, WrVec3 p)
 {
     const double z = v3_dot(r->forward, p), at[2] = { v3_dot(r->right, p), v3_dot(r->up, p) };
@@ -148,13 +155,16 @@ static void reach_point(Reach *r, WrVec3 p)
     r->near = fmin(r->near, z), r->far = fmax(r->far, z);
 }
 
-/* Maximum depth of a tip of that slope. */
+/* Maximum depth of a tip of that slope.
+   A tip at e contains all points if most <= ex - k ez and least <= -ex - k ez; the sum of both bounds ez. */
 static double tip(const Reach *r, int axis, int k)
 {
     return -(r->least[axis][k] + r->most[axis][k]) / (2 * r->slope[axis][k]);
 }
 
-/* Lateral position of a tip at depth `eye`: interpolated between two slopes. */
+/* Lateral position of a tip at depth `eye`: interpolated between two slopes.
+   If the picture is limited by the other axis, the eye is farther away than this axis needs; then the
+   narrowest pyramid with its tip at that depth centres the object. */
 static double across(const Reach *r, int axis, double eye)
 {
     int k = SLOPES - 1;
@@ -200,6 +210,8 @@ static void reach_object(Reach *r, const WrScene *object, const Turns *turns)
             }
 }
 
+/* At most TURNS steps of 5 degrees for a whole turn; between two steps a point leaves the chord by 0.1 % of
+   its distance from the axis, which MARGIN covers. */
 static bool place_turns(const WrScene *part, double from, double to, Turns *out, WrError *err)
 {
     const double radius = wr_shape_radius(&part->shape);
@@ -227,6 +239,7 @@ static bool reach_all(Reach *r, const WrScene *scene, double turn_from, double t
     return true;
 }
 
+/* near - least: the eye stays outside the objects even where the pyramid would allow it inside. */
 bool wr_camera_control_fill(WrScene *scene, double aspect, double turn_from, double turn_to,
                             WrError *err)
 {

@@ -1,4 +1,7 @@
-/* The table of dials. */
+/* The table of dials.
+   A dial is one approximation with its rungs: `choices` names, or a list of numbers for the ladder in `rungs`
+   (NAN ends it). get and set work on any scene, so that commands, the ladder, the tolerance search and the
+   window need no code per dial. */
 #include "scene/dials.h"
 
 #include "base/enum_rows.h"
@@ -76,6 +79,7 @@ static const char *normal_name(int rung)
 
 /* ---- access ---- */
 
+/* Every value is a double at this interface, also choices and whole numbers; set casts back. */
 #define MEMBER(name, type, member)                                                                 \
     static double get_##name(const WrScene *scene)                                                 \
     {                                                                                              \
@@ -111,6 +115,9 @@ MEMBER(shading, WrShading, dials.shading)
 MEMBER(arithmetic, WrArithmetic, dials.arithmetic)
 
 /* ---- relevance ---- */
+
+/* matters(scene) is false where another value could not change the picture: such rungs are neither measured
+   nor shown. */
 
 static bool with_table(const WrScene *scene)
 {
@@ -300,6 +307,8 @@ const WrDial wr_dials[WR_DIAL_COUNT] = {
 };
 WR_ROWS_END(wr_dials, WR_DIAL_COUNT);
 
+/* `fallback` has no lights, images or shape; get functions read plain members only. With all = false only
+   differences from the defaults are printed, which is the form that documents hold. */
 void wr_dials_print(const WrScene *scene, const char *command, bool all, WrText *text)
 {
     WrScene fallback = { .dials = wr_dials_default() };

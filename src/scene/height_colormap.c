@@ -45,6 +45,7 @@ static void ease(const double own[3], const double where[2], double at, double r
     mix(from, own, t * t * (3 - 2 * t), rgb);
 }
 
+/* Stops are in ascending order of height; below the first and above the last the colour is constant. */
 void wr_height_colormap_at(const WrHeightColormap *colouring, double height, double slope_deg,
                            double rgb[3])
 {
@@ -100,7 +101,8 @@ static WrField *means_of(const WrHeightColormap *colouring, const WrField *field
 
 /* ---- for a terrain ---- */
 
-/* Computes its heights, and its colours without hollows, on a table of w x h. */
+/* Computes its heights, and its colours without hollows, on a table of w x h.
+   Heights of the terrain without its exaggeration, so that a colour stays at its place when `height` changes. */
 static bool form_rows(const WrHeightColormap *colouring, const WrPatches *set, double height,
                       WrField *heights, WrImage **image, WrError *err)
 {
@@ -152,7 +154,9 @@ WrImage *wr_height_colormap_form(const WrHeightColormap *colouring, const WrPatc
 
 /* ---- for a table ---- */
 
-/* Row j; rows: those above, at and below it, each with one more texel at both ends. */
+/* Row j; rows: those above, at and below it, each with one more texel at both ends.
+   Central differences over two texels, in scene units of a cell of size 1; rows run down, so v has the
+   opposite order. */
 static void table_row(const WrHeightColormap *colouring, double height, int j, const float *rows,
                       const float *means, WrImage *image)
 {
@@ -167,6 +171,8 @@ static void table_row(const WrHeightColormap *colouring, double height, int j, c
     }
 }
 
+/* rows holds three rows of w + 2 floats and a fourth for the means; reading beyond the table wraps or extends
+   as the table does. */
 WrImage *wr_height_colormap_table(const WrHeightColormap *colouring, const WrField *field,
                                   double height, WrError *err)
 {

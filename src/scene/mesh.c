@@ -9,6 +9,8 @@
 #include <math.h>
 #include <string.h>
 
+/* The shape carries centre, radius and key as numbers, so that two shapes compare by their values without the
+   mesh. The 64-bit key is two whole doubles below 2^32. */
 void wr_scene_set_triangles(WrScene *scene, WrTriangles *triangles, const char *path,
                             const char *sha256)
 {
@@ -35,13 +37,15 @@ size_t wr_scene_mesh_bytes(const WrTriangles *triangles)
            (size_t)triangles->triangle_count * sizeof *triangles->triangles;
 }
 
+/* Documents store numbers as a float picture: rows of `width` values, the last one padded with 0. */
 #define NARROW 4096 /* width in pixels for meshes of up to this many rows */
 
 /* ---- storage in documents ------------------------------------------------------------------------- */
 
 /* Format of several different meshes in one picture: SEVERAL, the number of objects, for each the index
    of its mesh (from 1; 0: none), the number of meshes, the length of each as high * UNIT + low; then
-   the meshes. A single mesh is stored alone, and never begins with SEVERAL. */
+   the meshes. A single mesh is stored alone, and never begins with SEVERAL.
+   floats hold whole numbers up to 2^24, so a length is two digits of base 65536. */
 #define SEVERAL (-1.0F)
 #define UNIT 65536
 
@@ -51,6 +55,7 @@ typedef struct Kept {
     int of[WR_OBJECTS_MAX]; /* from 1; 0: none */
 } Kept;
 
+/* Meshes are compared by key: copies of an object store their mesh once. */
 static Kept kept_of(const WrScene *scene)
 {
     Kept kept = { .objects = wr_scene_object_count(scene) };
@@ -132,7 +137,8 @@ static int whole(float x, int low, int high)
     return (double)x >= low && (double)x <= high && x == floorf(x) ? (int)x : -1;
 }
 
-/* Position of an object's mesh in a picture of several; false: none, or the picture is damaged. */
+/* Position of an object's mesh in a picture of several; false: none, or the picture is damaged.
+   Each number is checked before it is used as an index: the file may be damaged on purpose. */
 static bool find_block(const float *block, size_t count, int object, size_t *from, size_t *length)
 {
     const int objects = count > 2 ? whole(block[1], 1, WR_OBJECTS_MAX) : -1;

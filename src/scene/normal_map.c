@@ -14,6 +14,9 @@
 
 /* ---- numbers ------------------------------------------------------------------------------------- */
 
+/* A map becomes unit vectors in float, x to the right, y up, z out of the surface, at reading; everything
+   after it ignores the file's coding (NUMERICS-SCENES b). */
+
 typedef struct Reading {
     const WrImage *from;
     int channels;
@@ -33,7 +36,9 @@ static const float *texel_of(const Reading *r, size_t i)
     return r->from->data + i * (size_t)r->from->channels;
 }
 
-/* True if more than half of the texels have the code above the middle in x and y. */
+/* True if more than half of the texels have the code above the middle in x and y.
+   Without a code for 0 a flat map of 8 bits is tilted by 0.318 degrees; many tools mean 128 (or 32768) as 0.
+   If most of the map has that code it is taken for 0, and the codes above and below are scaled alike (HC137). */
 static bool is_centred(const Reading *r)
 {
     const double middle = (r->last + 1) / 2;
@@ -70,7 +75,8 @@ static bool is_converted(const Reading *r)
 
 /* ---- vectors ------------------------------------------------------------------------------------- */
 
-/* Stores a unit vector; true if it faced away from a tangent plane. */
+/* Stores a unit vector; true if it faced away from a tangent plane.
+   z below WR_NORMAL_MIN would make the slope -x/z infinite or flip its sign (HC139). */
 static bool put_vector(double x, double y, double z, bool object, float out[3])
 {
     const bool away = !object && z < WR_NORMAL_MIN;
@@ -80,7 +86,9 @@ static bool put_vector(double x, double y, double z, bool object, float out[3])
     return away;
 }
 
-/* Reads one texel. */
+/* Reads one texel.
+   Two channels: z = sqrt(1 - x^2 - y^2); outside the unit circle z is 0 and the vector is scaled to the rim
+   (HC138). off is the deviation of the stored length from 1, a sign of wrong coding. */
 static void read_vector(const Reading *r, size_t i, float out[3], WrNormalMapReport *report)
 {
     const float *t = texel_of(r, i);
@@ -110,13 +118,19 @@ void wr_normal_map_slopes(const float n[3], double *p, double *q)
 
 /* ---- the sign of green --------------------------------------------------------------------------- */
 
+/* Heights exist only if D_v p = D_u q (mixed second derivatives). For a true sign of green the sum of D_v p
+   D_u q is that of F_uv squared, hence positive; for the wrong sign it is negative. f(u) + g(v) has F_uv = 0:
+   undecided (HC140). */
+
 static const float *vector_at(const WrImage *image, int i, int j)
 {
     const int x = (i + image->width) % image->width, y = (j + image->height) % image->height;
     return image->data + ((size_t)y * (size_t)image->width + (size_t)x) * 3;
 }
 
-/* sum of D_v p D_u q, rows upwards; noise: standard deviation from rounding of codes by `step`. */
+/* sum of D_v p D_u q, rows upwards; noise: standard deviation from rounding of codes by `step`.
+   Errors of the four ends are independent with standard deviation e each, so those of dp and dq have 2 e^2;
+   the variance of dp dq is 2 e^2 (dp^2 + dq^2) + 4 e^4. */
 static double twist(const WrImage *image, double step, double *noise)
 {
     double sum = 0, squares = 0;
@@ -234,6 +248,8 @@ WrImage *wr_normal_map_read_object(const WrImage *from, bool green_down, WrCodin
         return NULL;
     }
     WrImage *to = read_vectors(&r, coding, report, err);
+    /* Documents store maps as they were decoded; a changed file must not bring vectors of other lengths into
+       the shading. */
     report->green_down = green_down;
     if (to && green_down) turn_green(to);
     return to;

@@ -11,7 +11,11 @@
 
 /* Maximum displacement of a displaced surface from its base, in the object's units, for table heights
    of -1..1 or the bound of its formula; 0: not displaced. The table's heights are not used: a camera
-   must not move while the user paints. */
+   must not move while the user paints.
+   A scene is one active object, which is the WrScene itself, and `others`: complete scenes of one object each,
+   shared and immutable, in the order of all objects without the active one. Object i is others[i] before
+   `chosen` and others[i - 1] after it. Settings of the whole scene (lights, camera, dials) count only in the
+   active one; under() copies them where needed. */
 static double scene_stands_out(const WrScene *object);
 
 /* ---- place ---- */
@@ -55,14 +59,17 @@ static WrVec3 turned(const double m[9], WrVec3 p)
                      m[6] * p.x + m[7] * p.y + m[8] * p.z };
 }
 
-/* A size relative to the largest, at least the thinnest; 0 becomes positive. */
+/* A size relative to the largest, at least the thinnest; 0 becomes positive.
+   WR_THINNEST instead of 0: cofactors divide by it, and rays to object space too (HC153). */
 static double part_of(double size, double largest)
 {
     const double part = size / largest;
     return part < 0 ? fmin(part, -WR_THINNEST) : fmax(part, WR_THINNEST);
 }
 
-/* Cofactors of the stretch times the sign of its determinant: |s1 s2 s3| / s. */
+/* Cofactors of the stretch times the sign of its determinant: |s1 s2 s3| / s.
+   The normal of a stretched surface is n / s per component, up to a factor; the product of all sizes keeps it
+   finite. The sign of the determinant keeps it outward for mirrored objects (HC34). */
 static void place_stretch(WrVec3 sizes, WrPlacement *out)
 {
     const double largest = fmax(fabs(sizes.x), fmax(fabs(sizes.y), fabs(sizes.z)));
@@ -92,7 +99,9 @@ bool wr_scene_is_thin(const WrScene *scene)
     return place.stretched && fmin(fabs(s.x), fmin(fabs(s.y), fabs(s.z))) < 1.0 / 32;
 }
 
-/* Turntable Ry(turn) after the pose Rz Ry Rx; it also rotates the object's position. */
+/* Turntable Ry(turn) after the pose Rz Ry Rx; it also rotates the object's position.
+   Columns of `rotation` are the object's axes in the world. Poses rotate about the world's x, then y, then z
+   axis, the turntable about y last, in one product, rebuilt for each frame: no drift (HC88). */
 static void place_object(const WrScene *scene, double turn_deg, WrPlacement *out)
 {
     const double *pose = wr_surfaces[scene->shape.kind]->pose_deg;
@@ -118,6 +127,8 @@ static WrVec3 other_up(WrVec3 forward)
     return (WrVec3){ 0, 1, 0 };
 }
 
+/* right = forward x up. If that product is short its direction consists of rounding errors: it is made
+   perpendicular to `forward` again. */
 static void place_axes(const WrCamera *camera, WrVec3 forward, WrPlacement *out)
 {
     const WrVec3 none = { 0, 0, 0 };
@@ -164,6 +175,7 @@ static double fit_distance(double ball, double margin, double half_height, doubl
     return ball * sqrt(1 + margin / half * (margin / half));
 }
 
+/* widen shows at least the width of `frame` in narrower pictures: half_height grows by frame / aspect. */
 static void place_camera(const WrCamera *camera, double aspect, WrPlacement *out)
 {
     WrVec3 back = v3_unit(v3_sub(camera->eye, camera->target), (WrVec3){ 0, 0, 1 });
@@ -196,6 +208,7 @@ bool wr_scene_place(const WrScene *scene, double turn_deg, double aspect, WrPlac
     return wr_scene_place_sized(scene, wr_shape_radius(&scene->shape), turn_deg, aspect, out, err);
 }
 
+/* The scene is placed even if the object's mesh is large: `radius` is the caller's, who may have cached it. */
 bool wr_scene_place_sized(const WrScene *scene, double radius, double turn_deg, double aspect,
                           WrPlacement *out, WrError *err)
 {
@@ -232,6 +245,7 @@ WrVec3 wr_place_turn_back(const WrPlacement *place, WrVec3 w)
                      m[2] * w.x + m[5] * w.y + m[8] * w.z };
 }
 
+/* The inverse of the stretch after the inverse rotation; for directions and differences of points. */
 WrVec3 wr_place_shrink_back(const WrPlacement *place, WrVec3 w)
 {
     const WrVec3 own = wr_place_turn_back(place, w), s = place->stretch;
@@ -239,6 +253,8 @@ WrVec3 wr_place_shrink_back(const WrPlacement *place, WrVec3 w)
     return (WrVec3){ own.x / s.x, own.y / s.y, own.z / s.z };
 }
 
+/* Gradients and other duals transform by the transposed map: w.p stays equal if p is transformed by the
+   inverse. */
 WrVec3 wr_place_dual_back(const WrPlacement *place, WrVec3 w)
 {
     const WrVec3 own = wr_place_turn_back(place, w);
@@ -287,6 +303,7 @@ int wr_scene_shown_count(const WrScene *scene)
     return shown;
 }
 
+/* `others` are owned references; scenes are freed when the last reference goes. */
 static void drop_others(WrScene *scene)
 {
     for (int i = 0; i < scene->other_count; i++) wr_scene_free(scene->others[i]);
@@ -314,7 +331,9 @@ static WrScene *under(const WrScene *scene, const WrScene *object)
     return made;
 }
 
-/* `object` as the active one at index `chosen`, the rest from list [count], which is consumed. */
+/* `object` as the active one at index `chosen`, the rest from list [count], which is consumed.
+   The list becomes the new scene's property. The index of the active object stays its place in the order of
+   all. */
 static WrScene *join(const WrScene *scene, const WrScene *object, WrScene **list, int count,
                      int chosen)
 {
@@ -421,6 +440,7 @@ WrScene *wr_scene_rename_layer(const WrScene *scene, const char *from, const cha
     return made;
 }
 
+/* Each other object is cloned before the change: it may be shared with snapshots of the undo history. */
 void wr_scene_set_all_slopes(WrScene *scene, bool scheme, bool normals)
 {
     for (int i = 0; i < scene->other_count; i++) {
@@ -433,6 +453,7 @@ void wr_scene_set_all_slopes(WrScene *scene, bool scheme, bool normals)
     }
 }
 
+/* Removing the active object activates its predecessor; indices after the removed one shift by one. */
 WrScene *wr_scene_remove_object(const WrScene *scene, int i)
 {
     const int at_hand = scene->chosen == i ? (i > 0 ? i - 1 : i + 1) : scene->chosen;
@@ -443,7 +464,9 @@ WrScene *wr_scene_remove_object(const WrScene *scene, int i)
     return join(scene, wr_scene_object(scene, at_hand), list, count, at_hand - (at_hand > i));
 }
 
-/* Cached radius of an object in a scene, which is immutable. */
+/* Cached radius of an object in a scene, which is immutable.
+   Radius 0 means not computed. Two threads may compute it at once; both store the same bits, and relaxed order
+   suffices because nothing else depends on the store. */
 static double kept_radius(WrScene *object)
 {
     double radius;
@@ -460,6 +483,8 @@ static double radius_of(const WrScene *scene, int i)
     return kept_radius(scene->others[i < scene->chosen ? i : i - 1]);
 }
 
+/* Objects that the turntable leaves in place (a ground plane) would make a fitted camera step back; they count
+   only if nothing else is shown. */
 bool wr_scene_fit_includes(const WrScene *scene, int i)
 {
     int shown = 0, turned = 0;
@@ -480,6 +505,8 @@ static double scene_stands_out(const WrScene *object)
     return fabs(object->height) * (formula ? wr_analytic_amplitude(&object->analytic) : 1);
 }
 
+/* The radius of a sphere about the world's origin; it does not change with the turntable, so the camera stands
+   still. */
 double wr_scene_ball(const WrScene *scene, bool displaced)
 {
     double ball = 0;
@@ -492,6 +519,7 @@ double wr_scene_ball(const WrScene *scene, bool displaced)
     return ball;
 }
 
+/* Replaces `fit` by the numbers that it resolves to, so that a part of the scene is seen by the same camera. */
 void wr_scene_hold_camera(WrScene *scene, const WrScene *like, double aspect)
 {
     WrPlacement place;
@@ -503,6 +531,7 @@ void wr_scene_hold_camera(WrScene *scene, const WrScene *like, double aspect)
     if (camera->orthographic) camera->size = 2 * place.half_height / place.widen;
 }
 
+/* A still ground plane seen from below would cover everything: it is then left out. */
 bool wr_scene_shows(const WrScene *scene, int i, double aspect)
 {
     WrPlacement place;

@@ -12,7 +12,12 @@
     .components = 3, .high = 1e6, .fallback = { 0.032, 0.032, 0.032 }, .shape = "r,g,b"
 #define PLACE_RANGE .components = 3, .low = -1e9, .high = 1e9
 
-/* A vector is three consecutive doubles. */
+/* A vector is three consecutive doubles.
+   The table is the single description of a scene's numbers: commands, help, the window's sliders, files and
+   interpolation of views all read it. `place` is the member's offset in WrScene or WrLight. components is the
+   number of consecutive doubles, 0 a bool; low..high is the accepted range, SLIDER the range that is usual.
+   `sparse` members are written to files only where they differ from their fallback, so that old files stay the
+   same bytes; `planned` ones may change which effects run. */
 _Static_assert(sizeof(WrVec3) == 3 * sizeof(double), "vectors are read as numbers");
 _Static_assert(offsetof(WrScene, replicate_v) == offsetof(WrScene, replicate_u) + sizeof(double),
                "the two are read as one pair");
@@ -296,6 +301,7 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
 };
 WR_ROWS_END(wr_scene_params, WR_SCENE_PARAM_COUNT);
 
+/* Rows with a form (light directional / point) are alternatives: form NULL passes all. */
 const WrSceneParam *wr_scene_param(const char *command, const char *form, int i)
 {
     for (int k = 0; k < WR_SCENE_PARAM_COUNT; k++) {
@@ -321,6 +327,8 @@ void wr_scene_param_set(const WrSceneParam *param, void *owner, const double *va
     else memcpy(at, values, (size_t)param->components * sizeof *values);
 }
 
+/* Runs on zeroed memory too: each member of the table has its fallback afterwards; members outside of it are
+   untouched. */
 void wr_scene_params_reset(void *owner, bool of_light)
 {
     for (int k = 0; k < WR_SCENE_PARAM_COUNT; k++)

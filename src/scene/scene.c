@@ -51,6 +51,10 @@ static bool same_camera(const WrCamera *a, const WrCamera *b)
            a->size == b->size && a->frame == b->frame;
 }
 
+/* True if two scenes have equal normals, positions and (u,v) at all samples, so that only shading is computed
+   again (E76). Every member that reaches geometry must be compared here; a missing one shows as a stale
+   picture. Scenes of several objects count as different. memcmp is safe for WrShape: it is always copied
+   whole. */
 bool wr_scene_same_normals(const WrScene *a, const WrScene *b)
 {
     if (a == b) return true;
@@ -65,6 +69,8 @@ bool wr_scene_same_normals(const WrScene *a, const WrScene *b)
 }
 
 /* ---- named view ---- */
+
+/* Names are unique: a second view of the same name replaces the first. */
 
 int wr_scene_find_view(const WrScene *scene, const char *name)
 {
@@ -85,6 +91,7 @@ void wr_scene_name_view(WrScene *scene, const char *name, const WrSceneView *vie
     scene->views[scene->view_count++] = (WrNamedView){ wr_strdup(name), *view };
 }
 
+/* Order is kept: views are listed in the order of their creation. */
 void wr_scene_forget_view(WrScene *scene, int i)
 {
     wr_free(scene->views[i].name);
@@ -120,7 +127,9 @@ const char *const wr_background_names[WR_BACKGROUND_KINDS] = {
 WR_ROWS_END(wr_background_names, WR_BACKGROUND_KINDS);
 
 /* Interpolates two values evenly for the eye. Above 1, where codes are saturated, it is linear in
-   light. */
+   light.
+   The codes of 8-bit sRGB are even for the eye; interpolation in linear light would look dark in the lower
+   half. */
 static float between(double top, double bottom, double share)
 {
     if (top == bottom) return (float)top;
@@ -129,6 +138,7 @@ static float between(double top, double bottom, double share)
     return wr_srgb_decode((float)(a + (b - a) * share));
 }
 
+/* The first and the last row have exactly the given colours, whatever the height. */
 void wr_background_row(const WrBackground *background, int row, int height, float out[3])
 {
     const bool gradient = background->kind == WR_BACKGROUND_GRADIENT;
@@ -171,6 +181,7 @@ static void environment_copy(WrEnvironment *to, const WrEnvironment *from)
     *to = copy;
 }
 
+/* A new environment keeps turn and strength of the one before, so that maps can be compared. */
 void wr_environment_set(WrEnvironment *environment, WrEnvironmentMapKind kind,
                         WrEnvironmentMap *light, const char *path, const char *sha256)
 {
@@ -192,8 +203,11 @@ const char *const wr_tone_names[WR_TONE_KINDS] = {
 };
 WR_ROWS_END(wr_tone_names, WR_TONE_KINDS);
 
+/* The curve is y up to the knee k, then 1 - (1 - k)^2 / (y + 1 - 2k): value k and slope 1 at the knee, and 1
+   in the limit. The clip curve has the knee at infinity and needs no branch in kernels. */
 #define NO_KNEE 3.0e38f /* never reached by light */
 
+/* k = 1/2; y = exposure in powers of two times light. */
 WrToneCurve wr_tone_curve(const WrTone *tone)
 {
     return (WrToneCurve){ .gain = (float)exp2(tone->exposure),
@@ -278,6 +292,8 @@ void wr_texture_sample_fini(WrTextureSample *laid)
     *laid = (WrTextureSample){ 0 };
 }
 
+/* Copies members one by one: owned blocks are duplicated, immutable objects (images, triangles, other objects)
+   shared. A new member that is missing here stays 0 in every copy. */
 WrScene *wr_scene_clone(const WrScene *scene)
 {
     WrScene *clone = wr_alloc(1, sizeof *clone);
@@ -328,6 +344,7 @@ WrScene *wr_scene_clone(const WrScene *scene)
     return clone;
 }
 
+/* The members that belong to the scene and not to an object: lights, camera, dials, background and so on. */
 void wr_scene_take_shared(WrScene *scene, const WrScene *from)
 {
     wr_free(scene->lights);
@@ -363,12 +380,15 @@ void wr_scene_drop_colour(WrScene *scene)
     scene->colouring = (WrHeightColormap){ 0 };
 }
 
+/* own: repetitions of this picture alone; otherwise it follows the table's. */
 void wr_scene_repeat(const WrScene *scene, const WrTextureSample *laid, double *ru, double *rv)
 {
     *ru = laid->own ? laid->ru : scene->replicate_u;
     *rv = laid->own ? laid->rv : scene->replicate_v;
 }
 
+/* Relaxed: a new reference needs an existing one, so no other memory is ordered by it. The last release
+   acquires, so that all writes of other threads are visible before memory is freed. */
 WrScene *wr_scene_share(const WrScene *scene)
 {
     WrScene *shared = (WrScene *)scene; /* only the reference count changes */
@@ -402,6 +422,7 @@ void wr_scene_free(WrScene *scene)
     wr_free(scene);
 }
 
+/* shared first, then freed: the shape may be the scene's own. */
 void wr_scene_set_shape(WrScene *scene, const WrShape *shape)
 {
     const WrSurfaceData *old = scene->shape.data, *shared = wr_surface_data_share(shape->data);
@@ -410,6 +431,7 @@ void wr_scene_set_shape(WrScene *scene, const WrShape *shape)
     wr_surface_data_free((WrSurfaceData *)old);
 }
 
+/* of_one: the pose of a single object is part of its view; among several, only the camera is. */
 WrSceneView wr_scene_view(const WrScene *scene)
 {
     const bool one = scene->other_count == 0;
@@ -418,6 +440,7 @@ WrSceneView wr_scene_view(const WrScene *scene)
     return view;
 }
 
+/* A pose is saved only in a view of a single object; in a scene of several it would turn whichever is active. */
 void wr_scene_set_pose(WrScene *scene, const WrSceneView *view)
 {
     scene->camera = view->camera;
@@ -448,6 +471,9 @@ static double table_parameter(double u, double replicate, bool clamped)
     return clamped ? replicate * u : wr_field_reduce(u, replicate);
 }
 
+/* f = h T(ru u, rv v), fu = h ru dT/du: the chain rule, because derivatives are by the patch's parameters
+   (DESIGN). A formula has period 1 on both axes. Results are bounded to the range of float, so that no
+   infinity enters a normal (HC15). */
 void wr_scene_height(const WrScene *scene, const WrField *field, double u, double v, double *f,
                      double *fu, double *fv)
 {
@@ -466,6 +492,8 @@ void wr_scene_height(const WrScene *scene, const WrField *field, double u, doubl
     if (fv) *fv = wr_slope_of(slope_v, scene->height, rv);
 }
 
+/* Runs of WR_HEIGHTS_RUN points keep the scratch arrays on the stack and in the first-level cache. Formulas go
+   point by point. */
 void wr_scene_heights(const WrScene *scene, const WrField *field, int count, const double *u,
                       const double *v, double *f)
 {
@@ -486,6 +514,7 @@ void wr_scene_heights(const WrScene *scene, const WrField *field, int count, con
     }
 }
 
+/* The part of a material that its tables of albedo depend on. */
 WrReflectance wr_scene_reflectance(const WrMaterial *m)
 {
     return (WrReflectance){ m->model, m->energy, m->shininess, m->roughness, m->metalness, m->ior };
@@ -499,6 +528,8 @@ void wr_scene_gloss(const WrMaterial *m, WrEnvironmentBrdf *gloss)
     wr_environment_brdf_init(gloss, &of, &matter, m->specular, m->tint, m->gate);
 }
 
+/* The reflection model's constants, integrated once for each material; kd, ks and the colour are plain copies,
+   so changing them costs nothing. */
 void wr_scene_matter(const WrMaterial *m, WrMatter *matter)
 {
     const WrReflectance of = wr_scene_reflectance(m);

@@ -10,6 +10,7 @@
 
 /* ---- look-ups ------------------------------------------------------------------------------------ */
 
+/* As for heights: periodic axes are reduced, clamped ones end; in is false outside, where slopes are 0. */
 static double place(double u, double replicate, bool periodic, bool *in)
 {
     *in = true;
@@ -26,6 +27,7 @@ static size_t texel_at(int i, int n, bool periodic)
     return (size_t)(i < 0 ? 0 : i >= n ? n - 1 : i);
 }
 
+/* Taps i, i + 1 with x = W u - 1/2: texel centres are at half-integers and rows run down (DESIGN). */
 WrTexels wr_texture_bilinear_taps(const WrScene *scene, const WrImage *image,
                                   const WrTextureSample *laid, bool periodic_u, bool periodic_v,
                                   double u, double v)
@@ -58,6 +60,8 @@ WrNormalFrame wr_scene_frame(const WrScene *scene)
     return wr_surfaces[scene->shape.kind]->held ? WR_FRAME_MIKK : WR_FRAME_GRADIENT;
 }
 
+/* gradient: unit tangents as they are; mikk: t made perpendicular to n and b = n x t, the frame for which the
+   map was baked. */
 bool wr_texture_sample_axes(WrNormalFrame frame, const WrSurfacePoint *at, WrMapAxes *axes)
 {
     const WrVec3 n = at->n_unit, none = { 0, 0, 0 };
@@ -69,7 +73,8 @@ bool wr_texture_sample_axes(WrNormalFrame frame, const WrSurfacePoint *at, WrMap
 }
 
 /* The gradient whose normal is m, of any length. For vectors that face away from n its steepness is
- * limited as in reading. */
+ * limited as in reading.
+ * g = -(m - n (n.m)) / (n.m): the normal n - g has the direction of m. */
 static WrVec3 gradient_of(WrVec3 m, WrVec3 n)
 {
     const double z = v3_dot(n, m), least = WR_NORMAL_MIN * v3_len(m);
@@ -79,7 +84,9 @@ static WrVec3 gradient_of(WrVec3 m, WrVec3 n)
 }
 
 /* Fu and Fv of such a gradient; under `invariant` they alone determine the tilt, for any length of the
- * tangents. */
+ * tangents.
+ * Fu = g.Pu, Fv = g.Pv if N = Pu x Pv. On mirrored maps Pu x Pv is opposite to n while N is not, so k = |N| /
+ * (n.(Pu x Pv)) restores the sign with which D = -|N| g. */
 static void add_gradient(WrBumpMode mode, const WrSurfacePoint *at, WrVec3 g, double *fu,
                          double *fv)
 {
@@ -92,6 +99,8 @@ static void add_gradient(WrBumpMode mode, const WrSurfacePoint *at, WrVec3 g, do
     *fv += k * gv;
 }
 
+/* Slopes are averaged, not vectors: heights add where slopes add, and the mean of unit vectors is too short on
+   rough maps. */
 static void mean_slopes(const WrTexels *at, double *p, double *q)
 {
     *p = *q = 0;
@@ -130,6 +139,8 @@ void wr_scene_slopes(const WrScene *scene, const WrField *field, const WrSurface
                                   fv);
 }
 
+/* Order: decode, scale by strength, then the repetition's factor. In the gradient frame slopes are by the
+   patch's parameters and get the factor ru, rv; in unit frames only the sign of a mirrored repetition matters. */
 void wr_texture_sample_add_normals(const WrScene *scene, bool periodic_u, bool periodic_v,
                                    const WrSurfacePoint *at, const WrMapAxes *axes, double u,
                                    double v, double *fu, double *fv)

@@ -11,9 +11,15 @@
 #include <math.h>
 #include <string.h>
 
+/* The glossy prefilter int L w(l.r) / int w is a convolution on the sphere with a zonal lobe. By the
+   Funk-Hecke theorem it multiplies each harmonic of order l by h_l = int w P_l / int w. Steps: Fourier
+   transform of each row; for each wave m, projection on the associated Legendre functions of order l,
+   multiplication, sum; inverse transform. Unlike sums over texels this is exact for every width of the lobe,
+   and O(H^3). */
 #define NODES 4096   /* for a lobe's integral */
 #define NOTHING 1e-7 /* higher orders are dropped if all are below this */
 
+/* The finest structure of a lobe of width alpha needs about fine / alpha texels around. */
 int wr_blur_width(const WrEnvironmentBrdf *gloss, double fine)
 {
     int width = 64;
@@ -23,7 +29,9 @@ int wr_blur_width(const WrEnvironmentBrdf *gloss, double fine)
 
 /* ---- the lobe ---- */
 
-/* 1 - c and the weight of a node: dense where the lobe is steep, and towards the back. */
+/* 1 - c and the weight of a node: dense where the lobe is steep, and towards the back.
+   With a2 = alpha^2, f = t^2 (3 - 2t) and w = 1 + f (a2 - 1): 1 - c = 2 a2 f / w, and d((1 - c) / 2) = a2 /
+   w^2 * 6 t (1 - t) dt. 1 - c is computed directly because c = 1 - tiny has lost it. */
 static void node(const WrEnvironmentBrdf *gloss, int i, double *below, double *weight)
 {
     const double t = (i + 0.5) / NODES, f = t * t * (3 - 2 * t), a2 = gloss->alpha * gloss->alpha;
@@ -33,6 +41,8 @@ static void node(const WrEnvironmentBrdf *gloss, int i, double *below, double *w
         wr_environment_brdf_weight(gloss, 1 - *below, *below) * a2 / (w * w) * 6 * t * (1 - t);
 }
 
+/* Legendre's recursion (l + 1) P_l+1 = (2l + 1) c P_l - l P_l-1, all nodes side by side; the division by the
+   weights' own sum makes h_0 exactly 1, so a constant sky stays constant (HC115). */
 void wr_blur_orders(const WrEnvironmentBrdf *gloss, int count, double *out)
 {
     double *c = wr_alloc(4 * NODES, sizeof *c), *weight = c + NODES;
@@ -80,7 +90,8 @@ static Complex *wave_of(const Blur *b, int c, int m)
     return b->wave + ((size_t)c * (size_t)b->orders + (size_t)m) * (size_t)b->height;
 }
 
-/* The mean of the surroundings over texel i, j. */
+/* The mean of the surroundings over texel i, j.
+   Weighted by the sine of the sample's angle from the pole, its share of solid angle. */
 static void texel(const Blur *b, int i, int j, double rgb[3])
 {
     const int n = b->places;
@@ -121,6 +132,8 @@ static void row_to_waves(int j, int worker, void *ctx)
     wr_free(row);
 }
 
+/* The rows are real: wave -m is the conjugate of wave m. Negative results are ripples of the finite series and
+   become 0. */
 static void waves_to_row(int j, int worker, void *ctx)
 {
     const Blur *b = ctx;
@@ -144,12 +157,16 @@ static void waves_to_row(int j, int worker, void *ctx)
     wr_free(row);
 }
 
-/* The harmonics of one wave, order by order: projected from the rows, multiplied, added back. */
+/* The harmonics of one wave, order by order: projected from the rows, multiplied, added back.
+   P is normalised so that 2 pi int P^2 d(cos) = 1. wave[c][m][j]: rows run fastest, so projection and sum are
+   contiguous. */
 typedef struct Legendre {
     double *now, *before; /* [height] */
     Complex *sum;         /* [3][height] */
 } Legendre;
 
+/* P_mm = sqrt(1 / 4 pi prod (2k + 1) / (2k)) sin^m. In logarithms: sin^m of a high wave near a pole is below
+   double's range; it contributes nothing there, and the recursion never raises it to a significant size. */
 static void start_legendre(const Blur *b, int m, Legendre *p)
 {
     double norm = -0.5 * wr_log2(4 * WR_PI); /* its logarithm: a high power underflows */
@@ -178,6 +195,8 @@ static void take_order(const Blur *b, int m, double by, Legendre *p)
     }
 }
 
+/* P_l = a (cos P_l-1 - d P_l-2), a^2 = (4 l^2 - 1) / (l^2 - m^2), d^2 = ((l-1)^2 - m^2) / (4 (l-1)^2 - 1):
+   stable upwards. */
 static void next_order(const Blur *b, int l, int m, Legendre *p)
 {
     const double l2 = (double)l * l, m2 = (double)m * m, k2 = (double)(l - 1) * (l - 1);
@@ -208,7 +227,8 @@ static void blur_wave(int m, int worker, void *ctx)
 }
 
 /* Fejer's weights: with them sums over the rows are the exact integrals of all orders below their
- * number. */
+ * number.
+ * w_j = 2/H (1 - 2 sum cos(2 k theta_j) / (4 k^2 - 1)), theta_j = pi (j + 1/2) / H. */
 static void fill_rows(Blur *b)
 {
     for (int j = 0; j < b->height; j++) {

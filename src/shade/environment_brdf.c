@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+/* Albedos for light from all sides: E(nv) = (1/pi) int (lamp formula) dl, as polynomials in sqrt(nv). A
+   blurred picture times this albedo replaces the integral of light times formula (split sum, Karis 2013). */
 enum { RINGS = 32, SPOKES = 24 };
 
 /* Contribution of one lamp, as in shade/reflection_body.h: the highlight without ks. n = (0, 0, 1), v =
@@ -31,6 +33,8 @@ static double phong(const WrReflectance *of, const WrMatter *m, Place at)
     return strength * power(at.rv, m->shininess);
 }
 
+/* The form with (eta^2 - 1) / (g + c)^2 equals the textbook's without the difference g - c, which cancels for
+   eta near 1; eta = 1 has rs = rp = 0 exactly (HC102). */
 static double fresnel(double c, double ior)
 {
     const double gg = ior * ior - 1 + c * c;
@@ -50,7 +54,10 @@ static double cavities(const WrReflectance *of, const WrMatter *m, Place at)
 }
 
 /* (1/pi) of the integral of a lamp's formula over directions, sampled by facet normals h of a GGX
- * distribution of width alpha. */
+ * distribution of width alpha.
+ * With w = 1 + c^2 (a^2 - 1) the density of l is a^2 c / (4 pi w^2 (v.h)); each sample counts its inverse over
+ * pi. t^2 (3 - 2t) crowds samples at both ends, 6 t (1 - t) is its derivative. Half of the azimuths: the other
+ * half is symmetric. rv = r.v of Phong's mirror direction, 2 (n.l)(n.v) - l.v with l.v = 2 (v.h)^2 - 1. */
 static double integral(Lamp *lamp, const WrReflectance *of, const WrMatter *m, double alpha,
                        double nv, bool gated)
 {
@@ -69,7 +76,8 @@ static double integral(Lamp *lamp, const WrReflectance *of, const WrMatter *m, d
     return sum / (RINGS * SPOKES);
 }
 
-/* (1/pi) of the integral of (n.l) w(l) over directions, sampled by l. */
+/* (1/pi) of the integral of (n.l) w(l) over directions, sampled by l.
+   nl = sqrt(uniform) is distributed as the cosine, so the mean of w is the integral. */
 static double matt_integral(double nv, bool fresnels)
 {
     const double sv = sqrt(1 - nv * nv);
@@ -132,7 +140,8 @@ static void init_matt(WrEnvironmentBrdf *g, const WrReflectance *of, const WrMat
 /* ---- highlights ---- */
 
 /* The lamp formula, and the alpha of the facets over which its integral is taken. NULL: no highlight,
-   or one whose albedo has another formula. */
+   or one whose albedo has another formula.
+   Shininess s has the facet width alpha^2 = 2 / (s + 2): equal D at the peak. */
 static Lamp *lamp_of(const WrReflectance *of, const WrMatter *m, double *alpha)
 {
     *alpha = sqrt(2 / (m->shininess + 2));
@@ -146,6 +155,7 @@ static Lamp *lamp_of(const WrReflectance *of, const WrMatter *m, double *alpha)
     return NULL;
 }
 
+/* An exponent s about the mirror direction is as wide as 4 s of n.h: h turns by half the angle of r. */
 static void init_lobe(WrEnvironmentBrdf *g, const WrReflectance *of, const WrMatter *m)
 {
     const WrReflectHighlight highlight = wr_reflects[of->model].highlight;
@@ -168,6 +178,7 @@ static void init_lobe(WrEnvironmentBrdf *g, const WrReflectance *of, const WrMat
     }
 }
 
+/* nv is at least 1e-3, where the kernels bend the normal back too (HC105). */
 static void init_shine(WrEnvironmentBrdf *g, const WrReflectance *of, const WrMatter *m, double ks,
                        double tint)
 {
@@ -238,6 +249,8 @@ void wr_environment_brdf_init(WrEnvironmentBrdf *g, const WrReflectance *of, con
     *g = kept[i].gloss;
 }
 
+/* c is the cosine from the mirror direction r, so n.h = cos of half that angle for n = v = r: nh^2 = (1 + c) /
+   2 = 1 - below / 2. */
 double wr_environment_brdf_weight(const WrEnvironmentBrdf *g, double c, double below)
 {
     if (g->gated && c <= 0) return 0;

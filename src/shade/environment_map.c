@@ -33,6 +33,9 @@ void wr_environment_map_free(WrEnvironmentMap *map)
 
 /* ---- directions ---- */
 
+/* u = 1/2 + atan2(x, -z) / 2 pi, v = 1/2 + atan2(y, hypot(x, z)) / pi: the picture's centre is -z, +x lies at
+   u = 3/4. asin(y) would lose half the digits at the poles (NUMERICS-LIGHT b). */
+
 WrVec3 wr_environment_map_direction(double u, double v)
 {
     double s, c, sl, cl;
@@ -48,7 +51,9 @@ void wr_environment_map_place(WrVec3 d, double *u, double *v)
     *v = 0.5 + (across > 0 || d.y != 0 ? wr_atan2(d.y, across) / WR_PI : 0);
 }
 
-/* Texel i, j of a channel; rows -1 and H, the poles, are the mean of the adjacent row. */
+/* Texel i, j of a channel; rows -1 and H, the poles, are the mean of the adjacent row.
+   Beyond a pole the row is reflected through the mean, 2 mean - x, so that bilinear interpolation at the pole
+   is the mean for every longitude (HC111). */
 static double texel(const WrEnvironmentMap *s, int i, int j, int c)
 {
     const WrImage *image = s->image;
@@ -75,6 +80,8 @@ void wr_environment_map_at(const WrEnvironmentMap *s, WrVec3 direction, double r
     wr_environment_map_at_place(s, u, v, rgb);
 }
 
+/* The inverse of the turn: it maps a direction of the world to one of the unturned picture. Directions are
+   turned, the picture is never resampled, so 360 degrees are the same bytes as 0 (HC116). */
 void wr_environment_map_turn(double turn_deg, double out[9])
 {
     double s, c;
@@ -84,6 +91,10 @@ void wr_environment_map_turn(double turn_deg, double out[9])
 }
 
 /* ---- harmonics ---- */
+
+/* Real spherical harmonics of order 0..2, Y = k0, k1 (y, z, x), k2 (xy, yz), k20 (3 z^2 - 1), k2 xz, k22 (x^2
+   - y^2), integrated in double. Longitude and latitude separate: a row needs five sums over its columns,
+   whatever the number of harmonics. */
 
 /* Sums of a row over its columns, weighted by functions of longitude p: 1, sin p, cos p, sin 2p, cos
  * 2p. */
@@ -112,7 +123,8 @@ static double *make_waves(int width)
     return wave;
 }
 
-/* x = sin p cos t, y = sin t, z = -cos p cos t; `angle` is the solid angle of a texel. */
+/* x = sin p cos t, y = sin t, z = -cos p cos t; `angle` is the solid angle of a texel.
+   sin^2 p = (1 - cos 2p) / 2 and cos^2 p = (1 + cos 2p) / 2 express all products by the five sums. */
 static void add_harmonics(const RowSums *sums, double cl, double sl, double angle,
                           double out[WR_HARMONICS][3])
 {
@@ -134,7 +146,9 @@ static void add_harmonics(const RowSums *sums, double cl, double sl, double angl
     }
 }
 
-/* The integral over the texels, each with its own solid angle (4 pi / W) sin(pi / 2H) cos t. */
+/* The integral over the texels, each with its own solid angle (4 pi / W) sin(pi / 2H) cos t.
+   The texel's solid angle is exact, but Y is sampled at its centre; for a constant picture orders 1 and 2 must
+   be 0, so the harmonics of the constant 1 are subtracted in proportion to the mean (HC115). */
 static void find_harmonics(const WrImage *image, double out[WR_HARMONICS][3])
 {
     const int w = image->width, h = image->height;
@@ -198,7 +212,9 @@ static bool find_light(WrEnvironmentMap *s, WrError *err)
     return true;
 }
 
-/* k, b and Q of one colour in the picture's directions. */
+/* k, b and Q of one colour in the picture's directions.
+   E / pi = k + b.n + n.Q n, with A_l / pi = 1, 2/3, 1/4 (Ramamoorthi and Hanrahan 2001). k20 (3 z^2 - 1)
+   contributes to k and to Q's last entry. */
 static void world_form(double l[WR_HARMONICS][3], int c, double *k, double b[3], double q[9])
 {
     const double k0 = 0.5 / sqrt(WR_PI), k1 = sqrt(3 / (4 * WR_PI)), k2 = 0.5 * sqrt(15 / WR_PI);
@@ -220,6 +236,8 @@ static double turned(const double a[9], const double q[9], int r, int s)
     return sum;
 }
 
+/* out[c] is k, b (3), the diagonal of Q (3) and twice its off-diagonal entries xy, yz, zx, in the axes of `a`:
+   the kernel evaluates ten terms per colour. Only harmonics up to `order` enter; the others are 0. */
 void wr_environment_map_form(const WrEnvironmentMap *map, const double a[9], double strength,
                              int order, double out[3][WR_FORM_TERMS])
 {
@@ -255,7 +273,9 @@ static float channel(const WrImage *image, size_t pixel, int c, WrEnvironmentMap
     return clamp_value(image->type == WR_PIXEL_F32 ? x : wr_srgb_decode(x), changes);
 }
 
-/* Means of n x n texels, or of fewer at the ends. */
+/* Means of n x n texels, or of fewer at the ends.
+   Box means reduce very wide pictures; light is averaged, not codes, and each bad value is counted once
+   (HC114). */
 static void reduce_row(const WrImage *from, int n, int j, WrImage *to,
                        WrEnvironmentMapChanges *changes)
 {
@@ -340,7 +360,8 @@ static void add_light(double rgb[3], double share, double r, double g, double b)
     rgb[0] += share * r, rgb[1] += share * g, rgb[2] += share * b;
 }
 
-/* A panel with soft edges about a direction, with this half width and height. */
+/* A panel with soft edges about a direction, with this half width and height.
+   Gnomonic projection onto the panel's plane; |x|, |y| are tangents of angles from its middle. */
 static double panel(WrVec3 d, WrVec3 middle, double wide, double high)
 {
     const WrVec3 m = v3_unit(middle, (WrVec3){ 0, 1, 0 }), up = { 0, 1, 0 }, back = { 0, 0, 1 };

@@ -23,7 +23,9 @@ static const double pi = 3.14159265358979323846;
 
 enum { RINGS = 24, SPOKES = 24, CHECKS = 48 };
 
-/* Normal of a visible facet for the view (sin, 0, mu), from two numbers of 0..1 (Heitz 2018). */
+/* Normal of a visible facet for the view (sin, 0, mu), from two numbers of 0..1 (Heitz 2018).
+   Heitz 2018: stretch the view to a configuration of roughness 1, sample its projected disc, unstretch. s is
+   the share of the disc that the visible half of the hemisphere covers. */
 static void seen_facet(double alpha, double mu, double radius, double turn, double h[3])
 {
     const double across = alpha * sqrt(1 - mu * mu), len = sqrt(across * across + mu * mu);
@@ -37,7 +39,9 @@ static void seen_facet(double alpha, double mu, double radius, double turn, doub
     h[0] = a * inv, h[1] = b * inv, h[2] = c * inv;
 }
 
-/* Fraction of the light from this facet to the viewer that other facets do not block: G2 / G1. */
+/* Fraction of the light from this facet to the viewer that other facets do not block: G2 / G1.
+   G1 cancels against the density of visible facets; the ratio is bounded by 1 and has no singularity at
+   grazing angles. */
 static double unmasked(double alpha, double nv, double nl)
 {
     const double a2 = alpha * alpha;
@@ -45,6 +49,8 @@ static double unmasked(double alpha, double nv, double nl)
     return nl * (nv + v) / (nl * v + nv * l);
 }
 
+/* out[0] + out[1] is the albedo for F = 1; Schlick's F = f0 + (1 - f0) p splits it into the parts times f0 and
+   times 1: E = f0 out[0] + out[1], so one integration serves every colour and every f0. */
 void wr_ggx_albedo(double alpha, double mu, double out[2])
 {
     const double whole = RINGS - 0.5 / RINGS; /* sum of the rings' weights */
@@ -65,7 +71,9 @@ void wr_ggx_albedo(double alpha, double mu, double out[2])
         }
 }
 
-/* By Newton's divided differences. */
+/* By Newton's divided differences.
+   Interpolation at Chebyshev nodes (wr_albedo_places), converted to powers of x; 11 terms in 0..1 keep enough
+   digits in double. */
 static void fit(const double x[WR_ALBEDO_TERMS], double y[WR_ALBEDO_TERMS],
                 double out[WR_ALBEDO_TERMS])
 {
@@ -141,7 +149,8 @@ static const Albedo *albedo_of(double alpha)
 }
 
 /* Raises the polynomial so that it is nowhere below the albedo, mostly towards grazing angles, where
-   the error is largest: then the remainder for diffuse light is never too large. */
+   the error is largest: then the remainder for diffuse light is never too large.
+   `more` is 0.02 + (1 - x^2)^5, in powers of x. */
 static void raise_fit(double *terms, const Albedo *albedo, double f0)
 {
     static const double more[WR_ALBEDO_TERMS] = { 1.02, 0, -5, 0, 10, 0, -10, 0, 5, 0, -1 };
@@ -155,6 +164,8 @@ static void raise_fit(double *terms, const Albedo *albedo, double f0)
     terms[0] += 1e-4 + 1e-3 * f0; /* error of the quadrature */
 }
 
+/* mean = 2 int E(mu) mu dmu; with mu = x^2 a term x^i integrates to 4 / (i + 4). A furnace with E_s + c (1 -
+   E_s) is then never above 1 (HC103). */
 static void init_ggx(WrMatter *m)
 {
     const Albedo *albedo = albedo_of(m->alpha);
@@ -187,6 +198,8 @@ static double within(double x, double low, double high)
     return x > low ? (x < high ? x : high) : low;
 }
 
+/* All inputs are clamped here, once (HC100, HC110); NaN becomes the lower bound because comparisons with it
+   are false. */
 void wr_matter_init(WrMatter *m, const WrReflectance *of)
 {
     const bool published = of->energy == WR_ENERGY_PUBLISHED;

@@ -18,7 +18,9 @@ const char *const wr_solid_texture_drives[WR_SOLID_TEXTURE_DRIVES] = {
 };
 
 /* Quintic noise in space: value noise has the variance (181/231)^3 / 3; that of |Perlin noise| was
-   measured at 2e7 points. */
+   measured at 2e7 points.
+   means and variances are those of one octave, for E45: an octave that is too fine for a pixel is replaced by
+   its mean, and its variance widens the filter of the pattern's edge (NUMERICS-LIGHT c). */
 const double wr_solid_texture_means[WR_SOLID_TEXTURE_NOISES] = { 0, 0.1797 };
 const double wr_solid_texture_variances[WR_SOLID_TEXTURE_NOISES] = { 0.16035, 0.01629 };
 const double wr_solid_texture_fadings[WR_SOLID_TEXTURE_NOISES] = { 0.154, 0.76 };
@@ -73,6 +75,7 @@ const WrSolidTextureInfo wr_grains[WR_SOLID_TEXTURE_KINDS] = {
 };
 WR_ROWS_END(wr_grains, WR_SOLID_TEXTURE_KINDS);
 
+/* A step has no slope, so a bump driven by it needs an edge of finite width. */
 double wr_solid_texture_edge(const WrSolidTexture *grain)
 {
     const double least =

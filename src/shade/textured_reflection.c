@@ -5,6 +5,9 @@
 
 #define TERMS (WR_ALBEDO_TERMS * sizeof(double))
 
+/* All parameters that depend on roughness, at evenly spaced steps, for metalness 0 and 1: between them
+   everything is linear in metalness. The diffuse part of a metal is 0, so those rows exist for metalness 0
+   only. */
 void wr_textured_reflection_init(WrTexturedReflection *vary, const WrReflectance *of, double ks,
                                  double tint, bool gated)
 {
@@ -27,6 +30,8 @@ void wr_textured_reflection_init(WrTexturedReflection *vary, const WrReflectance
         }
 }
 
+/* Rung i has alpha = 2^-i; s = 2 / alpha^2 - 2 is the exponent of equal width, a quarter of it for Phong's
+   lobe. */
 void wr_textured_reflection_rung(const WrEnvironmentBrdf *gloss, int rung, WrEnvironmentBrdf *out)
 {
     const double alpha = ldexp(1, -rung), power = fmax(2 / (alpha * alpha) - 2, 0);

@@ -2,6 +2,8 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+/* Data that a surface compiles from texts (profiles, formulas). refs > 0 counts owners; -1 marks the defaults,
+   which live as long as the program and are neither counted nor freed. */
 #include "base/memory.h"
 
 #include <string.h>
@@ -12,6 +14,7 @@ static void free_parts(WrSurfaceData *data)
     wr_free(data);
 }
 
+/* A hash of the texts: equal texts are equal shapes, although compiled separately. */
 static uint64_t key_of(const WrSurfaceData *data)
 {
     WrHash hash = { .low = (uint64_t)data->kind, .high = 1 };
@@ -60,6 +63,7 @@ void wr_surface_data_free(WrSurfaceData *data)
     if (__atomic_sub_fetch(&data->refs, 1, __ATOMIC_ACQ_REL) == 0) free_parts(data);
 }
 
+/* Two threads may make a default at once; the first to store it wins, and the other frees its own. */
 const WrSurfaceData *wr_surface_data_default(WrSurfaceKind kind)
 {
     static WrSurfaceData *made[WR_SURFACE_COUNT]; /* each written once */

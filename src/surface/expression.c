@@ -6,6 +6,8 @@
 #include "base/text.h"
 
 #include <math.h>
+/* A formula is compiled to a program for a stack machine: operands first, then the operation. Evaluation
+   (expression_body.h) runs it on spans of samples, with derivatives. */
 #include <string.h>
 
 WR_ROWS(takes);
@@ -65,7 +67,8 @@ static bool take(Reader *r, char letter)
     return true;
 }
 
-/* Folds operations on constants. A division by 0 is left to be reported by the evaluation. */
+/* Folds operations on constants. A division by 0 is left to be reported by the evaluation.
+   Folding halves the work of constants such as 2*pi; it uses double, also for the float kernels. */
 static bool fold(WrProgram *p, WrOpCode code, double value)
 {
     const int count = takes[code];
@@ -91,6 +94,7 @@ static bool fold(WrProgram *p, WrOpCode code, double value)
     return true;
 }
 
+/* stack is the depth after this operation; it is checked here, so that the evaluation needs no test. */
 static bool emit(Reader *r, const char *at, WrOpCode code, double value)
 {
     WrProgram *p = r->program;
@@ -103,6 +107,10 @@ static bool emit(Reader *r, const char *at, WrOpCode code, double value)
     p->op[p->count++] = (WrOp){ code, column_of(r, at), value };
     return true;
 }
+
+/* Grammar, each level binding tighter: sum = product {+- product}; product = signed {* or / signed}; signed =
+   {+-} factor; factor = value [^ signed]; value = number, name, function or (sum). So -x^2 is -(x^2), and x^-1
+   and x^y^z need no brackets. */
 
 static bool read_sum(Reader *r);
 static bool read_signed(Reader *r);
@@ -179,7 +187,9 @@ static bool read_value(Reader *r)
     return read_sum(r) && (take(r, ')') || wrong(r, r->at, "must be ) or an operation"));
 }
 
-/* The power of the top two values; a constant exponent becomes part of the operation. */
+/* The power of the top two values; a constant exponent becomes part of the operation.
+   Whole exponents are products and valid for negative bases; other constants need a positive base
+   (NUMERICS-SCENES c). */
 static bool read_power(Reader *r, const char *at)
 {
     WrProgram *p = r->program;
@@ -201,6 +211,7 @@ static bool read_factor(Reader *r)
     return read_signed(r) && read_power(r, at);
 }
 
+/* All recursion passes through here: one depth limit protects the stack (HC150). */
 static bool read_signed(Reader *r)
 {
     skip_spaces(r);

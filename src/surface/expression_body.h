@@ -9,6 +9,8 @@
 
    A product with a factor of 0 is 0, even if the other factor is unbounded. */
 
+/* Samples side by side, component by component: each operation is a loop over n lanes, so that a program of 20
+   operations costs 20 dispatches for 16 samples. */
 #undef R_LANES
 #define R_LANES 16 /* maximum samples at once */
 
@@ -21,7 +23,8 @@ typedef struct FN(Outer) {
     REAL h[R_LANES], x[R_LANES], y[R_LANES], xx[R_LANES], xy[R_LANES], yy[R_LANES];
 } FN(Outer);
 
-/* a b, and 0 where b is 0. */
+/* a b, and 0 where b is 0.
+   0 wins over infinity: sqrt(u) at a point where u = 0 and u_u = 0 has derivative 0, not NaN (HC149). */
 R_INLINE REAL FN(mul0)(REAL a, REAL b)
 {
     return b == K_(0) ? K_(0) : a * b;
@@ -111,13 +114,15 @@ R_INLINE void FN(dual_mul)(int n, FN(Dual) * a, const FN(Dual) * b)
     }
 }
 
-/* The logarithm of x > 0; for other x that of the smallest number. */
+/* The logarithm of x > 0; for other x that of the smallest number.
+   log2(R_MIN) is a large negative number: p = 2^(k log2 x) underflows to 0 for x <= 0 without a branch. */
 R_INLINE REAL FN(safe_log2)(REAL x)
 {
     return r_log2(x > R_MIN ? x : R_MIN);
 }
 
-/* x to an integer power, by repeated squaring. */
+/* x to an integer power, by repeated squaring.
+   At most log2(WR_POWER_WHOLE) squarings; signs and 0 are right without a special case. */
 R_INLINE REAL FN(whole_power)(REAL x, int power)
 {
     const unsigned size = (unsigned)(power < 0 ? -power : power);
@@ -195,6 +200,8 @@ R_INLINE void FN(outer_one)(const WrOp *op, int n, const REAL *f, FN(Outer) * g)
 
 R_INLINE void FN(outer_two)(WrOpCode code, int n, const REAL *f, const REAL *s, FN(Outer) * g)
 {
+    /* pow(x, y): h_x = y x^(y-1), h_y = h ln x, h_xy = x^(y-1) (1 + y ln x). atan2(y, x), first argument f =
+       y: with a = x / r^2 and b = y / r^2 the derivatives by f, s are a, -b; -2 a b, b^2 - a^2, 2 a b. */
     const REAL ln2 = K_(0.69314718055994530942);
     switch (code) {
     case WR_OP_DIV:
@@ -234,7 +241,7 @@ R_INLINE void FN(outer_two)(WrOpCode code, int n, const REAL *f, const REAL *s, 
     }
 }
 
-/* One operation; `a` is the top of the stack, with the other operand below it. */
+/* One operation; `a` is its first operand and receives the result, a[1] is the second operand. */
 R_INLINE void FN(program_step)(const WrOp *op, int n, const REAL *u, const REAL *v, FN(Dual) * a)
 {
     FN(Outer) g;

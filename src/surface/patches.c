@@ -10,7 +10,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Edges 0..3 of a patch: v = 0, v = 1, u = 0, u = 1; each runs towards larger u or v. */
+/* Edges 0..3 of a patch: v = 0, v = 1, u = 0, u = 1; each runs towards larger u or v.
+   A set of bicubic patches. points[p][3 * (4 * j + i) + k] is coordinate k of control point (i, j); i runs
+   along u and fastest. The patches are turned to face one way, their edges paired, charts into the table laid
+   out, and all are cut into triangles whose parts are the patches. */
 typedef struct WrPatchEdge {
     int32_t other;  /* 4 * patch + edge of the neighbour; -1: none */
     bool turned;    /* the neighbour's edge has the opposite direction */
@@ -50,7 +53,9 @@ static bool comes_before(const float a[3], const float b[3])
     return false;
 }
 
-/* Its points in an order independent of the edge's direction. */
+/* Its points in an order independent of the edge's direction.
+   An edge and its reverse have the same row of bits, so wr_weld finds shared edges exactly. The direction is
+   chosen by the ends; for a closed loop, whose ends are equal, by the inner points. */
 static EdgeRow edge_row(const float *points, int edge, WrPatchEdge *out)
 {
     float p[4][3];
@@ -96,7 +101,9 @@ static void pair_edges(const int32_t *kind, int32_t kinds, int32_t count, WrPatc
 }
 
 /* True if the counter-clockwise boundary, seen from the normal's side, runs in the direction of the
- * edge. */
+ * edge.
+ * In (u, v) the counter-clockwise boundary is v = 0 forwards, u = 1 forwards, v = 1 backwards, u = 0
+ * backwards. */
 static bool runs_round(int edge)
 {
     return edge == 0 || edge == 3;
@@ -108,7 +115,8 @@ static bool is_against(const WrPatchEdge *edges, int32_t i)
     return (runs_round(i % 4) == runs_round(edges[i].other % 4)) != edges[i].turned;
 }
 
-/* Counts connected groups of open edges. */
+/* Counts connected groups of open edges.
+   Union-find over end points: start with one group per point; each edge that connects two groups removes one. */
 static bool count_loops(const float (*points)[48], int32_t count, const WrPatchEdge *edges,
                         WrPatchesReport *report, WrError *err)
 {
@@ -160,6 +168,8 @@ static bool patches_find_edges(const float (*points)[48], int32_t count, WrPatch
 
 /* ---- orientation ---- */
 
+/* Transposes the 4 x 4 points. That exchanges u and v, and so reverses N = Pu x Pv, without moving the surface
+   (HC22). */
 static void turn_patch(float points[48])
 {
     for (int j = 0; j < 4; j++)
@@ -172,7 +182,8 @@ static void turn_patch(float points[48])
 }
 
 /* side: 1 like the first of the island, -1 opposite; 0 unknown. Returns the number of patches in the
- * queue. */
+ * queue.
+ * Breadth first. `queue` keeps all patches of the island in order of discovery. */
 static int32_t face_island(const WrPatchEdge *edges, int32_t first, signed char *side,
                            int32_t *queue)
 {
@@ -190,7 +201,9 @@ static int32_t face_island(const WrPatchEdge *edges, int32_t first, signed char 
 }
 
 /* Orients connected patches to one side, that of the majority; all: then flips all of them. Flipping
- * exchanges u and v; *turned is their number. */
+ * exchanges u and v; *turned is their number.
+ * The majority decides because there is no outside yet: a set may be open. Whether the whole body is inside
+ * out is decided later by the volume of its triangles, and then all = true reverses everything. */
 static bool patches_face(float (*points)[48], int32_t count, bool all, int32_t *turned,
                          WrError *err)
 {
@@ -221,7 +234,9 @@ static bool patches_face(float (*points)[48], int32_t count, bool all, int32_t *
 
 /* ---- charts ---- */
 
-/* Table's u = of[0] + of[1] u + of[2] v, v = of[3] + of[4] u + of[5] v. */
+/* Table's u = of[0] + of[1] u + of[2] v, v = of[3] + of[4] u + of[5] v.
+   An affine map with whole coefficients: the linear part is one of the eight symmetries of the square, so
+   exactly one of of[1], of[2] and one of of[4], of[5] is not 0. */
 typedef struct Chart {
     int32_t of[6];
     bool placed;
@@ -246,7 +261,11 @@ static void edge_spots(int edge, Spot *from, Spot *to, Spot *out)
     *from = froms[edge], *to = tos[edge], *out = outs[edge];
 }
 
-/* The chart of the patch beyond the edge that continues the table. */
+/* The chart of the patch beyond the edge that continues the table.
+   The neighbour's unit square must continue the table: its common edge lies on ours (`along` from its own
+   start to its own stop) and its interior lies beyond ours, in direction `on`. These two vectors are the
+   images of its u and v axes, in the order given by the edge; the origin follows from the image of its edge's
+   start. */
 static Chart beyond(const Chart *chart, int edge, const WrPatchEdge *meets)
 {
     Spot a, b, out, own_a, own_b, own_out;
@@ -290,6 +309,8 @@ typedef struct Layout {
     int32_t columns, rows;
 } Layout;
 
+/* Linear probing; the keys are not stored: a slot holds 1 + patch, and the patch's chart has the cell.
+   Multiplication by 2^64 / golden ratio spreads neighbouring cells (Fibonacci hashing). */
 static size_t cell_slot(const Layout *l, Spot cell)
 {
     const uint64_t key = (uint64_t)(uint32_t)cell.u << 32 | (uint32_t)cell.v;
@@ -301,6 +322,8 @@ static size_t cell_slot(const Layout *l, Spot cell)
     return at;
 }
 
+/* If patches must not overlap (split), a patch whose cell is occupied is not placed: it starts an island of
+   its own later. Otherwise the first patch keeps the slot and others may lie over it. */
 static bool place(Layout *l, int32_t patch, const Chart *chart)
 {
     const size_t slot = cell_slot(l, cell_of(chart));
@@ -311,7 +334,9 @@ static bool place(Layout *l, int32_t patch, const Chart *chart)
 }
 
 /* Lays out all patches reachable from one across edges; the island is then placed beside the previous
- * ones. */
+ * ones.
+ * Breadth first from one patch, so that islands grow round and the table is cut far from the start. Charts are
+ * relative to the first patch until the island's extent is known. */
 static void lay_island(Layout *l, int32_t first)
 {
     const Chart start = { { 0, 1, 0, 0, 0, 1 }, true };
@@ -337,7 +362,8 @@ static void lay_island(Layout *l, int32_t first)
     l->rows = high.v - low.v + 1 > l->rows ? high.v - low.v + 1 : l->rows;
 }
 
-/* For whole tables: cells are irrelevant. */
+/* For whole tables: cells are irrelevant.
+   Each chart moves to cell (0, 0): only its turn and mirroring matter, as every patch has the whole table. */
 static void gather_cells(Layout *l)
 {
     for (int32_t i = 0; i < l->count; i++) {
@@ -358,7 +384,8 @@ static bool runs_on(const Layout *l, int32_t i)
     return true;
 }
 
-/* One cell for each patch, row by row from the lower left, with a margin. Nothing is joined. */
+/* One cell for each patch, row by row from the lower left, with a margin. Nothing is joined.
+   Two neighbours then never share a texel, and interpolation reads only margin texels of its own cell. */
 static void take_cells(WrPatches *set, WrPatch *patch)
 {
     const float margin = (float)WR_PATCH_MARGIN, side = 1 - 2 * margin;
@@ -566,6 +593,10 @@ void wr_patches_free(WrPatches *patches)
 
 /* ---- one patch ---- */
 
+/* Second derivatives of a Bezier patch are convex combinations of 6 (P0 - 2 P1 + P2) along u or v, and mixed
+   ones of 9 (P00 - P10 - P01 + P11); the largest of these vectors bounds the derivative over the whole patch
+   (convex hull). */
+
 static void shape_of(const float *points, WrShape *shape)
 {
     wr_shape_default(WR_SURFACE_bezier, shape);
@@ -642,7 +673,8 @@ static double extent(const Build *b)
 }
 
 /* Chooses counts by |P - its triangle| <= (|Puu| du^2 + 2 |Puv| du dv + |Pvv| dv^2) / 8, half of the
- * error for each direction. */
+ * error for each direction.
+ * With 2 du dv <= du^2 + dv^2 each axis may have half the error: (|Puu| + |Puv|) / (8 n^2) <= off / 2. */
 static void ask_cuts(Build *b, double off)
 {
     for (int32_t i = 0; i < 2 * b->count; i++) b->cuts[i] = 1;
@@ -668,6 +700,9 @@ static void count_triangles(Build *b)
     }
 }
 
+/* The two opposite edges of a patch have the same count, and both patches at a shared edge too, else there
+   would be cracks; so whole strips of patches form one class of the union-find, and its largest wish counts.
+   If the total is too large, the tolerance doubles: counts fall by sqrt(2) per step. */
 static void choose_cuts(Build *b)
 {
     for (int32_t i = 0; i < 2 * b->count; i++) b->up[i] = i;
@@ -687,6 +722,7 @@ static void choose_cuts(Build *b)
 
 /* ---- triangles ---- */
 
+/* Bernstein form; the same expression for every edge, so equal control points in equal order yield equal bits. */
 static double mix4(const double p[4], double t)
 {
     const double w = 1 - t;
@@ -708,6 +744,9 @@ static void edge_place(const Build *b, int32_t patch, int edge, int i, int n, fl
     }
 }
 
+/* Normals come from each patch itself: creases stay where patches meet at an angle. Positions on edges are
+   replaced by edge_place's, because wr_surface_at sums sixteen terms in another order and would differ in the
+   last bit. */
 static void put_place(Build *b, int32_t patch, const WrShape *shape, int i, int j)
 {
     const int nu = cuts_of(b, patch, 0), nv = cuts_of(b, patch, 1);
@@ -724,6 +763,8 @@ static void put_place(Build *b, int32_t patch, const WrShape *shape, int i, int 
     if (i == 0 || i == nu) edge_place(b, patch, i == 0 ? 2 : 3, j, nv, b->place[at]);
 }
 
+/* Vertices row by row, i fastest; each patch has its own, wr_weld merges those of shared edges later.
+   Triangles without area (collapsed edges) are dropped by wr_triangles_new. */
 static void cut_patch(Build *b, int32_t patch)
 {
     const int nu = cuts_of(b, patch, 0), nv = cuts_of(b, patch, 1);
@@ -770,6 +811,7 @@ static WrTriangles *cut_all(Build *b, WrError *err)
 
 /* ---- creases ---- */
 
+/* Edges 0 and 1 run along u at v = 0 and 1; edges 2 and 3 along v at u = 0 and 1. */
 static WrVec3 normal_on_edge(const float *points, int edge, double t)
 {
     WrShape shape;
@@ -782,6 +824,9 @@ static WrVec3 normal_on_edge(const float *points, int edge, double t)
 #define CREASE 0.1      /* smallest angle of a crease, in degrees */
 #define CREASE_MEANT 45 /* larger angles are always intended */
 
+/* Five points, none at the ends, where several patches meet. An angle above 90 degrees compares normals of
+   opposite sides. The reported patch pair is the worst crease that may be a slip in the data, such as patch 11
+   of the teapot's list (HC152). */
 static void find_creases(Build *b, WrPatchesReport *report)
 {
     for (int32_t i = 0; i < 4 * b->count; i++) {
@@ -816,7 +861,9 @@ static bool number_triangles(WrTriangles *made, WrPatches *set, WrError *err)
     return of != NULL;
 }
 
-/* The key distinguishes shapes. */
+/* The key distinguishes shapes.
+   The triangles' hash does not contain the charts, so the same body with another table layout must have
+   another key. */
 static uint64_t key_of(const WrTriangles *made, const WrPatches *set)
 {
     const WrHash start = { made->key, 1 + (uint64_t)set->table };

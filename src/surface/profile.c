@@ -89,6 +89,9 @@ static bool measure(Points *p, WrError *err)
 
 /* ---- the spline ---- */
 
+/* The curve (r, z)(s) is a cubic spline through the points, parametrised by chord length s = 0 .. 1, which is
+   the surface's v. A point that is given twice is a corner: the spline ends there and a new one begins. */
+
 /* A run of points from one corner or end to the next. */
 typedef struct Run {
     int first, count;
@@ -98,7 +101,8 @@ typedef struct Run {
 
 enum { SIDE = WR_PROFILE_POINTS };
 
-/* Solves a x = b; a is diagonally dominant. */
+/* Solves a x = b; a is diagonally dominant.
+   Gauss elimination without pivoting is stable for a diagonally dominant matrix; 2/h + 2/h against 1/h + 1/h. */
 static void solve(double a[SIDE][SIDE], double *b, int n)
 {
     for (int k = 0; k < n; k++)
@@ -115,7 +119,11 @@ static void solve(double a[SIDE][SIDE], double *b, int n)
 }
 
 /* Slopes of one coordinate x at the points of a run. level: at a pole the slope is 0, otherwise the
-   second derivative is. */
+   second derivative is.
+   Unknowns are the slopes m. Continuity of the second derivative at a point between intervals h and h' reads
+       m[i-1]/h + 2 m[i] (1/h + 1/h') + m[i+1]/h' = 3 d/h + 3 d'/h',   d = chord slope;
+   each interval contributes its half to both ends, which leaves the natural condition (second derivative 0) at
+   free ends. At a pole z has slope 0, so that the surface is smooth there. */
 static void find_slopes(const Points *p, const double *x, const Run *run, bool level, double *slope)
 {
     static const int end_of[2] = { 0, 1 };
@@ -147,6 +155,7 @@ static void find_slopes(const Points *p, const double *x, const Run *run, bool l
     solve(a, slope, n);
 }
 
+/* Bezier points of the Hermite piece: a third of the interval times the slope from each end. */
 static void add_pieces(const Points *p, const Run *run, WrProfiled *out)
 {
     double dr[SIDE], dz[SIDE];
@@ -191,7 +200,9 @@ static double cubic(const double *c, double t)
     return w * w * w * c[0] + 3 * w * w * t * c[1] + 3 * w * t * t * c[2] + t * t * t * c[3];
 }
 
-/* The t of the smallest r of a piece: its ends and the zeros of its derivative. */
+/* The t of the smallest r of a piece: its ends and the zeros of its derivative.
+   r'(t) / 3 = a (1 - t)^2 + 2 b t (1 - t) + d t^2 = q t^2 - 2 half t + a; the roots without cancellation as s
+   / q and a / s. */
 static double least_place(const double *c)
 {
     const double a = c[1] - c[0], b = c[2] - c[1], d = c[3] - c[2];
@@ -208,6 +219,7 @@ static double least_place(const double *c)
     return best;
 }
 
+/* Inside the surface r = 0 would invert N (HC144); at both ends it is a pole. */
 static bool check_axis(const WrProfiled *p, WrError *err)
 {
     for (int k = 0; k < p->count; k++) {
@@ -225,6 +237,7 @@ static bool check_axis(const WrProfiled *p, WrError *err)
     return true;
 }
 
+/* Unused pieces begin at 2, beyond every v, so that the kernels' search needs no count. */
 bool wr_profile_make(const char *text, WrProfiled *out, WrError *err)
 {
     Points points = { .count = 0 };
@@ -234,6 +247,7 @@ bool wr_profile_make(const char *text, WrProfiled *out, WrError *err)
     if (!check_axis(&made, err)) return false;
     for (int k = made.count; k < WR_PROFILE_PIECES; k++) made.from[k] = 2;
     *out = made;
+    /* Corners are the pieces whose first derivatives differ at the joint: rows of meshes are placed there. */
     return true;
 }
 

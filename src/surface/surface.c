@@ -13,11 +13,14 @@
 #include "surface/surface_list.h"
 #undef WR_SURFACE_FORMULAS
 
+/* One file for each surface, listed in surface_list.h, which is included three times: formulas in double,
+   rows, enumeration. */
 const WrSurfaceInfo *const wr_surfaces[WR_SURFACE_COUNT] = {
 #define WR_X(name) [WR_SURFACE_##name] = &name##_row,
 #include "surface/surface_list.h"
 };
 
+/* Names of rows are the words of documents: they never change, while the order of the list may. */
 int wr_surface_find(const char *name)
 {
     for (int kind = 0; kind < WR_SURFACE_COUNT; kind++) {
@@ -49,6 +52,7 @@ void wr_shape_default(WrSurfaceKind kind, WrShape *shape)
     double *value = shape->value;
     const WrSurfaceParam *param = NULL;
     while ((param = next_param(wr_surfaces[kind], param))) {
+        /* value[] is the row's params one after another, `components` doubles each; there is no index by name. */
         memcpy(value, param->fallback, (size_t)param->components * sizeof *value);
         value += param->components;
     }
@@ -66,6 +70,7 @@ int wr_surface_param_offset(WrSurfaceKind kind, const char *name)
     return -1;
 }
 
+/* ends: only the two limits themselves are valid, as for switches 0 and 1. */
 static bool check_param(const WrSurfaceInfo *info, const WrSurfaceParam *param, const double *value,
                         WrError *err)
 {
@@ -101,6 +106,8 @@ bool wr_shape_check(const WrShape *shape, WrError *err)
     return !info->check || info->check(shape, err);
 }
 
+/* Meshes and patches hold their own centre, in units before `scale`; formulas have a constant one, or half the
+   sides a, b. */
 WrVec3 wr_shape_centre(const WrShape *shape)
 {
     WR_ASSERT(kind_exists(shape->kind));
@@ -135,6 +142,7 @@ static double sampled_radius(const WrShape *shape)
     return 1.01 * most;
 }
 
+/* Never 0: it is a divisor of tolerances and camera distances. */
 double wr_shape_radius(const WrShape *shape)
 {
     WR_ASSERT(kind_exists(shape->kind));
@@ -145,6 +153,7 @@ double wr_shape_radius(const WrShape *shape)
     return radius > 0 ? radius : 1;
 }
 
+/* The part of the table's (u, v) that a face shows. */
 WrSurfaceCell wr_surface_cell(const WrShape *shape, int face)
 {
     const WrSurfaceInfo *info = wr_surfaces[shape->kind];
@@ -152,11 +161,13 @@ WrSurfaceCell wr_surface_cell(const WrShape *shape, int face)
     return (WrSurfaceCell){ 0, 1, 0, 1 };
 }
 
+/* value[2] is the plane's switch `endless`, a number like all parameters. */
 bool wr_shape_endless(const WrShape *shape)
 {
     return wr_surfaces[shape->kind]->endless && shape->value[2] > 0.5;
 }
 
+/* Faces of a cube share the table as an atlas with margins; 1 x 1 for all other surfaces. */
 void wr_surface_cells(const WrShape *shape, int *columns, int *rows)
 {
     const double part = 1 - 2 * WR_CELL_MARGIN;
@@ -184,6 +195,8 @@ const char *wr_shape_without_parallax(const WrShape *shape)
     return NULL;
 }
 
+/* A cell extends to the middle of the margin between neighbours: half a column or row on either side of its
+   centre. */
 int wr_surface_face(const WrShape *shape, int face, double u, double v)
 {
     int columns, rows;
@@ -205,6 +218,8 @@ void wr_surface_at(const WrShape *shape, int face, double u, double v, WrSurface
     wr_surfaces[shape->kind]->at(shape, face, u, v, out);
 }
 
+/* Kernels work in units in which the object's size is near 1: lengths are multiplied by `scale`, angles and
+   ratios are not. The clamp keeps the conversion to float finite (HC09). */
 void wr_shape_scaled(const WrShape *shape, double scale, WrShapef *out)
 {
     WR_ASSERT(kind_exists(shape->kind));

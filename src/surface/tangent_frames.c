@@ -21,6 +21,9 @@ static bool is_zero(WrVec3 a)
 
 /* ---- the lecture's equation ---- */
 
+/* L1: T = (v2 E1 - v1 E2) / det, B = (-u2 E1 + u1 E2) / det. det is compared with the size of its own products
+   (HC28, HC30). */
+
 bool wr_tangent_lecture(const WrVec3 p[3], const double uv[3][2], WrVec3 *t, WrVec3 *b, double *det)
 {
     const WrVec3 e1 = v3_sub(p[1], p[0]), e2 = v3_sub(p[2], p[0]);
@@ -36,6 +39,9 @@ bool wr_tangent_lecture(const WrVec3 p[3], const double uv[3][2], WrVec3 *t, WrV
 }
 
 /* ---- triangles with their corners ---- */
+
+/* Corners with equal position, normal and (u,v) are one vertex (`weld`); -0 counts as 0. The arrays out[3 i +
+   k] are by corner of each triangle, as seams may have different frames at one vertex. */
 
 typedef struct Tri {
     WrVec3 p[3], n[3];
@@ -96,6 +102,8 @@ static double angle_at(const Tri *t, int k)
 
 /* ---- averages of frames ---- */
 
+/* Sums apart for both signs of det: mirrored halves never average to T = 0 (HC31). Weights are corner angles. */
+
 typedef struct Sums {
     WrVec3 t[2], b[2]; /* of det > 0, of det < 0 */
 } Sums;
@@ -140,6 +148,9 @@ bool wr_tangents_average(const WrTriangleCorner *corners, const WrTriangle *tria
 
 /* ---- MikkTSpace ---- */
 
+/* After Mikkelsen's description (2008), in double: frames of other programs agree to float rounding. Steps:
+   faces, neighbours over edges, groups around each vertex, one frame for each group and face. */
+
 enum { UNSET = -1 };
 
 typedef struct Face {
@@ -169,7 +180,9 @@ static bool same_place(WrVec3 a, WrVec3 b)
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-/* S = sign unit(t31.v d1 - t21.v d2), T the same along v. */
+/* S = sign unit(t31.v d1 - t21.v d2), T the same along v.
+   Triangles without (u,v) area have no direction of their own (`any`) and adopt that of the first group that
+   reaches them. */
 static void fill_face(const Tri *tri, Face *face)
 {
     const WrVec3 d1 = v3_sub(tri->p[1], tri->p[0]), d2 = v3_sub(tri->p[2], tri->p[0]);
@@ -208,7 +221,9 @@ static int32_t weld_of(const Mikk *m, int32_t corner)
 }
 
 /* Among the edges from `i` on that join the same corners, pairs each with the first free one of
- * opposite direction. */
+ * opposite direction.
+ * Edges are sorted, so equal ones are adjacent and the lower corner number comes first: the pairing is the
+ * same on every machine. An edge of three faces leaves one without a neighbour (HC132). */
 static void pair_edges(Mikk *m, const Edge *edges, int32_t i, int32_t count)
 {
     const Edge *a = &edges[i];
@@ -250,7 +265,8 @@ static int corner_at(const Mikk *m, int32_t i, int32_t weld)
     return UNSET;
 }
 
-/* Adds the face if the rules allow it; true if added. */
+/* Adds the face if the rules allow it; true if added.
+   An undecided face adopts the sign of its first group, once for all its corners. */
 static bool join(Mikk *m, int32_t index, int32_t i, int k)
 {
     Face *face = &m->face[i];
@@ -267,7 +283,8 @@ static bool join(Mikk *m, int32_t index, int32_t i, int k)
     return true;
 }
 
-/* Adds all faces around the corner that are reachable across edges. */
+/* Adds all faces around the corner that are reachable across edges.
+   Depth first with an explicit stack; each corner joins at most one group, so at most 3 count entries. */
 static void spread_group(Mikk *m, int32_t index, int32_t i, int k)
 {
     int32_t height = 0;
@@ -300,7 +317,8 @@ static WrVec3 laid(WrVec3 a, WrVec3 n)
     return v3_unit(v3_mad(a, n, -v3_dot(n, a)), none);
 }
 
-/* False for exactly opposite frames, whose sum is 0. */
+/* False for exactly opposite frames, whose sum is 0.
+   HC130: two folded faces with opposite S would sum to 0; each then keeps its own frame. */
 static bool goes_along(const Mikk *m, int32_t i, int32_t j, WrVec3 n)
 {
     const Face *a = &m->face[i], *b = &m->face[j];
@@ -310,7 +328,9 @@ static bool goes_along(const Mikk *m, int32_t i, int32_t j, WrVec3 n)
            v3_dot(laid(a->t, n), laid(b->t, n)) > opposite;
 }
 
-/* The frame of the face's corner k. */
+/* The frame of the face's corner k.
+   Each S is projected onto the plane of the vertex normal, weighted by the projected corner angle, summed and
+   made unit. The sum depends on the face (goes_along), so it is not stored per group. */
 static WrVec3 tangent_of(const Mikk *m, int32_t i, int k)
 {
     const Tri *own = &m->frames.tri[i];
@@ -342,7 +362,8 @@ static void fill_corner(const Mikk *m, int32_t corner, WrTangent *out)
     out->b = v3_scale(v3_cross(n, out->t), out->sign);
 }
 
-/* Triangles without area copy the frame of a corner equal to theirs. */
+/* Triangles without area copy the frame of a corner equal to theirs.
+   Such triangles are invisible, but interpolation over a neighbouring sample may touch them (HC131). */
 static bool copy_frames(const Mikk *m, WrTangent *out, WrError *err)
 {
     int32_t *first = wr_try_alloc((size_t)m->frames.welds, sizeof *first, "tangents", err);

@@ -6,6 +6,8 @@
 
 #include <math.h>
 
+/* The heights become the coefficients of a uniform cubic B-spline, one per grid corner: a mean over the texels
+   around it. The spline is C2, so the base has no creases, and stays within the range of its coefficients. */
 #define MAX_MOST 1e29 /* largest height: patches are limited to 1e30 */
 #define KNOTS 67      /* for 64 cells and one beyond each end */
 
@@ -17,7 +19,9 @@ static void span_of(double at, double half, int count, int *from, int *to)
     *to = (int)fmin(fmax(floor(at + half - 0.5), nearest), count - 1);
 }
 
-/* Mean heights about all grid corners, [rows + 1][columns + 1], v = 0 first; each row of heights is read once. */
+/* Mean heights about all grid corners, [rows + 1][columns + 1], v = 0 first; each row of heights is read once.
+   Sums over rows of corners whose range contains row r; ranges overlap, so a row of heights counts for two
+   rows of corners. */
 static void means_of(const WrTerrain *t, int columns, int rows, float *room, double *means)
 {
     for (int r = 0; r < t->h; r++) {
@@ -41,7 +45,9 @@ static void means_of(const WrTerrain *t, int columns, int rows, float *room, dou
 }
 
 /* Bezier points of the spline with these coefficients, `step` apart; extrapolated linearly beyond the
- * ends. */
+ * ends.
+ * A cubic B-spline piece with coefficients a, b, c, d has the Bezier points (a + 4b + c)/6, (2b + c)/3, (b +
+ * 2c)/3, (b + 4c + d)/6. */
 static void spline_points(const double *knots, int cells, double *out, int step)
 {
     double k[KNOTS];
@@ -57,7 +63,8 @@ static void spline_points(const double *knots, int cells, double *out, int step)
     }
 }
 
-/* Heights of all points, [3 rows + 1][3 columns + 1]. */
+/* Heights of all points, [3 rows + 1][3 columns + 1].
+   A tensor product: first all rows along u, then all columns along v, in place. */
 static void spline_grid(const WrTerrain *t, const double *means, int columns, int rows,
                         double *grid)
 {
@@ -116,6 +123,8 @@ static int cell_of(double at, int count, double *within)
     return cell;
 }
 
+/* The patch's parameters run 0 .. 1 over one cell, so derivatives by the terrain's u and v have the factors c
+   and r. */
 void wr_terrain_at(const WrPatches *set, double u, double v, WrSurfacePoint *out)
 {
     const double c = set->columns, r = set->rows;

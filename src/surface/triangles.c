@@ -13,12 +13,17 @@
 
 /* ---- meshes ---- */
 
-/* Fills in all members derived from the arrays. */
+/* Fills in all members derived from the arrays.
+   A mesh is three arrays: `corners` (position, normal, u, v; equal rows exist once), `triangles` (three corner
+   indices, counter- clockwise seen from outside) and `parts` (consecutive triangles). A finished mesh is
+   immutable and shared by reference; `key` is a hash of the arrays, so caches compare one number. */
 static void triangles_measure(WrTriangles *made);
 
 /* ---- Sorting of a mesh's triangles, and its final arrays ---- */
 
-/* Spreads 21 bits to every third bit. */
+/* Spreads 21 bits to every third bit.
+   Morton code: bit n of x goes to bit 3 n. Each step doubles the number of gaps; 21 bits of three axes fill 63
+   of 64. */
 static uint64_t spread_bits(uint64_t x)
 {
     x &= 0x1fffff;
@@ -29,7 +34,10 @@ static uint64_t spread_bits(uint64_t x)
     return (x | x << 2) & 0x1249249249249249ULL;
 }
 
-/* Position of a face's centre on the space-filling curve. */
+/* Position of a face's centre on the space-filling curve.
+   Faces near each other in space become near in memory: blocks of consecutive triangles then have tight
+   bounding spheres and narrow normal cones. The mean of corners is inside the bounding sphere, so t is 0 ..
+   2^21; only order depends on it. */
 static uint64_t curve_place(const WrTrianglesBuild *b, int32_t i)
 {
     const WrTriangleCorner *c = b->corner + 3 * (size_t)i;
@@ -48,7 +56,9 @@ typedef struct Item {
     int32_t face;
 } Item;
 
-/* Stable radix sort by key: eight passes of a byte each. */
+/* Stable radix sort by key: eight passes of a byte each.
+   Stable, so that faces with equal keys keep the file's order and the result does not depend on the library's
+   qsort. The number of passes is even: the result ends in `items`. */
 static void sort_items(Item *items, Item *spare, int32_t count)
 {
     for (int shift = 0; shift < 64; shift += 8) {
@@ -61,7 +71,9 @@ static void sort_items(Item *items, Item *spare, int32_t count)
     }
 }
 
-/* Sorts faces by parts and the curve. */
+/* Sorts faces by parts and the curve.
+   Each part is sorted on its own and stays one range. b->of[k] is the source triangle of kept face k,
+   increasing. */
 static bool sort_faces(const WrTrianglesBuild *b, Item *items, WrError *err)
 {
     const WrTrianglesSource *source = b->source;
@@ -103,7 +115,10 @@ static WrTrianglePart *make_parts(const WrTrianglesBuild *b, int *count)
     return parts;
 }
 
-/* Numbers corners in the order of their first use. */
+/* Numbers corners in the order of their first use.
+   Each corner of a face comes as a row of its own; wr_weld merges rows with equal bits. Rows were cleared of
+   -0, which compares equal to 0 but has other bits. At most 2^24 corners: documents store indices as floats,
+   exact up to there. */
 static bool number_corners(WrTriangles *made, WrTriangleCorner *rows, WrError *err)
 {
     const int32_t count = 3 * made->triangle_count;
@@ -137,7 +152,10 @@ static bool all_but_one(const WrTriangleCorner *a, const WrTriangleCorner *b)
 }
 
 /* Counts corners whose position and normal equal another's, and nearly its (u,v): seams by rounding,
- * which split tangent frames (HC129). */
+ * which split tangent frames (HC129).
+ * A list for each position: last[place] is its latest corner, before[corner] the one before, both plus 1. At
+ * most 16 are compared, so that a fan with thousands of corners at its hub stays linear. Out of memory reports
+ * 0: it is only a statistic. */
 static int32_t count_near(const WrTriangles *made)
 {
     const int32_t count = made->corner_count;
@@ -220,6 +238,8 @@ static void triangles_measure(WrTriangles *made)
 
 /* ---- Serialisation of a mesh as numbers, for documents ---- */
 
+/* Layout, all as floats: HEAD, REPORT_COUNT statistics, BALL (centre and radius as sums of three floats), PART
+   numbers for each part, 8 for each corner in the order of WrTriangleCorner, 3 indices for each triangle. */
 #define PACK_VERSION 1
 
 /* version, corners, triangles, parts, closed, then the statistics; the bounding sphere as twice three
@@ -242,7 +262,8 @@ static void report_from_floats(const float *in, WrTrianglesReport *report)
     *report = (WrTrianglesReport){ n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8] != 0, 0 };
 }
 
-/* A double as three floats whose sum it is. */
+/* A double as three floats whose sum it is.
+   3 * 24 bits hold the 53 of a double. join adds the small ones first; all sums are exact. */
 static void split(double x, float out[3])
 {
     for (int i = 0; i < 3; i++) {
@@ -291,6 +312,8 @@ static bool whole(float x, double low, double high)
     return (double)x >= low && (double)x <= high && (double)x == floor((double)x);
 }
 
+/* Values come from a file: each is checked to be a whole number in its range before the cast, because a cast
+   of a float out of range is undefined. `packed` cannot overflow for counts within these limits. */
 static bool check_head(const float *block, size_t count)
 {
     return count >= HEAD + REPORT_COUNT + BALL && whole(block[0], PACK_VERSION, PACK_VERSION) &&
@@ -380,6 +403,9 @@ WrTriangles *wr_triangles_unpack(const float *block, size_t count, WrError *err)
 
 /* ---- Areas of a mesh with overlapping texture coordinates ---- */
 
+/* The (u,v) plane is divided in cells x cells squares of the unit table; a cell is covered if its centre is
+   inside a triangle, modulo 1. The share of cells covered more than once is the overlap. */
+
 /* Coverage count of cell centres: 0, 1, 2 for more. */
 typedef struct Count {
     unsigned char *cell;
@@ -390,6 +416,7 @@ typedef struct Flat {
     double u[3], v[3]; /* in cells */
 } Flat;
 
+/* Twice the signed area of the point and the edge opposite corner k. */
 static double side(const Flat *t, int k, double x, double y)
 {
     const int a = (k + 1) % 3, b = (k + 2) % 3;
@@ -404,6 +431,8 @@ static bool owns(const Flat *t, int k)
     return dv < 0 || (dv == 0 && du < 0);
 }
 
+/* sign: 1 for a counter-clockwise triangle. A centre exactly on an edge belongs to one of the two triangles
+   that share it, so that a seamless atlas counts no cell twice. */
 static bool holds(const Flat *t, double sign, double x, double y)
 {
     for (int k = 0; k < 3; k++) {
@@ -462,6 +491,8 @@ double wr_triangles_overlap(const WrTriangles *triangles, int cells, int32_t *ou
 
 /* ---- merging of equal positions ---- */
 
+/* All keys are multiples of 4 bytes. The multiply-and-xor of each word makes equal low bits of floats (many
+   zeros in the mantissa) spread over the table. */
 static uint32_t mix(const void *key, size_t size)
 {
     const unsigned char *from = key;
@@ -474,6 +505,8 @@ static uint32_t mix(const void *key, size_t size)
     return h;
 }
 
+/* Hash table with linear probing, at most half full. to[i] is a number in the order of first appearance,
+   independent of the hash; the result is the same on every machine. */
 bool wr_weld(const void *rows, size_t size, int32_t count, int32_t *to, int32_t *kinds,
              WrError *err)
 {
@@ -509,7 +542,9 @@ static WrVec3 place(const WrTrianglesBuild *b, int32_t point)
 }
 
 /* The cross product of the triangle's two shortest edges, oriented by the winding; *from: the corner
-   between them. */
+   between them.
+   All three corners yield the same cross product in exact arithmetic; the two shortest edges subtract the
+   closest coordinates, so a needle triangle of 1 : 1e7 keeps its normal's digits (HC133). */
 static WrVec3 face_of(const WrVec3 p[3], int *from)
 {
     double side[3]; /* of the edge opposite corner i, relative to the longest */
@@ -529,7 +564,9 @@ static bool usable(WrVec3 n)
 }
 
 /* Keeps the triangles with an area, each from the corner between its two shortest edges; computes their
- * normals. */
+ * normals.
+ * Two faces of a mesh may have no area although their corners differ (collinear), or have corners of equal
+ * position; both count as no_area (HC29). */
 static void keep_faces(WrTrianglesBuild *b)
 {
     const WrVec3 none = { 0, 0, 0 };
@@ -553,7 +590,10 @@ static void keep_faces(WrTrianglesBuild *b)
 
 /* ---- closed bodies ---- */
 
-/* For each position, the other ends of its outgoing (or incoming) directed edges. */
+/* For each position, the other ends of its outgoing (or incoming) directed edges.
+   Compressed lists: place[first[p] .. first[p + 1]) are the other ends at position p. Pass 0 counts into
+   first[p + 2], the sums become starts, pass 1 fills and moves first[p + 1] from the start to the end of its
+   list. */
 typedef struct Ends {
     int32_t *first; /* [places + 1] into place */
     int32_t *place; /* [3 count] */
@@ -606,7 +646,9 @@ static int32_t how_often(const Ends *leave, const Ends *come, int32_t from, int3
                                                          : times(come, to, from);
 }
 
-/* True if each directed edge exists once, and its reverse too. */
+/* True if each directed edge exists once, and its reverse too.
+   On a closed, oriented body each directed edge and its reverse exist once. Three faces at one edge, a hole or
+   two neighbours of opposite winding fail. Edges are compared by position, so (u,v) seams do not open a body. */
 static bool is_closed(const WrTrianglesBuild *b)
 {
     Ends leave = { NULL, NULL }, come = { NULL, NULL };
@@ -640,6 +682,9 @@ static void find_ball(WrTrianglesBuild *b)
     b->radius = fmax(most * (1 + 1e-12), 1e-30);
 }
 
+/* Six times the volume by the divergence theorem, the sum of p0 . (p1 x p2); in units of the radius about the
+   box's centre, so that neither a distant body nor a tiny one loses the sign. Only the sign is used: negative
+   is inside out. */
 static double volume(const WrTrianglesBuild *b)
 {
     const WrVec3 centre = { b->centre[0], b->centre[1], b->centre[2] };
@@ -667,6 +712,8 @@ static void turn_out(WrTrianglesBuild *b)
 
 /* ---- normals ---- */
 
+/* The vertex normal is the sum of face normals weighted by the corner's angle: independent of how a flat
+   region is cut into triangles, unlike equal or area weights. */
 static double corner_angle(const WrTrianglesBuild *b, int32_t i, int k)
 {
     const int32_t *c = b->face[i].corner;
@@ -702,7 +749,9 @@ static void turn_normals(WrTrianglesBuild *b)
     for (int32_t i = 0; i < b->source->point_count && sum < 0; i++) b->own[i] = v3_neg(b->own[i]);
 }
 
-/* Computes missing normals from the faces about the position. */
+/* Computes missing normals from the faces about the position.
+   Sums are by position, not by corner: both sides of a (u,v) seam get one normal, and bumps continue across
+   it. Opposite faces may cancel; then make_corner falls back to the face's own normal (HC136). */
 static bool fill_normals(WrTrianglesBuild *b, WrError *err)
 {
     const WrVec3 none = { 0, 0, 0 };
@@ -729,7 +778,8 @@ static bool good_uv(const float *uv)
     return fabsf(uv[0]) <= 1e6f && fabsf(uv[1]) <= 1e6f;
 }
 
-/* Corner k of face i; returns true if it has (u,v). */
+/* Corner k of face i; returns true if it has (u,v).
+   Adding 0 turns -0 into 0, because corners are merged by their bits. */
 static bool make_corner(WrTrianglesBuild *b, int32_t i, int k, WrTriangleCorner *out)
 {
     const int32_t point = b->face[i].corner[k];
@@ -764,7 +814,9 @@ static void count_bad_uv(WrTrianglesBuild *b)
         b->report.bad_uv += !good_uv(b->source->uv[i]);
 }
 
-/* Counts the orientations of the (u,v) of mapped faces. */
+/* Counts the orientations of the (u,v) of mapped faces.
+   det = du1 dv2 - du2 dv1 is the signed (u,v) area; it is compared with the sum of its two products, which
+   bounds its rounding error. A test against a fixed number would depend on the map's scale (HC126). */
 static void count_maps(WrTrianglesBuild *b)
 {
     for (int32_t i = 0; i < b->count; i++) {
@@ -780,6 +832,8 @@ static void count_maps(WrTrianglesBuild *b)
 
 /* ---- construction ---- */
 
+/* All checks of a mesh from outside are here, once; the code after it relies on them. 1e30 keeps squares of
+   lengths within double range by far, and float positions finite. */
 static bool check_source(const WrTrianglesSource *source, WrError *err)
 {
     if (source->triangle_count < 1 || source->triangle_count > WR_TRIANGLES_MAX ||
@@ -842,6 +896,8 @@ static void end(WrTrianglesBuild *b)
     wr_free(b->corner);
 }
 
+/* Order matters: the bounding sphere scales the volume, the volume decides the winding, and face normals must
+   have their final sign before missing vertex normals are summed from them. */
 static bool build(WrTrianglesBuild *b, WrError *err)
 {
     if (!begin(b, err)) return false;
@@ -909,6 +965,9 @@ int wr_triangles_part(const WrTriangles *triangles, int32_t i)
     return low;
 }
 
+/* With e_i the edge opposite corner i, grad u = n x (sum of u_i e_i) / 2A (NUMERICS-SCENES a). The edges sum
+   to 0, so u of the first corner can be subtracted from all. There is no division by the (u,v) determinant:
+   sheared, mirrored and collinear maps need no special case (HC126, HC127). */
 bool wr_triangle_gradients(const WrVec3 p[3], const double uv[3][2], WrVec3 *normal, WrVec3 *grad_u,
                            WrVec3 *grad_v)
 {
@@ -931,6 +990,8 @@ bool wr_triangle_gradients(const WrVec3 p[3], const double uv[3][2], WrVec3 *nor
 
 /* ---- points ---- */
 
+/* Searching points by (u,v): several triangles may show one texel, and a triangle may cover several repeats of
+   the table. */
 #define EDGE                                                                                       \
     1e-9 /* tolerance outside a triangle, as a fraction of it, within which a point still counts as
             on its edge */
@@ -947,6 +1008,8 @@ typedef struct Search {
     int64_t count;
 } Search;
 
+/* Neighbours both contain a point on their common edge; places that are equal in space within SAME are added
+   once. Beyond `most` places are only counted. */
 static void add_place(Search *search, int32_t index, double a, double b)
 {
     const WrTrianglesPlace place = { index, { a, b } };
@@ -962,7 +1025,10 @@ static void add_place(Search *search, int32_t index, double a, double b)
 }
 
 /* The weights (a, b) for which the corner at (o) plus a du, b dv is (u,v) or a repeat of it; in a
- * triangle or a square. */
+ * triangle or a square.
+ * Solves o + a A + b B = (u, v) + (i, j) for the repeats (i, j) that the bounding box admits, by Cramer's
+ * rule. EDGE is relative to the triangle, so points on a shared edge are found in at least one of its
+ * triangles in spite of rounding. */
 typedef struct Frame {
     double o[2], a[2], b[2];
     bool square;
@@ -1037,6 +1103,11 @@ int64_t wr_triangles_find(const WrTriangles *triangles, double u, double v, int 
 
 /* ---- the point ---- */
 
+/* Tangents from gradients: with L = 1 / |grad u x grad v|, N = L n, Pu = L (grad v x n), Pv = L (n x grad u).
+   Then
+       D = Fu (n x Pv) - Fv (n x Pu) = -|N| (Fu grad u + Fv grad v),
+   so equation B7 perturbs by the surface gradient. For mirrored (u,v) these are minus the true tangents: the
+   bump's sign then follows n and not the map (HC31). Second derivatives are 0: triangles are flat. */
 static void lay(WrVec3 n, WrVec3 grad_u, WrVec3 grad_v, WrSurfacePoint *out)
 {
     const double area = v3_len(v3_cross(grad_u, grad_v)), length = area > 1e-30 ? 1 / area : 1;
@@ -1052,6 +1123,8 @@ static WrVec3 vector_of(const float p[3])
     return (WrVec3){ (double)p[0], (double)p[1], (double)p[2] };
 }
 
+/* The point and the gradients are those of the flat triangle; only the normal is interpolated. The surface
+   gradient is projected onto its plane by lay's cross products. */
 static void mesh_at(const WrTriangles *mesh, const WrTrianglesPlace *place, WrSurfacePoint *out)
 {
     const double share[3] = { 1 - place->share[0] - place->share[1], place->share[0],

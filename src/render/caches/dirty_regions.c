@@ -18,6 +18,8 @@ void wr_dirty_fini(WrDirty *keep)
     *keep = (WrDirty){ 0 };
 }
 
+/* A box is a reference point (u, v) with offsets low <= 0 <= high, on the torus of the periodic table: boxes
+   across the seam need no special case. high < low marks the empty box. */
 static const WrDirtyBox nothing = { .high_u = -1, .high_v = -1 };
 
 static bool is_empty(const WrDirtyBox *box)
@@ -25,6 +27,8 @@ static bool is_empty(const WrDirtyBox *box)
     return box->high_u < box->low_u;
 }
 
+/* patches [tiles][down][across] are boxes of the texture positions that each patch of pixels has fetched;
+   whole [tiles] bounds a tile's patches. */
 void wr_dirty_start(WrDirty *keep, int tiles, int tile_w, int tile_h, bool whole)
 {
     wr_dirty_fini(keep);
@@ -89,7 +93,8 @@ static void extent_round(int count, const float *x, float *low, float *high)
     *low += x[0], *high += x[0];
 }
 
-/* Grows `box` to contain `count` more points. */
+/* Grows `box` to contain `count` more points.
+   Points within half a turn have an ordinary extent; only others are measured around the circle. */
 static inline void add_places(WrDirtyBox *box, int count, const float *u, const float *v)
 {
     float u0 = u[0], u1 = u[0], v0 = v[0], v1 = v[0];
@@ -101,7 +106,8 @@ static inline void add_places(WrDirtyBox *box, int count, const float *u, const 
     add_box(box, &more);
 }
 
-/* Index of the patch that contains sample x, with k samples a pixel. */
+/* Index of the patch that contains sample x, with k samples a pixel.
+   x is the sample's index plus a shift of less than 1/2: adding 1/2 and truncating returns the index. */
 static int patch_at(float x, int k, int from, int side)
 {
     const int sample = (int)(x + 0.5f);
@@ -218,7 +224,9 @@ static float waste(const WrDirtyBox *a, const WrDirtyBox *b)
 }
 
 /* Adds a box. It is merged with a box that it fits; when the list is full, with the box where the waste is
-   least. */
+   least.
+   A short list keeps the comparison with every patch cheap; merging costs pixels that are rendered for
+   nothing. */
 static void add_change(WrDirty *keep, const WrDirtyBox *box)
 {
     int best = 0;
@@ -232,7 +240,8 @@ static void add_change(WrDirty *keep, const WrDirtyBox *box)
     else keep->changed[keep->changes++] = *box;
 }
 
-/* Adds a rectangle of texels of the field, grown by `reach`. */
+/* Adds a rectangle of texels of the field, grown by `reach`.
+   reach: texels that a fetch reads beside its position (the scheme's support). */
 static void add_rect(WrDirty *keep, const WrField *field, WrFieldRect r, int reach)
 {
     const float w = (float)wr_field_width(field), h = (float)wr_field_height(field);

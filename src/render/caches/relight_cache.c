@@ -12,6 +12,7 @@ static size_t samples_of(const WrRelightView *view)
     return (size_t)view->width * (size_t)view->height;
 }
 
+/* Floats per sample of each group; a view stores only the groups that its shading reads (wr_relight_groups). */
 static const int group_sizes[] = {
     [WR_RELIGHT_BENT] = 3,    [WR_RELIGHT_POINTS] = 3,   [WR_RELIGHT_PLACES] = 2,
     [WR_RELIGHT_NORMALS] = 3, [WR_RELIGHT_TANGENTS] = 6, [WR_RELIGHT_SPREAD] = 6,
@@ -90,6 +91,7 @@ unsigned wr_relight_groups(const WrScene *scene, const WrPlan *plan)
     return groups;
 }
 
+/* Samples of all objects have the same layout, the union of their groups, so that one index serves all. */
 static unsigned all_groups(const WrRelightView *view)
 {
     unsigned groups = 0;
@@ -111,6 +113,8 @@ static const WrEffect of_light[] = { WR_EFFECT_DIFFUSE,   WR_EFFECT_SPECULAR,  W
                                      WR_EFFECT_CAST,      WR_EFFECT_OCCLUSION, WR_EFFECT_TANGENTS,
                                      WR_EFFECT_PARAMETERS };
 
+/* Copies from b everything that only light reads; the plans must then be equal. A new setting of the plan
+   counts as geometry until it is listed here: the cache then misses, but never shows a stale picture. */
 static bool same_plan(const WrPlan *a, const WrPlan *b)
 {
     WrPlan lit = *a;
@@ -289,6 +293,8 @@ size_t wr_relight_bytes(const WrRelightView *view)
     return number_bytes(view) + shares * share_bytes(view);
 }
 
+/* numbers [height][blocks of a row][each][WR_RELIGHT_BLOCK]; owner [samples] is the object + 1 that a sample
+   shows, 0 for none. */
 static bool make_room(WrRelight *relight, const WrRelightView *view)
 {
     const size_t bytes = number_bytes(view), samples = samples_of(view);
@@ -301,6 +307,8 @@ static bool make_room(WrRelight *relight, const WrRelightView *view)
     return relight->numbers && relight->owner;
 }
 
+/* NONE: another view than the last one, recorded now. NOTE: the same view again, samples are stored. KNOWN:
+   they are read. */
 WrRelightUse wr_relight_update(WrRelight *relight, const WrRelightView *view)
 {
     const bool known = relight->whole;

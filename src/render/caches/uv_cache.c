@@ -11,6 +11,7 @@ void wr_uv_cache_fini(WrUvCache *cache)
     *cache = (WrUvCache){ .u = NULL };
 }
 
+/* The mesh and Newton's method determine (u, v) of every sample: frames with equal keys have the same bits. */
 void wr_uv_cache_key(WrUvCacheKey *key, const WrViewMesh *mesh, const WrView *view, bool exact,
                      const WrKernels *kernels)
 {
@@ -27,6 +28,7 @@ void wr_uv_cache_key(WrUvCacheKey *key, const WrViewMesh *mesh, const WrView *vi
     key->kernels = kernels;
 }
 
+/* Arrays are kept if only the key differs; `whole` stays false until a frame has filled all samples. */
 bool wr_uv_cache_update(WrUvCache *cache, const WrUvCacheKey *key)
 {
     const size_t count = (size_t)key->width * (size_t)key->height;

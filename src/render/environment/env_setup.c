@@ -31,7 +31,8 @@ static bool holds(const WrEnvLookup *mirror, const WrEnvironmentMap *map,
            own->gated == gloss->gated && mirror->fine == fine;
 }
 
-/* Copies row j >= 0 of rgb into the padded table. */
+/* Copies row j >= 0 of rgb into the padded table.
+   The table has a border of one texel on every side; columns wrap, so bilinear fetches need no test. */
 static void put_row(WrEnvLookup *mirror, int j, const float *rgb)
 {
     const int w = mirror->width;
@@ -40,7 +41,9 @@ static void put_row(WrEnvLookup *mirror, int j, const float *rgb)
         memcpy(out, rgb + (size_t)((i + w) % w) * 3, 3 * sizeof *out);
 }
 
-/* Fills the row above the first or below the last so that the pole is the mean of that row. */
+/* Fills the row above the first or below the last so that the pole is the mean of that row.
+   2 mean - row: bilinear interpolation half-way, at the pole itself, is then the mean for every longitude
+   (HC111). */
 static void put_pole(WrEnvLookup *mirror, int from, int to)
 {
     const int w = mirror->width;
@@ -127,7 +130,9 @@ static void update_shares(WrEnvPrefilter *grades, const WrMaterial *m)
     wr_textured_reflection_init(&grades->vary, &of, m->specular, m->tint, m->gate);
 }
 
-/* Range of blur levels that the material's widths need. */
+/* Range of blur levels that the material's widths need.
+   Rung i has alpha = 2^-i, the last one none (a mirror); fetches interpolate between two rungs, and widening
+   by slopes moves towards rung 0. */
 static void rungs_of(const WrEnvironmentBrdf *gloss, const WrPlan *plan, int *first, int *last)
 {
     const double rung = -log2(gloss->alpha), most = WR_TEXTURED_REFLECTION_RUNGS - 1;
@@ -172,7 +177,8 @@ static void put_step(const WrTexturedReflection *vary, int i, WrKernVaryd *wide,
     put_terms(vary->twice[i], wide->twice[i], single->twice[i]);
 }
 
-/* Reflected shares at step i: for non-metal and metal, or for one fixed metalness. */
+/* Reflected shares at step i: for non-metal and metal, or for one fixed metalness.
+   own and white are linear in metalness, so a fixed metalness is mixed here once. */
 static void put_shares(const WrTexturedReflection *vary, bool alike, double metal, int i,
                        WrKernVaryd *wide, WrKernVary *single)
 {
@@ -261,6 +267,8 @@ static void narrow_mirror(const WrKernMirrord *from, WrKernMirror *to)
     to->width = from->width, to->height = from->height;
 }
 
+/* axes = turn * rotation: from object space to the unturned picture, so fetches use directions in object
+   space. Everything is computed in double and then narrowed. */
 void wr_environment_map_look(const WrScene *scene, const WrPlan *plan, const double rotation[9],
                              const WrEnvLookup *mirror, WrEnvironmentMapLook *out)
 {

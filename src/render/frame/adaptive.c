@@ -84,7 +84,8 @@ static inline float wr_refine_limit(const WrTileJob *job, WrTileScratch *scratch
 #define SURE 12 /* after this many blocks the answer may be clear */
 
 /* Measured costs, in samples of plain supersampling. With a mesh each sample costs more, so the overhead counts
-   less. */
+   less.
+   Fitted to timings of many scenes; only their ratios decide. */
 #define FIRST 1.9 /* a first sample, its share of the ring, and the test */
 #define FIRST_MESH 1.7
 #define FIRST_BOUND 7.0 /* with a bound */
@@ -97,7 +98,8 @@ typedef struct Spent {
     double adaptive, plain;
 } Spent;
 
-/* Counts the first samples of the block that hit something: inside it, and with the ring. */
+/* Counts the first samples of the block that hit something: inside it, and with the ring.
+   centre[][] has a ring of WR_REFINE_RING pixels around the block. */
 static void count_first(const WrTileScratch *scratch, int w, int h, int ring, int *within, int *all)
 {
     *within = *all = 0;
@@ -142,7 +144,9 @@ static bool clear(const Spent *spent)
 }
 
 /* Blocks are spread evenly over the view, but not in rows, with which relief may be in step: they lie at
-   multiples of 1/p and 1/p^2, p the plastic number. */
+   multiples of 1/p and 1/p^2, p the plastic number.
+   The plastic number is the real root of p^3 = p + 1; these multiples (R2 sequence, Roberts 2018) are evenly
+   spread for any count. */
 #define ACROSS 0xc13fa9a9U /* of 2^32 */
 #define DOWN 0x91e10da5U
 
@@ -192,7 +196,9 @@ bool wr_refine_pays(const WrTileJob *job, WrTileScratch *scratch)
 /* ---- more samples -------------------------------------------------------------------------------- */
 
 /* For K = 4, 8, 12, ...: one sample in each row and column, a set that a quarter turn maps to itself. For any
-   quadratic function its mean equals that of all K x K samples. */
+   quadratic function its mean equals that of all K x K samples.
+   A quarter turn maps the set to itself, so the means of x, y, xy and x^2 - y^2 vanish; one sample in each row
+   and column has the same mean of x^2 and y^2 as the whole grid. */
 static bool refine_rooks(WrRefiner *r)
 {
     const int k = r->job->samples, quarter = k / 4;
@@ -218,7 +224,9 @@ typedef struct Batch {
     WrDepthTile tile;
 } Batch;
 
-/* Samples of one object that wait for a full strip, and their destinations. */
+/* Samples of one object that wait for a full strip, and their destinations.
+   Destinations are pointers into sample[][]; a strip is drawn when WR_SPAN samples are queued, whatever pixels
+   they belong to. */
 typedef struct Queue {
     const Batch *batch;
     const WrTileJob *job;
@@ -357,7 +365,9 @@ static void sum_pairs(float (*x)[4], int count)
     }
 }
 
-/* Linear and quadratic change of light around a pixel's centre, estimated from its neighbours. */
+/* Linear and quadratic change of light around a pixel's centre, estimated from its neighbours.
+   Central differences: f(dx, dy) = f0 + x dx + y dy + xx dx^2 + yy dy^2 + xy dx dy, with xx half the second
+   difference. */
 typedef struct Bend {
     float x[4], y[4], xx[4], yy[4], xy[4];
 } Bend;
@@ -377,7 +387,9 @@ static Bend bend_at(const WrTileScratch *s, int x, int y)
     return b;
 }
 
-/* True if the mean of the K samples is accurate enough; it then becomes the pixel. */
+/* True if the mean of the K samples is accurate enough; it then becomes the pixel.
+   Three tests: no sample is far from the quadratic prediction, coverage is that of the centre, and the mean
+   agrees with the prediction of the first pass. NaN fails each comparison. */
 static bool rooks_agree(const WrRefiner *r, const unsigned char at[2], float (*sample)[4])
 {
     const int k = r->job->samples;
@@ -443,7 +455,9 @@ static void finish_all(const WrRefiner *r, int first, int count)
     }
 }
 
-/* Samples as many listed pixels at once as the buffer holds. */
+/* Samples as many listed pixels at once as the buffer holds.
+   The list goes through two rounds: K samples for pixels marked WR_OPEN, then the rest for all that are still
+   open. */
 static void sample_list(Batch *batch, int count)
 {
     const WrRefiner *r = batch->r;
@@ -531,7 +545,9 @@ static void finer_texels(const WrColourLook *look, double *w, double *h)
     *h = fmax(*h, fabs(look->rv) * look->height);
 }
 
-/* Texels per pixel along u and v, of the table or of the pictures, whichever are finer; 0: nothing is fetched. */
+/* Texels per pixel along u and v, of the table or of the pictures, whichever are finer; 0: nothing is fetched.
+   Derivatives of (u, v) per pixel times these numbers are texels per pixel; normal maps and pictures count
+   like the table. */
 static void count_texels(const WrTileJob *job, float texels[2])
 {
     const bool colour = wr_plan_calls(job->plan, WR_EFFECT_COLOUR);
@@ -638,7 +654,8 @@ static bool is_filled(const WrRefiner *r, float from)
 }
 
 /* One sample a pixel, with a ring of two pixels round the tile, also beyond the picture. So the choice of pixels
-   does not depend on the division into tiles. */
+   does not depend on the division into tiles.
+   A pixel's decision uses the 5 x 5 first samples around it. */
 static void first_samples(const WrRefiner *r)
 {
     const WrTilePart on = grown(r->part, r->by_bound ? 0 : RING);
@@ -668,7 +685,8 @@ static void open_by_bound(const WrRefiner *r)
     }
 }
 
-/* Opens the pixels around a point of the picture, given in 1/256 samples. */
+/* Opens the pixels around a point of the picture, given in 1/256 samples. Corners of the object (tips) lie between
+   samples; near them neither the neighbours nor one sample show it. */
 static void open_about(const WrRefiner *r, const WrRasterVertex *point)
 {
     const double per = 256.0 * r->job->samples;
@@ -723,7 +741,8 @@ static void count_row(const WrRefiner *r, int y)
     }
 }
 
-/* Decides a pixel: 0: the prediction suffices; WR_OPEN: try K samples; WR_OPEN_ALL: take K x K. */
+/* Decides a pixel: 0: the prediction suffices; WR_OPEN: try K samples; WR_OPEN_ALL: take K x K.
+   finest: even K samples a side skip texels then, and all K x K are taken. */
 static int opened(const WrRefiner *r, int x, int y)
 {
     const WrTileScratch *s = r->scratch;
@@ -738,7 +757,9 @@ static int opened(const WrRefiner *r, int x, int y)
 }
 
 /* weight: the mean of K x K samples has 1 - 1 / K^2 of the second-difference correction; slope: possible error
-   of jittered samples. */
+   of jittered samples.
+   With light f and second difference D the mean over the pixel is f + D / 24; over a regular k x k grid f + (1
+   - 1/k^2) D / 24. */
 static void open_by_contrast(const WrRefiner *r)
 {
     WrTileScratch *s = r->scratch;

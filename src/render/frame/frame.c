@@ -16,6 +16,9 @@
 
 /* ---- Cost counters of a frame, by stage and by effect ---- */
 
+/* scratch[i] belongs to thread i and is reused from frame to frame; counters are summed when all threads have
+   finished. */
+
 void wr_frame_start_counts(WrRenderer *renderer)
 {
     for (int i = 0; i < renderer->threads; i++) {
@@ -45,7 +48,9 @@ typedef struct Counts {
     WrEffects ran;
 } Counts;
 
-/* Writes cost and touched samples of each effect to the plan's rows. */
+/* Writes cost and touched samples of each effect to the plan's rows.
+   A row's pixels are those that were shaded, without the runs in which the effect was skipped (`spared`);
+   spared_tiles is indexed by the union of the bits. */
 static void account(WrPlan *plan, const double seconds[WR_STAGE_COUNT], const Counts *counts)
 {
     const int64_t shaded = counts->shaded;
@@ -85,6 +90,8 @@ static double add_thread(const WrTileScratch *s, double seconds[WR_STAGE_COUNT])
     return left - share * strips;
 }
 
+/* Work is threads x (total - prepared) + prepared: the time that all threads had. The parts not spent in tiles
+   are waiting. */
 void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrFrame *frame)
 {
     double seconds[WR_STAGE_COUNT] = { 0 }, rest = 0, busy = 0;
@@ -141,6 +148,8 @@ void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrF
 
 /* ---- Horizon and ambient occlusion tables of the height field, updated with each frame ---- */
 
+/* Both tables follow the field, not the view: turning the object keeps them. */
+
 void wr_frame_drop_horizon(WrRenderer *renderer)
 {
     wr_horizon_drop(&renderer->horizon);
@@ -150,7 +159,9 @@ void wr_frame_drop_horizon(WrRenderer *renderer)
     renderer->horizon_edit = NULL;
 }
 
-/* Updates the horizons after an edit of the table. */
+/* Updates the horizons after an edit of the table.
+   horizon_before -> horizon_key: the edit marks texels whose horizons changed between these two versions of
+   the table. */
 static bool update_horizon(WrRenderer *renderer, WrError *err)
 {
     WrHorizon *horizon = &renderer->horizon;
@@ -170,7 +181,8 @@ static bool update_horizon(WrRenderer *renderer, WrError *err)
     return true;
 }
 
-/* Updates the table's horizons; after an edit, only the changed ones. */
+/* Updates the table's horizons; after an edit, only the changed ones.
+   Horizons of -F are those of a negative height; a change of sign rebuilds them. */
 bool wr_frame_update_horizon(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const double sign = request->scene->height < 0 ? -1 : 1;
@@ -192,6 +204,8 @@ bool wr_frame_update_horizon(WrRenderer *renderer, const WrFrameRequest *request
     return wr_horizon_make(horizon, renderer->looked, plan->horizons, sign, renderer->pool, err);
 }
 
+/* `horizon_edit` marks the texels whose horizons changed between the keys before and after; the occlusion of those
+   alone is summed again. */
 bool wr_frame_update_occlusion(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_OCCLUSION))
@@ -218,6 +232,7 @@ static bool keeps_bases(const WrFrameRequest *request)
     return request->force && request->force[WR_EFFECT_DISPLACED] == WR_FORCE_OFF;
 }
 
+/* A caster's mesh is kept in its renderer's `body`, so that several pictures of a still object build it once. */
 bool wr_frame_casts(WrRenderer *const *renderers, const WrScene *const *scenes,
                     const WrField *const *fields, int count, const WrFrameRequest *request,
                     WrError *err)
@@ -269,7 +284,9 @@ static bool touches(const FrameJob *job, int index)
     return any;
 }
 
-/* Renders the requested blocks of the tile, neighbouring ones at once: long rows are faster. */
+/* Renders the requested blocks of the tile, neighbouring ones at once: long rows are faster.
+   only [blocks down][blocks across] of the whole picture, WR_FRAME_BLOCK pixels wide; a tile is a whole number
+   of blocks, so one row of `only` is read. */
 static void render_asked(const FrameJob *job, WrTilePart tile, int index, WrTileScratch *scratch)
 {
     const int blocks = (job->tile.width + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK;
@@ -292,7 +309,9 @@ static bool touches_patch(const FrameJob *job, int index, int column, int row)
     return any;
 }
 
-/* Renders the tile's patches that those changes reach: runs of patches, and rows with the same runs at once. */
+/* Renders the tile's patches that those changes reach: runs of patches, and rows with the same runs at once.
+   A run is contiguous patches; runs of equal extent in successive rows become one rectangle, because a
+   pipeline strip has a fixed overhead. */
 static void render_touched(const FrameJob *job, WrTilePart tile, int index, WrTileScratch *scratch)
 {
     const WrDirty *keep = job->keeps[0];
@@ -314,6 +333,8 @@ static void render_touched(const FrameJob *job, WrTilePart tile, int index, WrTi
     if (next.h > 0) render_part(job, next, index, scratch);
 }
 
+/* Tile `index` counts along rows. Threads share the counter of the pool; a tile writes only its own pixels and
+   its thread's scratch. */
 static void render_tile(int index, int worker, void *ctx)
 {
     FrameJob *job = ctx;
@@ -382,6 +403,7 @@ static void forget_view(WrRenderer *renderer)
     renderer->seen = false;
 }
 
+/* Drops everything that can be computed again; the picture, its size and the thread scratch remain. */
 void wr_renderer_forget(WrRenderer *renderer)
 {
     forget_view(renderer);
@@ -416,6 +438,7 @@ void wr_renderer_free(WrRenderer *renderer)
     wr_free(renderer);
 }
 
+/* 16384: coordinates in 1/256 samples stay within 32 bits, their products within 64 (raster.c). */
 static bool check_size(const WrFrameRequest *request, WrError *err)
 {
     const int width = request->width, height = request->height;
@@ -476,6 +499,7 @@ static void want_codes(WrRenderer *renderer, const WrFrameCodes *codes, WrTileJo
     job->backdrop = &renderer->backdrop;
 }
 
+/* request NULL: a job for picking, without codes and by exact kernels. */
 WrTileJob wr_frame_canvas(WrRenderer *renderer, const WrFrameRequest *request)
 {
     const WrPlan *plan = &renderer->plan;
@@ -509,6 +533,8 @@ WrTileJob wr_frame_canvas(WrRenderer *renderer, const WrFrameRequest *request)
     return job;
 }
 
+/* Pointers into the renderer's tables: valid until the next frame prepares its own. Looks and parallax are
+   kept for picks, which come between frames. */
 WrTileJob wr_frame_job(WrRenderer *renderer, const WrFrameRequest *request)
 {
     WrTileJob job = wr_frame_canvas(renderer, request);
@@ -532,6 +558,7 @@ WrTileJob wr_frame_job(WrRenderer *renderer, const WrFrameRequest *request)
     return job;
 }
 
+/* Scenes are immutable while shared: equal pointers mean equal content. */
 static bool same_view(const WrRenderer *renderer, const WrFrameRequest *request)
 {
     const WrFrameRequest *last = &renderer->last;
@@ -540,7 +567,8 @@ static bool same_view(const WrRenderer *renderer, const WrFrameRequest *request)
            last->height == request->height;
 }
 
-/* Bounding radius, cached while the shape is unchanged. */
+/* Bounding radius, cached while the shape is unchanged.
+   memcmp of shapes is valid: they are copied whole, padding included. */
 static double radius_of(WrRenderer *renderer, const WrShape *shape)
 {
     if (renderer->radius > 0 && memcmp(&renderer->sized, shape, sizeof *shape) == 0)
@@ -549,6 +577,7 @@ static double radius_of(WrRenderer *renderer, const WrShape *shape)
     return renderer->radius = wr_shape_radius(shape);
 }
 
+/* Depends on view and shape only, so a view that is kept keeps the result. */
 static bool find_outside(WrRenderer *renderer, const WrFrameRequest *request, bool *outside,
                          WrError *err)
 {
@@ -558,7 +587,7 @@ static bool find_outside(WrRenderer *renderer, const WrFrameRequest *request, bo
                            request->turn_deg, request->width, request->height, outside, err);
 }
 
-/* Largest displacement on screen by F, in pixels; 0 where it displaces nothing. */
+/* Largest displacement on screen by F, in pixels; -1 where it displaces nothing, or is unknown. */
 static bool find_rise(WrRenderer *renderer, const WrFrameRequest *request, double *rise,
                       WrError *err)
 {
@@ -575,7 +604,8 @@ static int reach_of(const WrPlan *plan)
     return wr_schemes[plan->scheme].reach + (plan->sampling == WR_SAMPLING_ADAPTIVE ? 2 : 0);
 }
 
-/* Adds the region that shadows and occlusion reach beyond the edit: the changed horizons. False: it is unknown. */
+/* Adds the region that shadows and occlusion reach beyond the edit: the changed horizons. False: it is unknown.
+   A relief's shadow reaches beyond the edited texels; horizon_edit lists the texels whose horizon changed. */
 static bool add_horizon_edit(WrRenderer *renderer)
 {
     const WrPlan *plan = &renderer->plan;
@@ -589,7 +619,8 @@ static bool add_horizon_edit(WrRenderer *renderer)
     return true;
 }
 
-/* True if the last picture fits this request, apart from edits of the table. */
+/* True if the last picture fits this request, apart from edits of the table.
+   Then only edited tiles are rendered (E29). Every input of a picture must be compared here. */
 static bool rests(WrRenderer *renderer, const WrFrameRequest *request, const WrPlan *before,
                   const WrKernels *kernels)
 {
@@ -602,7 +633,8 @@ static bool rests(WrRenderer *renderer, const WrFrameRequest *request, const WrP
            add_horizon_edit(renderer);
 }
 
-/* True if view and mesh of the last picture fit this request. */
+/* True if view and mesh of the last picture fit this request.
+   A plan that differs only in sampling, chosen by look_for_life, also keeps view and mesh. */
 static bool view_stands(const WrRenderer *renderer, const WrFrameRequest *request,
                         const WrPlan *before, const WrPlanRequest *ask)
 {
@@ -630,7 +662,8 @@ static void look_for_life(WrRenderer *renderer, const WrFrameRequest *request, W
     if (ask->facts.lively) wr_plan_samples(plan, ask);
 }
 
-/* Prepares view and mesh of a completely new picture. */
+/* Prepares view and mesh of a completely new picture.
+   The scene is shared first: forget_view releases the old one, which may be the same object. */
 static bool prepare_view(WrRenderer *renderer, const WrFrameRequest *request,
                          const WrKernels *kernels, WrError *err)
 {
@@ -656,6 +689,8 @@ static bool prepare_view(WrRenderer *renderer, const WrFrameRequest *request,
     return wr_fail(err, "cancelled");
 }
 
+/* The order is fixed by dependencies: facts of the view and the table, the plan, textures the plan calls for,
+   the choice of samples, and last whether the picture rests, which compares the finished plan. */
 bool wr_frame_decide(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const WrDials *dials = request->dials ? request->dials : &request->scene->dials;
@@ -686,6 +721,7 @@ bool wr_frame_decide(WrRenderer *renderer, const WrFrameRequest *request, WrErro
     return true;
 }
 
+/* Only where tiles are rendered anew in full; a resting view keeps its view, mesh and notes. */
 bool wr_frame_prepare(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     if (!wr_plan_runs(&renderer->plan, WR_EFFECT_AGAIN)) return true;
@@ -721,13 +757,16 @@ static void start_keep(WrRenderer *renderer, const WrFrameRequest *request, Fram
     job->tile.seen = &renderer->keep;
 }
 
+/* After success only: a cancelled frame must not count as complete. */
 void wr_frame_mark_current(WrRenderer *renderer)
 {
     if (renderer->uses_uv_cache) renderer->uv_cache.whole = true;
     if (renderer->keep.patches) wr_dirty_field(&renderer->keep, renderer->looked);
 }
 
-/* Renders a picture of one object. */
+/* Renders a picture of one object.
+   Invariant: after success `last`, `plan`, `keep` describe the picture in memory. After cancellation `keep` is
+   dropped, so that the next frame renders everything. */
 static bool single_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame *frame,
                          WrError *err)
 {
@@ -758,6 +797,7 @@ static bool single_frame(WrRenderer *renderer, const WrFrameRequest *request, Wr
     return true;
 }
 
+/* A hidden single object is a group as well: its picture is the background alone. */
 bool wr_renderer_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame *frame,
                        WrError *err)
 {
@@ -774,6 +814,7 @@ bool wr_renderer_pick(WrRenderer *renderer, double x, double y, double *u, doubl
     return wr_renderer_pick_object(renderer, x, y, &object, u, v, face);
 }
 
+/* (x, y) in pixels becomes a sample of the grid, so that a pick meets the point that was drawn there. */
 bool wr_renderer_pick_object(WrRenderer *renderer, double x, double y, int *object, double *u,
                              double *v, int *face)
 {

@@ -30,7 +30,9 @@ void wr_frame_drop_tables(WrRenderer *renderer)
     wr_frames_drop(&renderer->frames);
 }
 
-/* Updates the height copies that the plan needs and frees the others. */
+/* Updates the height copies that the plan needs and frees the others.
+   `hold` keeps copies that this plan does not read: several plans alternate then (passes of a tolerance,
+   bench). */
 static bool update_copies(WrRenderer *renderer, const WrFrameRequest *request, bool slope_free,
                           WrError *err)
 {
@@ -50,6 +52,8 @@ static bool update_copies(WrRenderer *renderer, const WrFrameRequest *request, b
     return !heights || wr_table_update(table, WR_COPY_HEIGHTS, field, renderer->pool, err);
 }
 
+/* Slopes for filtering, with second moments if they widen highlights; ranges of slopes bound the intensity's
+   change (E16). */
 static bool update_pyramids(WrRenderer *renderer, bool hold, WrError *err)
 {
     const WrPlan *plan = &renderer->plan;
@@ -66,6 +70,8 @@ static bool update_pyramids(WrRenderer *renderer, bool hold, WrError *err)
                                        renderer->pool, err);
 }
 
+/* 8 and 16 bits are steps between the least and the largest height, so the range must be known first. `looked`
+   is the field that every later copy is made from. */
 static bool round_heights(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const WrPlan *plan = &renderer->plan;
@@ -78,7 +84,8 @@ static bool round_heights(WrRenderer *renderer, const WrFrameRequest *request, W
     return renderer->looked != NULL;
 }
 
-/* Share of the table's tiles with non-zero slopes. */
+/* Share of the table's tiles with non-zero slopes.
+   Decides whether runs over flat parts are worth testing for. */
 static double sloped_share(const WrRenderer *renderer, const WrField *field)
 {
     const WrTable *table = &renderer->table;
@@ -90,6 +97,8 @@ static double sloped_share(const WrRenderer *renderer, const WrField *field)
     return (double)sloped / tiles;
 }
 
+/* The plan is built up to twice: the first one decides whether a gradient table is needed, whose slopes may
+   prove that bump has no effect; the second one uses that fact. */
 bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request, WrPlanRequest *ask,
                             WrError *err)
 {
@@ -121,6 +130,7 @@ bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request,
     return true;
 }
 
+/* Tangent frames belong to the corners of triangles: only meshes have them. */
 static bool update_relief(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const WrField *field = request->field;
@@ -138,6 +148,8 @@ static bool update_relief(WrRenderer *renderer, const WrFrameRequest *request, W
     return true;
 }
 
+/* One blurred copy suffices where the width is constant (`mirror`), several where it varies (`grades`); an
+   even environment needs neither. */
 static bool update_mirror(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const WrPlan *plan = &renderer->plan;
@@ -158,7 +170,8 @@ static bool update_mirror(WrRenderer *renderer, const WrFrameRequest *request, W
                                 renderer->pool, err);
 }
 
-/* True if light reads roughness or metalness from a picture of that kind. */
+/* True if light reads roughness or metalness from a picture of that kind.
+   A picture without a reader would cost memory and fetches. */
 static bool wants_facets(const WrPlan *plan, const WrScene *scene, int kind)
 {
     return wr_plan_runs(plan, WR_EFFECT_FACETS) && scene->facets[kind].image &&
@@ -185,6 +198,8 @@ static bool update_facets(WrRenderer *renderer, const WrFrameRequest *request, W
     return true;
 }
 
+/* Order: horizons before occlusion, which sums over them. All wrap as the table does, because they are laid
+   over the same (u, v). */
 bool wr_frame_prepare_maps(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const WrPlan *plan = &renderer->plan;
@@ -217,7 +232,9 @@ static void cells_of(const WrScene *scene, int *columns, int *rows)
 }
 
 /* Largest footprint: filters may not read beyond the margin of a cell. A fetch of side s reads 3 s, the blocks
-   on both sides of its position in the next coarser level, and one more texel for slopes. */
+   on both sides of its position in the next coarser level, and one more texel for slopes.
+   Faces of a cube share a table: a filter that reads past a cell's margin would blend in the neighbouring
+   face. */
 static double reach_of(const WrScene *scene, double width, double height)
 {
     int columns, rows;
@@ -227,6 +244,7 @@ static double reach_of(const WrScene *scene, double width, double height)
     return fmax((margin - 1) / 3, 0.01);
 }
 
+/* Lengths in kernel units: `scale` turns the height into them. `reach` limits the footprint, in texels. */
 static WrLookd make_look(const WrRenderer *renderer, const WrFrameRequest *request, double scale)
 {
     const WrScene *scene = request->scene;
@@ -249,7 +267,8 @@ static WrLookd make_look(const WrRenderer *renderer, const WrFrameRequest *reque
                       .range = renderer->range.seen ? &renderer->range : NULL };
 }
 
-/* Effects of a fetch at level 0, by its inputs. */
+/* Effects of a fetch at level 0, by its inputs.
+   The effects are reported per pixel in the effect map. */
 static WrEffects looks_of(const WrFrameRequest *request, const WrRenderer *renderer,
                           const WrLookd *look)
 {
@@ -262,12 +281,15 @@ static WrEffects looks_of(const WrFrameRequest *request, const WrRenderer *rende
            (renderer->looked != request->field ? WR_EFFECT_BIT(WR_EFFECT_ROUNDED) : 0);
 }
 
-/* True if the plan considered this effect and left it out. */
+/* True if the plan considered this effect and left it out.
+   WR_RUN rows run everywhere and WR_NONE rows nowhere; only a spared one is tested per run of samples. */
 static bool spares(const WrPlan *plan, WrEffect effect)
 {
     return plan->rows[effect].verdict == WR_VERDICT_SPARED && !wr_plan_runs(plan, effect);
 }
 
+/* Tiles' slope bounds for skipping: parts without slopes (ground), and sides that no bump can turn to the
+   light (dark). */
 static void fill_level(const WrRenderer *renderer, const WrFrameRequest *request, WrTileJob *job)
 {
     const WrPlan *plan = &renderer->plan;
@@ -294,7 +316,8 @@ static void fill_level(const WrRenderer *renderer, const WrFrameRequest *request
     }
 }
 
-/* Single-precision fetch parameters, with the copies that they read. */
+/* Single-precision fetch parameters, with the copies that they read.
+   One description in double is the source of both, so that they cannot differ in anything but precision. */
 static WrLook narrowed(const WrLookd *look, const float *heights, const float *gradient)
 {
     return (WrLook){ .heights = heights,
@@ -342,6 +365,7 @@ static void fill_picture(const WrFrameRequest *request, const WrColorMips *tint,
     to->far = narrowed(&to->far_double, NULL, NULL);
 }
 
+/* Only kinds that light reads are filled; the others keep rgba NULL. */
 static void fill_facets(const WrRenderer *renderer, const WrFrameRequest *request, WrTileJob *job)
 {
     for (int k = 0; k < WR_FACET_KINDS; k++)
@@ -388,6 +412,7 @@ static void fill_map(const WrRenderer *renderer, const WrFrameRequest *request, 
     job->relief = narrowed(&look, NULL, NULL);
 }
 
+/* The solid texture is a function of P: its scale is that of the kernel's P. */
 static void fill_grain(const WrPlan *plan, const WrSolidTexture *grain, double scale,
                        WrTileJob *job)
 {
@@ -396,6 +421,7 @@ static void fill_grain(const WrPlan *plan, const WrSolidTexture *grain, double s
     wr_solid_texture_kern_narrow(&job->grain_double, &job->grain);
 }
 
+/* Published energy needs no table of albedos; kd or ks 0 removes the term from the kernel's sum. */
 static void fill_matter(const WrPlan *plan, const WrFrameRequest *request, WrTileJob *job)
 {
     WrMaterial m = request->scene->material;
@@ -405,6 +431,8 @@ static void fill_matter(const WrPlan *plan, const WrFrameRequest *request, WrTil
     if (!wr_plan_runs(plan, WR_EFFECT_SPECULAR)) job->matter.ks = 0;
 }
 
+/* Doubles first, then narrowed copies: `look` and `look_double` describe the same copy of the table, whose
+   pitch and apron are equal in both precisions. */
 void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *request, double scale,
                          WrTileJob *job)
 {

@@ -24,7 +24,9 @@ void wr_frame_drop_meshes(WrRenderer *renderer, const WrViewMesh *but)
         if (&renderer->meshes[i] != but) wr_view_mesh_fini(&renderer->meshes[i]);
 }
 
-/* Number of sixteenths of a solid texture's rings, or of its finest cells, around the object. */
+/* Number of sixteenths of a solid texture's rings, or of its finest cells, around the object.
+   Newton's method must find (u, v) to a part of a texel; a solid texture has no texels, so 1/16 of its finest
+   period counts as one. */
 static double grains(const WrRenderer *renderer, const WrScene *scene)
 {
     const WrSolidTexture *grain = &scene->grain;
@@ -80,7 +82,8 @@ static bool make_dice(WrRenderer *renderer, const WrScene *scene, WrError *err)
 }
 
 /* Prepares a displaced surface. Whatever lies nearer than the base's bounding sphere is known to the comparison
-   of several objects. */
+   of several objects.
+   `rise` is in object units, `nearest` in world units. */
 static bool prepare_dice(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const WrPlan *plan = &renderer->plan;
@@ -120,6 +123,8 @@ static bool prepare_triangles(WrRenderer *renderer, const WrScene *scene, WrErro
     return true;
 }
 
+/* Pointers into the mesh's arrays, read with fixed strides: eight floats for each corner, three indices for
+   each triangle. */
 WrTriangleLook wr_frame_look_up(const WrViewTriangles *triangles, double scale)
 {
     const WrTriangles *source = triangles->source;
@@ -156,7 +161,9 @@ bool wr_renderer_pick_triangle(WrRenderer *renderer, double x, double y, int32_t
 /* ---- all surfaces ---- */
 
 /* Reuse of a static view's uv cache (uv_cache.h) and relight cache (relight_cache.h): when they are read and
-   when they are filled. */
+   when they are filled.
+   The uv cache holds (u, v) of each sample: an edit of the table keeps it. The relight cache holds positions
+   and normals: a change of lights keeps it. */
 
 #define SIGHT_MAX (1 << 24) /* pixels; 8 bytes each */
 #define PLACES (1 << 16)    /* samples along a side: in 256ths they are exact in single precision */
@@ -181,6 +188,7 @@ bool wr_frame_may_keep(const WrFrameRequest *request)
     return is_whole(request) && !reaches_far(request->scene);
 }
 
+/* Patches within a tile are the unit of re-rendering; `whole` makes the tile itself the unit. */
 void wr_frame_start_notes(const WrTileJob *canvas, WrDirty *keep)
 {
     const WrPlan *plan = canvas->plan;
@@ -207,7 +215,9 @@ static bool is_forced(const WrFrameRequest *request)
                                        force[WR_EFFECT_BESIDE] || force[WR_EFFECT_HIDDEN]));
 }
 
-/* Reads the uv cache of a static view, or starts to fill it. One sample a pixel, single precision. */
+/* Reads the uv cache of a static view, or starts to fill it. One sample a pixel, single precision.
+   Filled by the first frame of a view, read by the following ones; `beside` is the hash of all objects'
+   places. */
 static bool update_uv_cache(WrRenderer *renderer, const WrFrameRequest *request, WrHash beside,
                             bool anew)
 {
@@ -300,6 +310,8 @@ static const char *hinders_of(const WrRelightView *view)
     return why;
 }
 
+/* The first frame of a view only records the view, the second fills the cache, and from the third on lights
+   are computed from it. So a moving camera never pays for storing samples. */
 void wr_frame_choose_relight_cache(WrRenderer *renderer, const WrFrameRequest *request,
                                    const WrRelightPart *parts, WrRenderer *const *owners, int count)
 {

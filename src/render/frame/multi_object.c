@@ -58,7 +58,9 @@ static WrRenderer *new_part(WrRenderer *group)
     return part;
 }
 
-/* Reuses the old scene's part that has this object: its renderer holds copies of the object's table. */
+/* Reuses the old scene's part that has this object: its renderer holds copies of the object's table.
+   Parts are swapped into place, so an edit that adds, removes or reorders objects keeps the tables and meshes
+   of all others. */
 static void take_renderer(WrGroup *group, int i, int object, WrRenderer *renderer)
 {
     for (int k = i; k < group->made; k++) {
@@ -99,6 +101,8 @@ static void update_parts(WrRenderer *renderer, const WrFrameRequest *request)
     group->made = group->count;
 }
 
+/* Codes are encoded once for the whole picture, so each part renders without them; the dials are those of the
+   whole scene. */
 static WrFrameRequest request_of(const Part *part, const WrFrameRequest *request)
 {
     WrFrameRequest own = *request;
@@ -128,6 +132,8 @@ static void choose_steady(WrRenderer *renderer, const WrFrameRequest *request,
     wr_frame_choose_relight_cache(renderer, request, parts, owners, group->count);
 }
 
+/* Order: casters of all objects first, because a plan depends on whether anything can shadow its object; then
+   all plans; then the relight cache, which compares all plans; then views and meshes. */
 static bool prepare_parts(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     WrGroup *group = renderer->group;
@@ -184,7 +190,9 @@ static bool group_rests(const WrRenderer *renderer, const WrFrameRequest *reques
     return rest;
 }
 
-/* Everything that decides which object a sample shows. */
+/* Everything that decides which object a sample shows.
+   A hash of these is part of every object's uv-cache key: if one object moves, others may become visible
+   behind it. */
 typedef struct Place {
     WrViewProjection uv_cache;
     WrShapef shape;
@@ -247,7 +255,8 @@ static WrTileJob make_canvas(WrRenderer *renderer, const WrFrameRequest *request
     return wr_frame_canvas(renderer, request);
 }
 
-/* The parts' jobs, the nearest first. */
+/* The parts' jobs, the nearest first.
+   Sorted by the nearest depth of the bounding sphere; a stable insertion sort of at most WR_OBJECTS_MAX jobs. */
 static int make_jobs(WrRenderer *renderer, const WrFrameRequest *request, bool rests,
                      const WrTileJob *canvas, WrTileJob jobs[WR_OBJECTS_MAX],
                      const WrDirty *keeps[WR_OBJECTS_MAX])
@@ -278,6 +287,8 @@ static void drop_keeps(WrRenderer *renderer)
     for (int i = 0; i < group->count; i++) wr_dirty_fini(&group->parts[i].renderer->keep);
 }
 
+/* Invariant as in single_frame: after cancellation nothing of the picture is kept, because some tiles are new
+   and others old. */
 bool wr_group_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame *frame,
                     WrError *err)
 {
@@ -322,6 +333,7 @@ bool wr_group_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame
     return true;
 }
 
+/* Depth is the affine function of P that find_depth in view.c sets up; the nearest object wins. */
 bool wr_group_pick(WrRenderer *renderer, double x, double y, int *object, double *u, double *v,
                    int *face)
 {

@@ -9,6 +9,7 @@
 
 /* ---- sRGB ---- */
 
+/* Built in: a comparison with these, instead of a power in float, gives the same code on every processor. */
 const float wr_srgb_borders[256] = {
     0.0f,           0.000151763496f, 0.000455290487f, 0.000758817478f, 0.00106234441f,
     0.0013658714f,  0.00166939839f,  0.00197292538f,  0.00227645249f,  0.00257997937f,
@@ -66,6 +67,8 @@ const float wr_srgb_borders[256] = {
 
 /* ---- pixels ---- */
 
+/* A plain tone curve over one colour takes the short loop; else the background's colours are copied out of the
+   cells, because they alternate with codes in memory. */
 int64_t wr_code_row(const WrPixelEncoder *coder, const WrBehind *behind, int across, int count,
                     const float *rgba, uint32_t *out)
 {
@@ -91,7 +94,9 @@ static void give(double to[3], const double axes[9], WrVec3 d)
         to[k] = axes[3 * k] * d.x + axes[3 * k + 1] * d.y + axes[3 * k + 2] * d.z;
 }
 
-/* Camera rays into the environment; false: the scene shows no environment. */
+/* Camera rays into the environment; false: the scene shows no environment.
+   first + x right + y down is the direction through pixel (x, y), unnormalised: the map needs none of unit
+   length. Orthographic: all rays are parallel, the whole background is one direction. */
 static bool look_out(const WrScene *scene, double radius, int width, int height, WrOutlook *out)
 {
     const WrEnvironment *own = scene ? &scene->environment : NULL;
@@ -122,7 +127,8 @@ typedef struct Fill {
     const WrPixelEncoder *coder;
 } Fill;
 
-/* The direction is linear in the pixel position, from the first pixel's centre. */
+/* The direction is linear in the pixel position, from the first pixel's centre.
+   Rows are counted in the whole picture (b->first), so a band of a larger picture has the same background. */
 static void fill_row(int row, int worker, void *ctx)
 {
     (void)worker;
@@ -151,6 +157,7 @@ static void make_room(WrBackdrop *backdrop, size_t count)
     backdrop->room = count;
 }
 
+/* b->held is a reference to the map: without it a new map at the same address would pass for the old one. */
 static bool stands(const WrBackdrop *b, const WrOutlook *outlook, const WrTone *tone, int width,
                    int height, int first, int rows)
 {
@@ -165,7 +172,9 @@ static void drop(WrBackdrop *backdrop)
     backdrop->held = NULL;
 }
 
-/* Fills one colour, or one for each row. */
+/* Fills one colour, or one for each row.
+   cells [rows][step]: step is 0 for one colour, 1 for one a row, `width` for one a pixel; across is the step
+   from pixel to pixel. */
 static void fill_rows(WrBackdrop *b, const WrBackground *ground, int height, int first, int rows,
                       const WrPixelEncoder *coder)
 {

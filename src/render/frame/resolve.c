@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+/* At most one border lies in a bin. Above the last code the border is put past the bin's end. */
 void wr_code_bins_fill(uint32_t bins[WR_CODE_BINS + 1])
 {
     uint32_t code = 0;
@@ -27,7 +28,9 @@ typedef struct ResolveJob {
     uint32_t bins[WR_CODE_BINS + 1];
 } ResolveJob;
 
-/* Un-premultiplied, opaque colours. */
+/* Un-premultiplied, opaque colours.
+   The alpha of 8-bit files is not premultiplied (PNG). Dividing in linear light, before encoding, is exact up
+   to rounding. */
 static void part_from_alpha(const float *from, int count, float to[WR_SPAN][4])
 {
     for (int i = 0; i < count; i++) {
@@ -67,6 +70,7 @@ static void alpha_row(int y, int worker, void *ctx)
     if (not_finite) __atomic_fetch_add(&job->not_finite, not_finite, __ATOMIC_RELAXED);
 }
 
+/* Colours are premultiplied and the background is opaque: codes_over adds (1 - alpha) of it, and no alpha is left. */
 static void resolve_row(int y, int worker, void *ctx)
 {
     (void)worker;

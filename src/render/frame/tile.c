@@ -36,7 +36,10 @@ static void tile_code_row(const WrTileJob *job, int x, int y, int width, const f
 
 /* ---- multi object ---- */
 
-/* Tile of several objects: drawn front to back; each sample shows the nearest object (E51-E53). */
+/* Tile of several objects: drawn front to back; each sample shows the nearest object (E51-E53).
+   Order of a tile: clear, then for each object a depth tile (raster) and strips of samples (pipeline), then
+   means and codes. All arrays belong to the thread's scratch; sample[y][x] has rows of WR_TILE_SAMPLES_W
+   samples of four floats, premultiplied. */
 
 /* Objects whose bound overlaps the tile, nearest first as the jobs are. */
 typedef struct Touching {
@@ -98,13 +101,15 @@ static float farthest(int k, WrTilePart whole, const WrTileScratch *scratch)
     return depth;
 }
 
+/* One unit in the last place nearer than the bounding sphere: samples are rounded to float, the sphere is not. */
 float wr_tile_hidden_from(const WrTileJob *job)
 {
     const float nearest = (float)job->view->nearest;
     return nearest - FLT_EPSILON * fabsf(nearest);
 }
 
-/* Draws all objects' samples into scratch->sample and, where requested, n' into the picture. */
+/* Draws all objects' samples into scratch->sample and, where requested, n' into the picture.
+   Front to back: a later object overwrites a sample only where it is nearer, by nearest[][] (depth, object). */
 static void draw(const Touching *touching, int k, WrTilePart whole, bool light, int index,
                  WrTileScratch *scratch)
 {
@@ -194,7 +199,9 @@ void wr_tile_render_group(const WrTileJob *canvas, const WrTileJob *jobs, int co
     scratch->tiles += scratch->shaded > before;
 }
 
-/* Largest power of two up to x. */
+/* Largest power of two up to x.
+   With `blocks` the tile must contain whole blocks of WR_FRAME_BLOCK pixels, else it is as wide as the sample
+   array allows. */
 static int power_below(int x)
 {
     int p = 1;
@@ -213,7 +220,9 @@ void wr_tile_size(int samples, bool adaptive, bool blocks, int *tile_w, int *til
     *tile_h = tall < WR_FRAME_BLOCK ? power_below(tall) : WR_FRAME_BLOCK;
 }
 
-/* Fills tile->shift for a grid of k x k a pixel (spread=jittered). */
+/* Fills tile->shift for a grid of k x k a pixel (spread=jittered).
+   A hash of the grid position, not a random sequence: the same sample has the same offset in every tile,
+   thread and run. -127..127 of 1/256 sample keeps it inside its cell. */
 static void tile_jitter(WrDepthTile *tile, int k, signed char *shift)
 {
     for (int y = 0; y < tile->h; y++)
@@ -274,7 +283,9 @@ static void fold_row(float *row, int pixels, int samples)
     }
 }
 
-/* Adds k rows of samples of `pixels` neighbouring pixels into the first row. */
+/* Adds k rows of samples of `pixels` neighbouring pixels into the first row.
+   First across each row, then rows in pairs. The order is fixed by k alone, so a pixel's bits do not depend on
+   its tile. */
 static void fold(float *sample, int pixels, int k, size_t step)
 {
     for (int y = 0; y < k; y++) fold_row(sample + (size_t)y * step, pixels, k);
@@ -337,6 +348,8 @@ static void fill_codes(const WrTileJob *job, int x, int y, int count, uint32_t m
     for (int i = 0; i < count; i++) to[i] = code;
 }
 
+/* `from` and `to` are the covered interval of the strip: background codes are written beside it, and each code
+   is written once. */
 void wr_tile_behind_strip(const WrTileJob *job, const WrSink *sink, int from, int to,
                           WrTileScratch *scratch)
 {
@@ -346,7 +359,9 @@ void wr_tile_behind_strip(const WrTileJob *job, const WrSink *sink, int from, in
     scratch->behind = true;
 }
 
-/* Several short rows stored one after the other. */
+/* Several short rows stored one after the other.
+   Strips are WR_SPAN long; rows of a narrow tile would leave most of a vector's lanes empty, so several rows
+   are joined. */
 typedef struct Packed {
     float rgba[WR_SPAN][4], normals[WR_SPAN][3];
     uint32_t codes[WR_SPAN];
@@ -451,6 +466,8 @@ static void run_packed(const WrTileJob *job, int k, const WrDepthTile *tile, con
     }
 }
 
+/* once: a strip writes each code itself, without a copy; not with several objects or faces, which may cover a
+   sample twice. */
 static void tile_samples(const WrTileJob *job, int k, const WrDepthTile *tile,
                          const WrTileRows *out, WrTileScratch *scratch)
 {
@@ -614,7 +631,9 @@ static void render_many_codes(const WrTileJob *job, WrTilePart part, WrTileScrat
     tile_code(&apart, part, scratch);
 }
 
-/* Counts the tile if every run skipped work. `before`: sample counts before the tile. */
+/* Counts the tile if every run skipped work. `before`: sample counts before the tile.
+   bits: a set of reasons to skip. A tile counts as spared for it if every run of samples was skipped for one
+   of them. */
 static void count_spared(WrTileScratch *scratch, const int64_t before[WR_RUN_KINDS])
 {
     for (int bits = 1; bits < WR_RUN_KINDS; bits++) {
@@ -625,6 +644,7 @@ static void count_spared(WrTileScratch *scratch, const int64_t before[WR_RUN_KIN
     }
 }
 
+/* n' is stored for one sample at the centre, also in pictures of many samples; that pass comes first. */
 void wr_tile_render(const WrTileJob *job, WrTilePart whole, int index, WrTileScratch *scratch)
 {
     const int64_t before = scratch->shaded;

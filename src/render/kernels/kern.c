@@ -8,7 +8,9 @@
 #include <stdio.h>
 #include <string.h>
 
-/* WR_NATIVE_LEVEL (CMakeLists.txt): 0 compiles every set; 1 to 4 the plain set and that level's only. */
+/* WR_NATIVE_LEVEL (CMakeLists.txt): 0 compiles every set; 1 to 4 the plain set and that level's only.
+   ref: one sample at a time, plain C, the standard for tests. exact sets have equal bits at every level; fast
+   sets use reciprocal estimates and fused multiply-add, and wide sets need AVX2. */
 #define COMPILED(level) (WR_NATIVE_LEVEL == 0 || WR_NATIVE_LEVEL == (level))
 
 static const struct {
@@ -50,7 +52,8 @@ static bool fail_level(const char *isa, WrError *err)
     return wr_fail_word(err, what, isa, wr_word_of_array, level_names);
 }
 
-/* Index of the row of that name, or -1 and an error. */
+/* Index of the row of that name, or -1 and an error.
+   From the best level down; a named level must exist in the build and on the processor. */
 static int find_level(const char *isa, WrError *err)
 {
     const bool best = !isa || strcmp(isa, "auto") == 0;

@@ -40,6 +40,7 @@
 #define r_scale_down wr_scale_down_r
 #define r_is_finite wr_is_finite_r
 #define r_floor floor
+/* 2^6 units of the last place (float: 2^5): a smaller difference of products counts as rounding */
 #define ROUNDED K_(0x1p-46)
 #define STRIP WrStripd
 #define RAYS WrRaysd
@@ -85,6 +86,8 @@
 #define NEWTON WrNewton
 #define KERNELS WrKernels
 #endif
+/* X-macro: each surface of the list instantiates the loops of the kernel, so that its formula is inlined and
+   vectorised. */
 #define WR_SURFACE_FORMULAS
 #include "surface/surface_list.h"
 #undef WR_SURFACE_FORMULAS
@@ -126,7 +129,9 @@ ALWAYS VEC affine(const REAL o[3], const REAL y[3], const REAL x[3], REAL gy, RE
 #define RAY_Q(rays, gy, gx) affine((rays)->q0, (rays)->qy, (rays)->qx, gy, gx)
 #define RAY_D(rays, gy, gx) affine((rays)->d0, (rays)->dy, (rays)->dx, gy, gx)
 
-/* Keeps the samples that hit, in order, with the arrays in `move`. Most hits are neighbours: whole runs move. */
+/* Keeps the samples that hit, in order, with the arrays in `move`. Most hits are neighbours: whole runs move.
+   MISS in strip->s marks samples without a hit. `index` is the position before compaction. Unconditional
+   stores and hits += 0 or 1 avoid a branch that would be mispredicted at every edge. */
 ALWAYS int compact(int count, STRIP *strip, REAL *const *move, const int moves)
 {
     int hits = 0, first = count, last = 0;
@@ -181,7 +186,8 @@ ALWAYS REAL smaller(REAL a, REAL b)
     return a < b ? a : b;
 }
 
-/* Clamps an index to 0 .. n - 1, also one converted from NaN. */
+/* Clamps an index to 0 .. n - 1, also one converted from NaN.
+   NaN converts to the smallest int, which becomes 0: the fetch stays within the table. */
 ALWAYS int among(int i, int n)
 {
     i = i < n ? i : n - 1;
@@ -211,6 +217,8 @@ ALWAYS VEC unit_or(VEC a, VEC otherwise)
                   good ? b.z * inv : otherwise.z };
 }
 
+/* Order of inclusion: formulas before the loops that inline them; kern_filter_body.h's footprints are read by
+   the solid texture. */
 #include "render/kernels/kern_ray_hit_body.h"
 #include "render/kernels/kern_surface_body.h"
 #include "render/kernels/kern_triangle_body.h"
@@ -247,6 +255,7 @@ static LOOK_KERNEL const kern_looks[] = {
 };
 WR_ROWS_END(kern_looks, WR_SCHEME_COUNT);
 
+/* Fields that only one precision has are absent in the other (WrKernels, WrKernelsd). */
 WR_ROWS(kernels);
 const KERNELS WR_SET_TABLE = {
     .name = WR_SET_NAME,

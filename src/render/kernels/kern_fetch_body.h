@@ -15,7 +15,8 @@ ALWAYS REAL inside_ends(REAL x)
     return x >= 0.0f ? (x <= 1.0f ? 1.0f : 0.0f) : 0.0f;
 }
 
-/* r t before reduction to the table; wide: reduced in double (E10). */
+/* r t before reduction to the table; wide: reduced in double (E10).
+   HC40: r u in float is off by whole texels for large r; the product and its floor in double are not. */
 ALWAYS REAL replicated(REAL t, REAL narrow, double r, const bool wide, const bool periodic)
 {
     double x = r * (double)t, whole = periodic ? __builtin_floor(x) : 0.0;
@@ -105,6 +106,8 @@ ALWAYS Scales scales_of(const LOOK *look)
     return (Scales){ look->scale_f, look->scale_u, look->scale_v };
 }
 
+/* `inside` is 0 beyond the end of a clamped axis. Slopes are bounded to FLT_MAX, so that bump stays finite
+   (HC15). */
 ALWAYS void put_slopes(STRIP *strip, int k, Scales by, REAL fu, REAL fv)
 {
     strip->fu[k] = bounded(fu * by.u * strip->inside_u[k]);
@@ -147,6 +150,8 @@ static inline void copy_pairs(const REAL *table, int pitch, int texel, STRIP *st
     }
 }
 
+/* F and its own derivative, which jumps at texel centres (HC54). Differences come first: exactly 0 on flat
+   tables (HC42, HC47). */
 FLAT static void kern_look_bilinear(const LOOK *look, STRIP *strip)
 {
     const int count = strip->count;
@@ -166,7 +171,7 @@ FLAT static void kern_look_bilinear(const LOOK *look, STRIP *strip)
 }
 
 /* Theorem: with E = one texel the paper's FU is the bilinear interpolation of the table of central differences:
-   one fetch from the gradient table instead of four FVALs. */
+   one fetch from the gradient table instead of four FVALs (NUMERICS a.1, item 6). */
 static inline void slopes_central(const LOOK *look, STRIP *strip)
 {
     const int pitch = look->pitch, count = strip->count;
@@ -244,6 +249,7 @@ typedef struct Weights {
     REAL d0, d1, d2;
 } Weights;
 
+/* w: uniform cubic B-spline at t past the second tap; d: quadratic B-spline of the differences. */
 static inline Weights bspline_weights(REAL t)
 {
     REAL s = 1.0f - t, t2 = t * t, t3 = t2 * t;
@@ -256,6 +262,7 @@ static inline Weights bspline_weights(REAL t)
                       0.5f * t2 };
 }
 
+/* d follows from w by summation by parts: d0 = -w0', d1 = -(w0' + w1'), d2 = w3'. */
 static inline Weights catmull_weights(REAL t)
 {
     REAL t2 = t * t, t3 = t2 * t;

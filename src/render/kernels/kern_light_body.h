@@ -1,6 +1,7 @@
 /* kern_light_body.h - ambient light, diffuse light and highlights over strips. Part of kern_body.h; the formulas
    are in shade/light_body.h. */
 
+/* v is constant for parallel rays; otherwise (e - P) / |e - P|. */
 FLAT static void kern_view(const RAYS *rays, STRIP *strip)
 {
     const int count = strip->count;
@@ -32,6 +33,8 @@ FLAT static void kern_begin(REAL ambient, STRIP *strip)
     }
 }
 
+/* l is constant for a distant lamp; otherwise (L - P) / |L - P|. n'.l is kept unclamped: the gate and the dark
+   test need its sign. */
 FLAT static void kern_light(const LIGHT *light, STRIP *strip)
 {
     const VEC where = { light->where[0], light->where[1], light->where[2] };
@@ -55,6 +58,7 @@ FLAT static void kern_light(const LIGHT *light, STRIP *strip)
     }
 }
 
+/* D += kd I max(n'.l, 0). */
 FLAT static void kern_diffuse(const LIGHT *light, REAL kd, STRIP *strip)
 {
     const REAL r = kd * light->rgb[0], g = kd * light->rgb[1], b = kd * light->rgb[2];
@@ -73,6 +77,8 @@ ALWAYS Half half_of(const STRIP *strip, int i)
     return light_half(LOAD3(strip, l, i), LOAD3(strip, v, i), LOAD3(strip, b, i));
 }
 
+/* S += ks I (n'.h)^s. Where n'.h is near 1, the power uses 1 - n'.h (`below`), computed without cancellation
+   (light_body.h). */
 FLAT static void kern_specular(const LIGHT *light, REAL ks, REAL shininess, bool gate, STRIP *strip)
 {
     const REAL r = ks * light->rgb[0], g = ks * light->rgb[1], b = ks * light->rgb[2];
@@ -88,6 +94,8 @@ FLAT static void kern_specular(const LIGHT *light, REAL ks, REAL shininess, bool
     }
 }
 
+/* colour C D + S, with C of the picture and D with ambient light; a tinted highlight goes another way
+   (kern_tint). */
 FLAT static void kern_finish(const REAL colour[3], STRIP *strip)
 {
     const REAL r = colour[0], g = colour[1], b = colour[2];
@@ -176,6 +184,8 @@ ALWAYS void shade_one(const RAYS *rays, const LIGHT *light, const SHINE *shine,
 }
 
 #ifndef WR_KERN_DOUBLE
+/* All 16 combinations are compiled: `point`, `near`, `shines`, `pictured` are constants in each loop, so no
+   lane has a branch. */
 #define SHADE(point, near, shines, pictured)                                                       \
     FLAT static void kern_shade_##point##near##shines##pictured(                                   \
         const RAYS *rays, const LIGHT *light, const SHINE *shine, const MATERIAL *material,        \

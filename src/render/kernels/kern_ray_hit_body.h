@@ -6,6 +6,7 @@ typedef struct Ray {
     VEC q, d;
 } Ray;
 
+/* gx + i is exact for integers below 2^24; q and d are affine in (x, y) (view.c). */
 ALWAYS Ray ray_of(const RAYS *rays, const STRIP *strip, int i, REAL gx, REAL gy, const bool spread)
 {
     REAL x = spread ? strip->x[i] : gx + (REAL)i, y = spread ? strip->y[i] : gy;
@@ -122,6 +123,8 @@ ALWAYS int hit_cone(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, int 
    centre, on the cone to its tip. P and n come from one kernel in every combination, so that their bits are
    equal. ---- */
 
+/* v = 1/2 + latitude / pi: the arc tangent of z / rho in turns, of -1/4 .. 1/4, and not an arc sine of z / R,
+   which loses half its digits at the poles. */
 static inline REAL v_of_sphere(const SHAPE *shape, VEC p)
 {
     (void)shape;
@@ -140,10 +143,12 @@ static inline REAL v_of_cone(const SHAPE *shape, VEC p)
     return K_(1) + p.z / shape->value[1];
 }
 
-/* Functions of a surface that compute its frame, or its v, from a point. */
+/* Functions of a surface that compute its frame, or its v, from a point.
+   Passed as constants to inlined functions, so that no call remains in the loop. */
 typedef void FrameFrom(const SHAPE *shape, VEC p, POINT *at);
 typedef REAL VOf(const SHAPE *shape, VEC p);
 
+/* u is the longitude in turns, 0 .. 1, from +x towards +y. */
 ALWAYS void params_strip(VOf *const v_of, const SHAPE *shape, STRIP *strip)
 {
     const int count = WHOLE(strip->count);
@@ -173,6 +178,7 @@ ALWAYS void tangents_strip(FrameFrom *const from, const SHAPE *shape, STRIP *str
     }
 }
 
+/* P is replaced by the surface's own point along n, without the intersection's rounding. */
 ALWAYS void put_normal(FrameFrom *const from, const SHAPE *shape, STRIP *strip, int i)
 {
     POINT at;
@@ -208,6 +214,8 @@ ROUND_KERNELS(sphere)
 ROUND_KERNELS(cylinder)
 ROUND_KERNELS(cone)
 
+/* s = (o - q).n / d.n. eu and ev are the dual basis of the edges, so (u, v) are two products. Hits a little
+   beyond a shared edge count, so that no ray passes between two faces, and are clamped back to 0..1. */
 ALWAYS int hit_quad(const RAYS *rays, const QUAD *quad, REAL gx, REAL gy, int count,
                     const bool spread, STRIP *strip)
 {
@@ -236,6 +244,7 @@ ALWAYS int hit_quad(const RAYS *rays, const QUAD *quad, REAL gx, REAL gy, int co
     return compact(count, strip, move, spread ? 4 : 2);
 }
 
+/* Two kernels of each: `false` lets ray_of fold into one addition per sample. */
 #define HITS(name, type, arg)                                                                      \
     FLAT static int kern_hit_##name(const RAYS *rays, const type *arg, REAL gx, REAL gy,           \
                                     int count, STRIP *strip)                                       \
@@ -277,12 +286,16 @@ typedef struct EdgeSteps {
     int32_t a[LANES], b[LANES], c[LANES];
 } EdgeSteps;
 
+/* l1, l2 are barycentric coordinates; attributes are base + l1 d1 + l2 d2, with 1 / w interpolated linearly
+   and u / w divided by it under perspective. */
 ALWAYS float on_plane(WrPlane plane, float l1, float l2)
 {
     return plane.base + l1 * plane.d1 + l2 * plane.d2;
 }
 
-/* Covers LANES samples, of which the first `count` may be written. */
+/* Covers LANES samples, of which the first `count` may be written.
+   Covered if E_k >= 0 for all three edges: no sign bit in a | b | c. Integers, so that neighbouring triangles
+   agree on their common edge to the sample. `close` grows towards the eye. */
 ALWAYS void cover_lanes(const WrWalk *walk, Edges first, const EdgeSteps *steps, int count,
                         const bool perspective, float *restrict close, float *restrict u,
                         float *restrict v)
@@ -303,7 +316,8 @@ ALWAYS void cover_lanes(const WrWalk *walk, Edges first, const EdgeSteps *steps,
     }
 }
 
-/* True if one edge excludes all LANES samples. */
+/* True if one edge excludes all LANES samples.
+   An edge value is affine along the row: negative at both ends, it is negative at all lanes. */
 ALWAYS bool edges_miss(Edges first, const EdgeSteps *steps)
 {
     const int last = LANES - 1;
@@ -311,6 +325,7 @@ ALWAYS bool edges_miss(Edges first, const EdgeSteps *steps)
             (first.c & (first.c + steps->c[last]))) < 0;
 }
 
+/* Edge values are not advanced past the last block of a row, where they could overflow. */
 ALWAYS void cover(const WrWalk *walk, const bool perspective, float *close, float *u, float *v)
 {
     const Edges step = { walk->step_x[0], walk->step_x[1], walk->step_x[2] };
@@ -355,7 +370,8 @@ ALWAYS int put_places(REAL gx, REAL gy, int hits, STRIP *strip)
     return hits;
 }
 
-/* Covered samples of a row from (gx, gy) on. */
+/* Covered samples of a row from (gx, gy) on.
+   -FLT_MAX is the cleared depth. */
 FLAT static int kern_covered(const float *close, const float *u, const float *v, REAL gx, REAL gy,
                              int count, STRIP *strip)
 {

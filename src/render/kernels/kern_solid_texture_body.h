@@ -5,7 +5,8 @@
 /* cells: beyond, single precision cannot represent a position within a cell */
 #define GRAIN_FAR K_(1e9)
 
-/* The value of a lattice point, in (-1, 1); exact. */
+/* The value of a lattice point, in (-1, 1); exact.
+   h >> 9 has 23 bits: 2 k + 1 is odd and below 2^24, so a float holds the result; 0 and +-1 never occur. */
 ALWAYS REAL grain_number(uint32_t h)
 {
     return (REAL)(2 * (int32_t)(h >> 9) + 1) * K_(0x1p-23) - K_(1);
@@ -16,7 +17,7 @@ ALWAYS REAL grain_mix(REAL a, REAL b, REAL t)
     return a + t * (b - a);
 }
 
-/* 10 x^3 - 15 x^4 + 6 x^5, and its slope */
+/* 10 x^3 - 15 x^4 + 6 x^5, and its slope. Value, slope and curvature at 0 and 1 agree with the neighbouring cell: noise is C^2 (Perlin 2002). */
 ALWAYS REAL grain_fade(REAL x)
 {
     return x * x * x * (K_(10) + x * (K_(6) * x - K_(15)));
@@ -77,7 +78,8 @@ ALWAYS Noisy grain_corner(uint32_t xy, uint32_t z, const bool soft, REAL dx, REA
     return (Noisy){ gx * dx + gy * dy + gz * dz, gx, gy, gz };
 }
 
-/* Interpolates along z, then y, then x. sloped: with slopes. */
+/* Interpolates along z, then y, then x. sloped: with slopes.
+   d/dz (low + t (high - low)): mixed slopes of both corners, and t'(z) (high - low) by the weight itself. */
 ALWAYS Noisy grain_edge(uint32_t xy, const GrainCell *c, const bool soft, const bool sloped,
                         REAL dx, REAL dy)
 {
@@ -124,7 +126,10 @@ typedef struct GrainStrip {
     REAL least;                                 /* minimum of size */
 } GrainStrip;
 
-/* Adds one octave to the sums of a strip; faded: as far as pixels can resolve it, with slopes. */
+/* Adds one octave to the sums of a strip; faded: as far as pixels can resolve it, with slopes.
+   Octave F is replaced by left F + (1 - left) mean, with left the share that a pixel of squared size `held`
+   (in cells) resolves. The variance that is lost widens the pattern's edges instead. |n| of soft
+   noise has the slope sign(n) grad n. */
 ALWAYS void grain_octave(const GRAIN *g, const bool soft, const bool faded, int octave,
                          const STRIP *strip, GrainStrip *to)
 {
@@ -227,7 +232,8 @@ ALWAYS GrainTurned grain_turned(WrSolidTextureAxis axis, STRIP *strip, const Gra
 
 #define TURNED3(at, name, i) ((VEC){ (at).name##x[i], (at).name##y[i], (at).name##z[i] })
 
-/* Squared extent of a pixel in a quantity of slope g: of a box with the variance of the pixel's parallelogram. */
+/* Squared extent of a pixel in a quantity of slope g: of a box with the variance of the pixel's parallelogram.
+   A parallelogram with sides a, w has the variance (a^2 + w^2) / 12 of a box of width sqrt(a^2 + w^2). */
 ALWAYS REAL grain_held(GrainTurned at, int i, VEC g)
 {
     const REAL a = v_dot(g, TURNED3(at, a, i)), w = v_dot(g, TURNED3(at, w, i));
@@ -246,6 +252,8 @@ typedef struct GrainPlace {
     VEC slope;
 } GrainPlace;
 
+/* t = k |xy| + a sum (wood), k z + a sum (marble), 1/2 + a/2 sum (noise). w^2 = extent^2 + 12 a^2 lost +
+   edge^2: a box of width w has the variance w^2 / 12. */
 ALWAYS GrainPlace grain_place(const GRAIN *g, const WrSolidTextureKind kind, const bool wide,
                               GrainTurned at, int i)
 {
@@ -266,7 +274,9 @@ ALWAYS GrainPlace grain_place(const GRAIN *g, const WrSolidTextureKind kind, con
     return out;
 }
 
-/* Value of the pattern at that position. */
+/* Value of the pattern at that position.
+   The mean over a box of width w about t: a difference of the integral for pulse and ramp; for the sine a
+   factor, as its means are sines. */
 ALWAYS REAL grain_level(const GRAIN *g, const WrSolidTextureKind kind, const bool wide,
                         GrainPlace at)
 {
@@ -280,7 +290,9 @@ ALWAYS REAL grain_level(const GRAIN *g, const WrSolidTextureKind kind, const boo
     return wide ? grain_ramp_mean(at.t, at.w) : grain_clamp(at.t);
 }
 
-/* Slope of the pattern by t. */
+/* Slope of the pattern by t.
+   The derivative of that mean: the difference quotient of the pattern over the box. w has a lower limit of
+   1e-3, so that edges have finite slopes. */
 ALWAYS REAL grain_rise(const GRAIN *g, const WrSolidTextureKind kind, GrainPlace at)
 {
     const REAL wide = at.w > K_(1e-3) ? at.w : K_(1e-3), half = K_(0.5) * wide;

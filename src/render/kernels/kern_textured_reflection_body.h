@@ -23,7 +23,10 @@ ALWAYS int next_step(int low)
     return low + 1 < WR_TEXTURED_REFLECTION_STEPS ? low + 1 : low;
 }
 
-/* reflect_terms of x without its last sum: four partial sums per sample. */
+/* reflect_terms of x without its last sum: four partial sums per sample.
+   Albedo polynomials of degree 11 in x = sqrt(cos), with coefficients tabulated for STEPS roughnesses and
+   interpolated linearly. Four lanes hold the powers 0 to 3; Horner's scheme in x^4 combines coefficients k, k
+   + 4, k + 8. */
 ALWAYS void vary_parts(const REAL (*table)[WR_TEXTURED_REFLECTION_TERMS], const Steps *at,
                        const REAL *restrict x, int count, REAL *restrict part)
 {
@@ -50,7 +53,10 @@ ALWAYS void vary_values(const REAL *of, const Steps *at, int count, REAL *restri
     }
 }
 
-/* The material at a sample, except for the energy left by its highlights. */
+/* The material at a sample, except for the energy left by its highlights.
+   alpha = roughness^2, at least WR_ALPHA_MIN, as wr_matter_init; the polynomials of the energy-preserving
+   Oren-Nayar model (Portsmouth, Kutz, Hill): A = 1 / (1 + (1/2 - 2/(3 pi)) s), B = A s, its mean albedo A (1 +
+   (2/3 - 28/(15 pi)) s), and 1 / (1 - mean) for the light of several reflections. */
 ALWAYS MATTER vary_matter(const MATTER *m, const bool kept, REAL roughness, REAL metal)
 {
     const REAL rough = between(roughness, K_(0), K_(1)), s = rough, ss = s * s;
@@ -71,7 +77,9 @@ ALWAYS MATTER vary_matter(const MATTER *m, const bool kept, REAL roughness, REAL
     return out;
 }
 
-/* Share of energy that microfacet highlights leave for diffuse light, for each sample. */
+/* Share of energy that microfacet highlights leave for diffuse light, for each sample.
+   (1 - E(l)) (1 - E(v)) again, the coupling of Kelemen and Szirmay-Kalos: reciprocal, and 0 where the
+   highlight reflects all. */
 ALWAYS void vary_left(const VARY *vary, const STRIP *strip, REAL *restrict left)
 {
     REAL to_lamp[WR_SPAN], to_eye[WR_SPAN], lamp[4 * WR_SPAN], eye[4 * WR_SPAN], again[WR_SPAN];
@@ -202,7 +210,9 @@ FLAT static void kern_surround_vary(const SURROUND *how, const VARY *vary, STRIP
 }
 
 /* Position of a sample's lobe among the blurred environments: by the logarithm of its width; below the narrowest
-   lobe by the width. */
+   lobe by the width.
+   The position among rungs is -log2 alpha; below the narrowest lobe a logarithm would never reach the
+   mirror, so the share of the mirror is 1 - alpha / least. */
 typedef struct Rungs {
     int low[WR_SPAN], high[WR_SPAN];
     REAL t[WR_SPAN];
@@ -220,6 +230,8 @@ ALWAYS void find_rung(REAL alpha, int i, Rungs *to)
     to->t[i] = under ? K_(1) - between(alpha / least, K_(0), K_(1)) : between_two;
 }
 
+/* The direction turns into the map's axes; u and v are angles in turns: u about y, v from the zenith, over
+   half a turn. Slopes of covariance S widen alpha^2 by 2 tr(S) / 2. */
 ALWAYS void find_rungs(const MIRROR *how, const bool spread, STRIP *strip, Steps *at, Rungs *to,
                        REAL *restrict x)
 {
@@ -264,6 +276,7 @@ ALWAYS Four vary_look(const WrKernMipLevel *rung, REAL u, REAL v)
     return upper + b * (lower - upper);
 }
 
+/* Rungs differ in size: each is fetched with its own width and height. */
 ALWAYS void mix_rungs(const VARY *vary, const Rungs *at, int count, REAL *restrict texel)
 {
     for (int i = 0; i < count; i++) {
@@ -274,7 +287,8 @@ ALWAYS void mix_rungs(const VARY *vary, const Rungs *at, int count, REAL *restri
     }
 }
 
-/* Shares of the mirrored environment: by metalness, unless that is constant. */
+/* Shares of the mirrored environment: by metalness, unless that is constant.
+   of[0] for non-metal, of[1] for metal; the share is linear in metalness. */
 ALWAYS void
 mirror_shares(const REAL (*of)[WR_TEXTURED_REFLECTION_STEPS][WR_TEXTURED_REFLECTION_TERMS],
               bool alike, const Steps *at, const REAL *restrict x, const STRIP *strip,

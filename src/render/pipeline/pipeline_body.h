@@ -5,6 +5,7 @@ typedef WR_T(WrStrip) Strip;
 typedef WR_T(WrKernels) Kernels;
 typedef WR_T(WrRays) Rays;
 
+/* Only one strip in WR_TIMED reads the clock: two readings per stage would cost more than short stages. */
 typedef struct Watch {
     WrTileScratch *scratch;
     bool on;
@@ -113,7 +114,8 @@ static void store_parameters(const WrSink *sink, const Strip *strip)
     }
 }
 
-/* True if n' is computed directly from n and the slopes and nothing else reads the tangents. */
+/* True if n' is computed directly from n and the slopes and nothing else reads the tangents.
+   The tangent frame is then never stored: the kernel derives it from P. */
 static bool bends_at_once(const WrTileJob *job, const WrSink *sink)
 {
     return job->plan->bump == WR_BUMP_BLINN && KERNELS_OF(job)->bend[job->plan->inversion] &&
@@ -193,7 +195,9 @@ static unsigned spared_of(const WrTileJob *job, const Rays *rays, bool level, bo
     return spared;
 }
 
-/* P, n and n' of the samples, as far as light needs them. Returns the skipped work, bits of WrRun. */
+/* P, n and n' of the samples, as far as light needs them. Returns the skipped work, bits of WrRun.
+   Order: hidden samples are dropped before anything expensive (keep_near), then the dark test, then curvature
+   and bump. */
 static unsigned normal_strip(const WrTileJob *job, const Rays *rays, int face, const WrSink *sink,
                              Strip *strip, WrTileScratch *scratch, Watch *watch)
 {
@@ -322,6 +326,8 @@ static const Rays *rays_of(const WrTileJob *job, int k)
     return &VIEWED(wr_view_grid(job->view, k), rays);
 }
 
+/* Ways to find the visible points, in order of precedence: relight cache, triangles of a mesh file or a
+   displaced surface, grid mesh with Newton's method, closed forms, planar faces. */
 static void points(const WrTileJob *job, int k, const WrDepthTile *tile, const WrSink *sink,
                    WrTileScratch *scratch)
 {
@@ -396,6 +402,8 @@ static void note_places(const WrTileJob *job, const WrSink *sink, bool noted, RE
 
 #include "render/pipeline/stage_simd_body.h"
 
+/* As points, for a row of neighbouring samples: rays are affine in the column, and hits have no list of
+   positions unless a later stage reads them (note_places). */
 static void row(const WrTileJob *job, int k, const WrDepthTile *tile, int y, const WrSink *sink,
                 WrTileScratch *scratch)
 {

@@ -84,7 +84,8 @@ typedef struct Sum {
     REAL f, fu, fv, suu, suv, svv;
 } Sum;
 
-/* Mixes a with share r of b; the distance of the two means adds to the covariance. */
+/* Mixes a with share r of b; the distance of the two means adds to the covariance.
+   S = (1 - r) Sa + r Sb + r (1 - r) d d^T, the law of total covariance with d the difference of the means. */
 static Sum sum_mix(Sum a, Sum b, REAL r)
 {
     REAL du = b.fu - a.fu, dv = b.fv - a.fv, k = r * ((REAL)1 - r);
@@ -139,7 +140,9 @@ static void note_batch(const WrTileJob *job, int k, const Batch *batch, const St
     }
 }
 
-/* Adds the batch's fetches to the strip. */
+/* Adds the batch's fetches to the strip.
+   Taps have equal weight: tap t is mixed with share 1 / (t + 1), a running mean. Between levels 0 and 1 the
+   table and the pyramid are mixed by the level's fraction. */
 static void sum_batch(const Batch *batch, const Strip *near, const Strip *far, Strip *strip)
 {
     int a = 0, b = 0;
@@ -189,7 +192,9 @@ static int count_wide(const Strip *strip, unsigned char *wide)
     return count;
 }
 
-/* Fetches along each sample's footprint. */
+/* Fetches along each sample's footprint.
+   A long footprint is covered by `taps` fetches along its long side, each isotropic with the size of the short
+   side. Fetches of all samples are queued and flushed in full strips. */
 static void look_along(const WrTileJob *job, const Rays *rays, Flush *flush,
                        const WrPictureLook *picture, Strip *strip, WrTileScratch *scratch,
                        Watch *watch)

@@ -73,7 +73,9 @@ static double most_of(const WR_T(WrKernMatter) * m, WrReflectHighlight highlight
     return INFINITY;
 }
 
-/* True if every highlight is certainly below `least`. *faces: every n' faces the viewer. */
+/* True if every highlight is certainly below `least`. *faces: every n' faces the viewer.
+   found[0] is the least n'.v, found[1] the largest n'.axis, found[2] and found[3] the least cosines of v and l
+   to those of the middle sample. */
 static bool is_faint(const WrTileJob *job, const WR_T(WrKernMatter) * m, const Strip *strip,
                      bool *faces)
 {
@@ -154,7 +156,8 @@ static void bound_strip(const WrTileJob *job, const Rays *rays, const WR_T(WrKer
 }
 
 /* P and n' in world proportions where the object is stretched: n' along the object's axes, normalised again
-   (HC153). */
+   (HC153).
+   Divided by the largest component first: squares of tiny cofactors would underflow in float. */
 static void stretch_strip(const WrView *view, Strip *strip)
 {
     const REAL s[3] = { (REAL)view->stretch[0], (REAL)view->stretch[1], (REAL)view->stretch[2] };

@@ -1,7 +1,8 @@
 /* stage_simd_body.h - dispatch of rows to fused SIMD kernels (simd_kernels.h). Part of pipeline_body.h. */
 
 #ifdef HAS_WIDE
-/* True if the lamp certainly reaches some sample, however far others are bent. */
+/* True if the lamp certainly reaches some sample, however far others are bent.
+   First, middle and last sample only: if one is lit, the run is not dark and the dark test is omitted; if none is, that test decides. */
 static bool lit_somewhere(const WrTileJob *job, const Strip *strip)
 {
     const WrKernLight *light = job->view->lights;
@@ -14,6 +15,7 @@ static bool lit_somewhere(const WrTileJob *job, const Strip *strip)
     return any;
 }
 
+/* Level 0 reads single texels, higher levels squares of 2^level texels: each has its own box for later edits. */
 static void note_filtered(const WrTileJob *job, const Rays *rays, const Strip *strip,
                           const WrDirtyNotes *notes)
 {
@@ -47,7 +49,9 @@ static void filter_wide(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy
     watch_lap(watch, WR_STAGE_PYRAMID);
 }
 
-/* Lights a run by the slopes of the table. Returns the skipped work, bits of WrRun. */
+/* Lights a run by the slopes of the table. Returns the skipped work, bits of WrRun.
+   Order: the dark test first, because fetching slopes is the most expensive part; then slopes, colour, light.
+   If the fused kernel is not applicable, n' is stored and light_at_once finishes. */
 static unsigned light_bumped(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy,
                              const WrSink *sink, Strip *strip, WrTileScratch *scratch, Watch *watch)
 {
@@ -91,6 +95,7 @@ static unsigned lit_plain(const WrTileJob *job, bool dark, Watch *watch)
     return dark && job->dark ? WR_RUN_DARK : 0;
 }
 
+/* balls is parallel to view->grids; rays is one of those grids' rays. */
 static const WrSphereRows *ball_of(const WrTileJob *job, const Rays *rays)
 {
     const WrView *view = job->view;
@@ -99,7 +104,9 @@ static const WrSphereRows *ball_of(const WrTileJob *job, const Rays *rays)
     return &job->balls[i];
 }
 
-/* A row without bumps, in one call. False: not applicable. */
+/* A row without bumps, in one call. False: not applicable.
+   RED: all channels are equal, one is computed. LATER: light now, colours after the fetch. ALL: finished
+   colours. */
 static bool smooth_row(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, int count,
                        const WrSink *sink, WrTileScratch *scratch, Watch *watch)
 {
@@ -184,6 +191,7 @@ static bool runs_only(const WrPlan *plan, WrEffects these)
     return true;
 }
 
+/* Equal channels stay equal through every stage only if light and material are both grey. */
 static bool is_grey(const WrTileJob *job)
 {
     const WrVec3 own = job->scene->material.colour;
@@ -199,6 +207,7 @@ static bool filters_at_once(const WrTileJob *job)
            plan->precision == WR_PRECISION_SINGLE && job->wide->filters(LOOK_OF(job));
 }
 
+/* The effects that fused kernels implement; any other sends the row to the stages. */
 #define E(name) WR_EFFECT_BIT(WR_EFFECT_##name)
 static const WrEffects at_once = E(DIFFUSE) | E(SPECULAR) | E(COLOUR) | E(BUMP) | E(GRADIENT) |
                                  E(WIDE) | E(SAMPLES) | E(PERSPECTIVE) | E(AGAIN) | E(STEADY) |

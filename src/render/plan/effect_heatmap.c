@@ -11,7 +11,9 @@ typedef struct Hue {
     uint8_t rgb[3];
 } Hue;
 
-/* The first row whose bits match applies. */
+/* The first row whose bits match applies.
+   A byte of the map: the lower bits tell the work (WR_MAP_), the upper ones log2 of the samples along a
+   pixel's side. mask selects bits, all of which must equal `bits`. */
 static const Hue hues[] = {
     { WR_MAP_RENDERED, 0, "not rendered: left as it was", "black", { 0, 0, 0 } },
     { WR_MAP_COVERED, 0, "nothing of the object", "slate", { 96, 96, 128 } },
@@ -43,7 +45,8 @@ static int last_level(const WrHeatmapCounts *counts)
     return last;
 }
 
-/* Full brightness for the largest number of samples in the picture. */
+/* Full brightness for the largest number of samples in the picture.
+   Brightness (last + 2 level) / (3 last): a third at one sample a pixel, so that hues remain distinguishable. */
 static void colour_of(int last, int bits, uint8_t rgb[3])
 {
     const int level = bits / WR_MAP_SAMPLES;

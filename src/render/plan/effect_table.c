@@ -59,6 +59,7 @@ static WrVerdict decide_gradient(const WrPlan *plan, const WrPlanRequest *ask, c
                "one look-up of central differences equals the paper's four of F");
 }
 
+/* r u is rounded by at most r 2^-24 periods, r W 2^-24 texels of a table of width W (HC40). */
 static WrVerdict decide_wide(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const double r = fmax(fabs(ask->scene->replicate_u), fabs(ask->scene->replicate_v));
@@ -90,6 +91,7 @@ static void settle_invariant(WrPlan *plan, const WrPlanRequest *ask)
 
 /* ---- samples ---- */
 
+/* Moments exist only for filtered slopes: an unfiltered fetch has no covariance. */
 static WrVerdict decide_spread(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (ask->dials->aa != WR_AA_MOMENTS)
@@ -104,6 +106,7 @@ static WrVerdict decide_spread(const WrPlan *plan, const WrPlanRequest *ask, con
                    : "the variance of the slopes widens the highlight");
 }
 
+/* lean: the covariance as a 2 x 2 matrix; else only its trace, half in each direction (Toksvig). */
 static void settle_spread(WrPlan *plan, const WrPlanRequest *ask)
 {
     plan->graded = wr_plan_graded(plan, ask->scene);
@@ -126,6 +129,8 @@ static void settle_rounded(WrPlan *plan, const WrPlanRequest *ask)
     plan->heights = runs(plan, WR_EFFECT_ROUNDED) ? ask->dials->heights : WR_HEIGHTS_FLOAT;
 }
 
+/* A thin object: coordinates along its short axis would differ by less than the rounding of those along the
+   others. */
 static WrVerdict decide_double(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (ask->dials->shading == WR_SHADING_DOUBLE)
@@ -157,6 +162,10 @@ static WrVerdict decide_half(const WrPlan *plan, const WrPlanRequest *ask, const
 }
 
 /* ---- the table ---- */
+
+/* Columns: name in the documents (Enn), title, proof that leaving it out is harmless, size of the difference
+   if it is bounded, condition under which it is left out, stages whose time it explains, flags of
+   WrEffectInfo, functions. The order is light, pictures, bump, samples, geometry. */
 
 #define STAGE(name) (1U << WR_STAGE_##name)
 

@@ -19,7 +19,9 @@
 /* From this share of sloped tiles on, runs over flat parts are too rare to test for. */
 #define MOSTLY_SLOPED 0.75
 
-/* True if it runs only because it is forced. Then it runs everywhere. */
+/* True if it runs only because it is forced. Then it runs everywhere.
+   Verdicts: RUN; SPARED, possible but proven without effect here; NONE, impossible or not requested. Forcing
+   turns SPARED on, but never NONE. */
 static bool is_forced(const WrPlan *plan, WrEffect effect)
 {
     return runs(plan, effect) && plan->rows[effect].verdict != WR_VERDICT_RUN;
@@ -75,6 +77,8 @@ static const char *no_cone(const WrPlan *plan)
     return NULL;
 }
 
+/* Runs of samples are dark only if n'.l <= 0 for all normals that bump may produce: the cone of slope bounds
+   around n (E1, E18). */
 static const char *no_dark(const WrPlan *plan, const WrPlanRequest *ask)
 {
     const bool shines = runs(plan, WR_EFFECT_SPECULAR);
@@ -160,7 +164,8 @@ void wr_settle_samples(WrPlan *plan, const WrPlanRequest *ask)
     plan->contrast = dials->contrast;
 }
 
-/* Reason why no bound on the change of intensity over a pixel is known, or NULL if one is. */
+/* Reason why no bound on the change of intensity over a pixel is known, or NULL if one is.
+   The bound is the Lipschitz constant of the intensity over a pixel (E16), known in closed form for few cases. */
 static const char *no_bound(const WrPlan *plan, const WrPlanRequest *ask)
 {
     if (runs(plan, WR_EFFECT_SHADOW) || runs(plan, WR_EFFECT_CAST))
@@ -214,6 +219,7 @@ WrVerdict wr_decide_bound(const WrPlan *plan, const WrPlanRequest *ask, const ch
 
 #define SEEN 0.5 /* pixels: bump suffices for a smaller displacement (E21, E50) */
 
+/* E21, E50: the largest displacement on screen is below half a pixel. */
 WrVerdict wr_decide_displaced(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const WrScene *scene = ask->scene;
@@ -323,6 +329,8 @@ const char *wr_proof_letter(WrProof proof)
 
 /* ---- deciding ---- */
 
+/* Rows are decided in the order of the enumeration; a decide function may read only rows above its own, and settle writes the settings that follow from the verdict. */
+
 static void decide(WrPlan *plan, WrEffect effect, const WrPlanRequest *ask)
 {
     const WrEffectInfo *info = &wr_effects[effect];
@@ -352,6 +360,7 @@ void wr_plan_build(WrPlan *plan, const WrPlanRequest *ask)
     for (int e = 0; e < WR_EFFECT_COUNT; e++) decide(plan, (WrEffect)e, ask);
 }
 
+/* Repeats the rows that depend on facts.lively, which is measured after the others are settled. */
 void wr_plan_samples(WrPlan *plan, const WrPlanRequest *ask)
 {
     decide(plan, WR_EFFECT_SAMPLES, ask);
@@ -365,6 +374,7 @@ void wr_plan_again(WrPlan *plan, const WrPlanRequest *ask)
         if (wr_effects[e].manner) decide(plan, (WrEffect)e, ask);
 }
 
+/* `manner` rows change the way a picture is computed, never the picture; they are not compared. */
 bool wr_plan_same(const WrPlan *a, const WrPlan *b)
 {
     for (int e = 0; e < WR_EFFECT_COUNT; e++)
@@ -436,6 +446,7 @@ static const WrCost stage_costs[] = {
 };
 WR_ROWS_END(stage_costs, WR_STAGE_COUNT);
 
+/* A stage's time belongs to the last running effect that lists it, otherwise to a general cost. */
 void wr_plan_charge(WrPlan *plan, WrStage stage, double seconds)
 {
     double *to = &plan->cost[stage_costs[stage]];
@@ -452,6 +463,7 @@ static void per_pixel(WrPlan *plan)
     }
 }
 
+/* Sums the plans of several passes; an effect runs if it ran in any pass. */
 void wr_plan_add(WrPlan *sum, const WrPlan *more)
 {
     for (int e = 0; e < WR_EFFECT_COUNT; e++) {

@@ -78,7 +78,8 @@ void wr_settle_faint(WrPlan *plan, const WrPlanRequest *ask)
 
 /* ---- Plan rows of environment light ---- */
 
-/* True if the environment sends any light. */
+/* True if the environment sends any light.
+   harmonic[0] is the mean of the light over all directions, up to a constant: 0 only if every texel is 0. */
 static bool shine(const WrScene *scene)
 {
     const WrEnvironment *e = &scene->environment;
@@ -102,6 +103,8 @@ WrVerdict wr_decide_surround(const WrPlan *plan, const WrPlanRequest *ask, const
     return say(WR_VERDICT_RUN, why, "light comes from all sides and diffuse is not 0");
 }
 
+/* Nine coefficients, bands 0 to 2, reproduce irradiance within about 1 % (Ramamoorthi, Hanrahan 2001): the cosine
+   lobe has almost nothing in higher bands. One colour has band 0 alone. */
 WrVerdict wr_decide_harmonics(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (!runs(plan, WR_EFFECT_SURROUND))
@@ -141,6 +144,7 @@ WrVerdict wr_decide_mirror(const WrPlan *plan, const WrPlanRequest *ask, const c
     return say(WR_VERDICT_RUN, why, "they are seen about the mirrored direction");
 }
 
+/* A lobe of WR_ALPHA_MIN is as wide as a texel of an environment of 6000 columns: bilinear fetches blur as much. */
 WrVerdict wr_decide_blur(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     WrEnvironmentBrdf gloss;
@@ -167,6 +171,8 @@ bool wr_plan_surround_turns(const WrPlan *plan, const WrScene *scene)
            wr_reflects[scene->material.model].diffuse != WR_DIFFUSE_LAMBERT;
 }
 
+/* Graded: several blurred copies of the environment, interpolated by the width at the sample (env_setup.c).
+   Needed where widths differ over the surface, and for lobes too narrow for one blurred picture. */
 bool wr_plan_graded(const WrPlan *plan, const WrScene *scene)
 {
     WrEnvironmentBrdf gloss;
@@ -208,7 +214,9 @@ WrVerdict wr_decide_specular(const WrPlan *plan, const WrPlanRequest *ask, const
     return say(WR_VERDICT_RUN, why, "a light shines and specular is not 0");
 }
 
-/* Reason why another model equals Blinn-Phong's stages, or NULL. */
+/* Reason why another model equals Blinn-Phong's stages, or NULL.
+   Lambert's and Oren-Nayar's formula at roughness 0 are equal, and the plain stages do Lambert's in fewer
+   operations. */
 static const char *same_model(const WrPlan *plan, const WrScene *scene)
 {
     const WrMaterial *m = &scene->material;
@@ -285,7 +293,9 @@ WrVerdict wr_decide_varied(const WrPlan *plan, const WrPlanRequest *ask, const c
     return say(WR_VERDICT_RUN, why, "the solid texture drives roughness");
 }
 
-/* Reason why the relief's horizons are not available, or NULL. */
+/* Reason why the relief's horizons are not available, or NULL.
+   Horizons are angles above the plane of the periodic table, measured in units of its texels: every condition
+   here is a case in which that plane or its period does not exist. */
 static const char *no_horizon(const WrPlan *plan, const WrPlanRequest *ask)
 {
     const WrVec3 sizes = ask->scene->sizes;
@@ -302,7 +312,8 @@ static const char *no_horizon(const WrPlan *plan, const WrPlanRequest *ask)
     return NULL;
 }
 
-/* True if every enabled lamp uses shadow rays against a displaced surface's own relief. */
+/* True if every enabled lamp uses shadow rays against a displaced surface's own relief.
+   The horizon table would then darken a second time. */
 static bool rays_tell(const WrPlan *plan, const WrPlanRequest *ask)
 {
     bool all = runs(plan, WR_EFFECT_DISPLACED) && ask->dials->rays > 0;
@@ -336,6 +347,7 @@ WrVerdict wr_decide_cast(const WrPlan *plan, const WrPlanRequest *ask, const cha
         return say(WR_VERDICT_NONE, why, "no light is worked out");
     if (ask->facts.hiders > 0)
         return say(WR_VERDICT_RUN, why, "an object can stand between this one and a lamp");
+    /* Convex: a point that faces the lamp sees it, and one that does not is dark by n.l already. */
     return say(
         WR_VERDICT_SPARED, why,
         ask->facts.among > 1
@@ -367,6 +379,7 @@ WrVerdict wr_decide_occlusion(const WrPlan *plan, const WrPlanRequest *ask, cons
     return say(WR_VERDICT_RUN, why, "hollows of the relief see less of the sky");
 }
 
+/* Rounded down to a multiple of WR_HORIZON_MIN directions. */
 void wr_settle_occlusion(WrPlan *plan, const WrPlanRequest *ask)
 {
     const int n = ask->dials->horizons / WR_HORIZON_MIN * WR_HORIZON_MIN;

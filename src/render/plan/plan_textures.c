@@ -7,7 +7,8 @@
 
 /* ---- colour ---- */
 
-/* White everywhere: multiplying by it changes nothing. */
+/* White everywhere: multiplying by it changes nothing.
+   C = 1 is the neutral element of the product in light_sum. */
 static bool colour_white(const WrImage *image)
 {
     const size_t count = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
@@ -26,7 +27,8 @@ WrVerdict wr_decide_colour(const WrPlan *plan, const WrPlanRequest *ask, const c
     return say(WR_VERDICT_RUN, why, "the scene has a colour picture");
 }
 
-/* All texels have one colour, so every mean equals it, to the bit. */
+/* All texels have one colour, so every mean equals it, to the bit.
+   Mixing a with a is exact: a + t (a - a) = a. */
 static bool colour_even(const WrImage *image)
 {
     const size_t channels = (size_t)image->channels;
@@ -147,7 +149,8 @@ WrVerdict wr_decide_faded(const WrPlan *plan, const WrPlanRequest *ask, const ch
 
 /* ---- a normal map ---- */
 
-/* Normals straight up everywhere: the map adds slopes of 0. */
+/* Normals straight up everywhere: the map adds slopes of 0.
+   Only x and y are compared: slopes are -x/z and -y/z. */
 static bool map_even(const WrImage *image)
 {
     const size_t count = (size_t)image->width * (size_t)image->height;

@@ -6,6 +6,8 @@
 
 /* ---- visibility ---- */
 
+/* Closed and seen from outside: every ray that leaves the body has entered it before, nearer to the eye. So no
+   back is visible. */
 static bool is_closed(const WrPlanRequest *ask)
 {
     const WrSurfaceInfo *info = surface_of(ask);
@@ -74,7 +76,9 @@ WrVerdict wr_decide_perspective(const WrPlan *plan, const WrPlanRequest *ask, co
     return say(WR_VERDICT_RUN, why, "the camera is in perspective");
 }
 
-/* Not with a bound, which reads blocks of texels beyond those that the picture uses. */
+/* Not with a bound, which reads blocks of texels beyond those that the picture uses.
+   E29: the tiles' boxes of texture positions (dirty_regions.h) hold for the samples that were rendered, not
+   for those of a bound. */
 WrVerdict wr_decide_again(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (runs(plan, WR_EFFECT_DISPLACED))
@@ -93,6 +97,9 @@ WrVerdict wr_decide_relight(const WrPlan *plan, const WrPlanRequest *ask, const 
 }
 
 /* ---- surface geometry ---- */
+
+/* Sphere, cylinder, cone: the point follows from the ray alone. u and v are an extra step with an arc tangent,
+   which may be omitted; the point of all other surfaces is found at (u, v). */
 
 static bool is_round(const WrPlanRequest *ask)
 {
@@ -154,6 +161,7 @@ WrVerdict wr_decide_between(const WrPlan *plan, const WrPlanRequest *ask, const 
     return say(WR_VERDICT_RUN, why, "objects may hide others where their outlines meet");
 }
 
+/* E67: the horizon's pixels cover an unbounded part of the plane, so no number of samples would converge. */
 WrVerdict wr_decide_horizon(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     (void)plan;

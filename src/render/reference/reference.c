@@ -98,6 +98,7 @@ static WrSurfacePoint seen_at(const Looker *looker, const WrSurfacePoint *at, do
     return out;
 }
 
+/* The longer side of the footprint: level l halves the table l times. */
 static double level_of(const double footprint[4])
 {
     const double x = hypot(footprint[0], footprint[1]), y = hypot(footprint[2], footprint[3]);
@@ -125,6 +126,7 @@ static int samples_of(const WrDials *dials)
     return dials->aa == WR_AA_SUPERSAMPLE || dials->aa == WR_AA_ADAPTIVE ? dials->samples : 1;
 }
 
+/* The probe uses the scene's own approximations (scheme, mode), and shows the exact normal beside them. */
 bool wr_reference_probe(const WrField *field, const WrScene *scene, int width, int height,
                         double turn_deg, double x, double y, WrProbe *out, WrError *err)
 {
@@ -177,7 +179,8 @@ typedef struct MapJob {
     float *out;
 } MapJob;
 
-/* Fetch by the scene's scheme; bspline-fit from coefficients in double, computed once. */
+/* Fetch by the scene's scheme; bspline-fit from coefficients in double, computed once.
+   57 x 57 texels a coefficient would be summed for every pixel otherwise. */
 static void look_up(const Looker *looker, double u, double v, double *f, double *fu, double *fv)
 {
     if (looker->stage.table.c) wr_reference_height(&looker->stage, u, v, f, fu, fv);
@@ -214,6 +217,7 @@ static float level_at(const Looker *looker, const WrSurfacePoint *base, const Wr
     return (float)level_of(pixel);
 }
 
+/* NAN marks pixels without the object. */
 static void map_row(int y, int worker, void *ctx)
 {
     (void)worker;
@@ -298,6 +302,9 @@ static double pair_sum(double *values, int count)
     return count > 0 ? values[0] : 0;
 }
 
+/* With k >= 4 a sample uses one of k shares of the lamps' and surroundings' points. Row j is shifted by step
+   j, with an odd step near 0.38 k, so that neighbouring samples use distant shares; each share is used k
+   times. */
 static const WrReferenceShare all = { 0, 1 };
 
 /* For light from all directions each of a pixel's k x k samples uses 1/k of them, by a lattice in which each
@@ -322,7 +329,8 @@ static bool sample_set(const Set *set, double x, double y, WrReferenceShare shar
     return any;
 }
 
-/* Mean of k x k intensities, premultiplied; adds the samples whose inversion did not converge to *lost. */
+/* Mean of k x k intensities, premultiplied; adds the samples whose inversion did not converge to *lost.
+   Pairwise sums, first in rows, then over rows: equal samples have an exact mean for k = 2^m (HC92). */
 static void sample_pixel(const Pass *pass, int x, int y, double rgba[4], int64_t *lost)
 {
     const int k = pass->k;
@@ -441,7 +449,9 @@ static int most_of(const WrReferenceRequest *request)
     return request->most > 0 ? request->most : request->first > own ? 64 : own;
 }
 
-/* Doubles k until the picture no longer changes or the limit is reached. */
+/* Doubles k until the picture no longer changes or the limit is reached.
+   The change from k to 2k is the measure of convergence: for errors ~ k^-p with p >= 1 it is at least the error of the
+   finer picture. */
 static bool refine(const Set *set, const WrReferenceRequest *request, WrPool *pool,
                    WrReference *out, WrError *err)
 {
@@ -468,6 +478,7 @@ static bool refine(const Set *set, const WrReferenceRequest *request, WrPool *po
     return good;
 }
 
+/* Each object is rendered alone with the camera of the whole scene; sample_set compares depths. */
 static bool make_set(Set *set, const WrReferenceRequest *request, WrPool *pool, WrError *err)
 {
     const WrScene *scene = request->scene;

@@ -24,6 +24,8 @@
 /* ---- reference bezier ---- */
 
 #define PATCH_SLACK 1e-12
+/* Bounding the groups costs 1/16 of the boxes and discards most of them; a full tree is not worth it for a few
+   hundred patches. */
 #define GROUP 16 /* patches that are neighbours in the file, with a common box */
 
 struct WrReferenceBezierPiece {
@@ -103,7 +105,9 @@ static bool reference_bezier_hit(const WrReferenceBezier *set, bool cull, const 
     return true;
 }
 
-/* The point with derivatives by the table's u and v, from the gradients of the patch's parameters. */
+/* The point with derivatives by the table's u and v, from the gradients of the patch's parameters.
+   The map from patch to table parameters is affine and constant (chart), so gradients transform by its matrix:
+   grad u_table = scale_u (c1 grad u + c2 grad v). Where N = 0 there are no gradients, and bumps vanish (HC06). */
 static void reference_bezier_at(const WrReferenceBezier *set, const WrReferenceHit *hit,
                                 WrSurfacePoint *out)
 {
@@ -169,6 +173,7 @@ static void include(WrReferencePiece *piece, WrVec3 p)
         (WrVec3){ fmax(piece->high.x, p.x), fmax(piece->high.y, p.y), fmax(piece->high.z, p.z) };
 }
 
+/* Nine points at 0, 0.414 and 1 of each side. The middle is measured apart: it is Newton's start. */
 static Measure sample_piece(WrReferencePiece *piece, const WrShape *shape)
 {
     Measure m = { .pu_least = INFINITY, .pv_least = INFINITY };
@@ -195,6 +200,9 @@ static Measure sample_piece(WrReferencePiece *piece, const WrShape *shape)
     return m;
 }
 
+/* `bend` bounds twice the deviation from the chord: the piece is halved until that is a small part of its
+   length and its normals stay within SPREAD of the middle one. FLAT ends the subdivision at collapsed edges,
+   whose normals never settle. */
 static void measure_piece(WrReferencePiece *piece, const WrShape *shape, double size)
 {
     const Measure m = sample_piece(piece, shape);
@@ -217,6 +225,8 @@ static void measure_piece(WrReferencePiece *piece, const WrShape *shape, double 
     piece->sine = upright ? 1.2 * m.spread + 0.01 : 2;
 }
 
+/* Both halves are appended, so that children always have larger indices than parents: one backward loop then
+   joins boxes. */
 static void halve(WrReferencePatches *patches, int index, const WrShape *shape)
 {
     WrReferencePiece *piece = &patches->pieces[index];
@@ -233,7 +243,9 @@ static void halve(WrReferencePatches *patches, int index, const WrShape *shape)
 }
 
 /* Larger pieces are subdivided first, so that a surface with too many is subdivided evenly. Then boxes shrink to
-   those of their halves. */
+   those of their halves.
+   Breadth first by index: pieces[count] grows while it is scanned. Pieces is moved by realloc; halve works by
+   index. */
 static bool reference_patches_init(WrReferencePatches *patches, const WrShape *shape, WrError *err)
 {
     int capacity = 1024;
@@ -297,7 +309,9 @@ static double enters(const Search *search, const WrReferencePiece *piece)
     return in <= out && out > search->ray->s_min ? in : INFINITY;
 }
 
-/* Offers a root or a possible root: the nearest is kept. */
+/* Offers a root or a possible root: the nearest is kept.
+   s is the distance of P(u, v) along the ray, not Newton's own third unknown. Parameters on closed axes wrap;
+   a root up to 1e-9 outside counts for both neighbours, so that no ray passes between two pieces. */
 static void offer(Search *search, const WrSurfacePoint *at, double u, double v, bool lost)
 {
     const WrReferenceRay *ray = search->ray;
@@ -313,7 +327,9 @@ static void offer(Search *search, const WrSurfacePoint *at, double u, double v, 
     search->best = (WrReferenceHit){ .s = s, .u = u, .v = v, .lost = lost };
 }
 
-/* From dot products with Pv x d and d x Pu. */
+/* From dot products with Pv x d and d x Pu.
+   Solves P + Pu du + Pv dv = q + s d. The dot product with Pv x d removes dv and s, that with d x Pu removes
+   du and s; det = Pu . (Pv x d) is 0 at silhouettes: the steps are then infinite and the search ends. */
 bool wr_reference_newton_step(const WrReferenceRay *ray, WrVec3 p, WrVec3 pu, WrVec3 pv, double *du,
                               double *dv)
 {
@@ -331,7 +347,10 @@ static double off_ray(const Search *search, WrVec3 p)
     return sqrt(v3_dot(aside, aside)) / search->d_length;
 }
 
-/* Newton's method from (u, v), within two lengths of the piece; most: longest step, in pieces. */
+/* Newton's method from (u, v), within two lengths of the piece; most: longest step, in pieces.
+   off_ray is the measure that decides, as steps shrink only linearly at silhouettes. `lost` marks a point
+   within UNDECIDED but not within TOUCHES: it may be a hit or not, and the reference counts such pixels
+   instead of hiding them. */
 static void solve(Search *search, const WrReferencePiece *piece, double u, double v, double most)
 {
     const double wide = piece->u1 - piece->u0, high = piece->v1 - piece->v0;
@@ -361,6 +380,8 @@ static void solve(Search *search, const WrReferencePiece *piece, double u, doubl
     }
 }
 
+/* A graph over the ray's plane is crossed at most once: a Newton step from the middle that leaves by more than
+   the piece's size has its root outside. The stored middle point saves one evaluation. */
 static void try_piece(Search *search, const WrReferencePiece *piece)
 {
     const double u = 0.5 * (piece->u0 + piece->u1), v = 0.5 * (piece->v0 + piece->v1);
@@ -386,7 +407,8 @@ static double reciprocal(double d)
     return fabs(d) > 1e-150 ? 1 / d : d < 0 ? -1e150 : 1e150;
 }
 
-/* Nearest root beyond s_min. cull: ignores roots whose N = Pu x Pv points away from the viewer. */
+/* Nearest root beyond s_min. cull: ignores roots whose N = Pu x Pv points away from the viewer.
+   Depth first, nearest child first. The stack holds one sibling for each level: DEPTH_MAX + 2 entries. */
 static bool reference_patches_hit(const WrReferencePatches *patches, const WrShape *shape,
                                   bool cull, const WrReferenceRay *ray, WrReferenceHit *hit)
 {
@@ -446,6 +468,9 @@ static WrVec3 corner(const WrTriangles *t, int32_t i, int k)
 
 /* ---- the tree ---- */
 
+/* Median-free: the middle of the longest side, which is enough for meshes; equal centres fall back to equal
+   halves, so each box divides and the tree is finite. */
+
 /* Three times the mean of a triangle's corners along an axis. */
 static double middle(const WrTriangles *t, int32_t i, int axis)
 {
@@ -484,6 +509,8 @@ static int32_t divide(WrReferenceMesh *m, const WrReferenceBox *box)
     return below > 0 && below < box->count ? below : box->count / 2;
 }
 
+/* boxes[] in breadth-first order: at most 2 count - 1. order[] permutes triangles so that a leaf's are
+   consecutive. */
 bool wr_reference_mesh_init(WrReferenceMesh *mesh, WrTriangles *source, WrError *err)
 {
     const size_t count = (size_t)source->triangle_count;
@@ -519,7 +546,8 @@ void wr_reference_mesh_fini(WrReferenceMesh *mesh)
 
 /* ---- rays ---- */
 
-/* The ray's longest axis is z, and positions are sheared so that the ray runs along it. */
+/* The ray's longest axis is z, and positions are sheared so that the ray runs along it.
+   x, y, z are axis numbers; sx, sy, sz the shear and the scale of the ray's direction. */
 typedef struct Shear {
     int x, y, z;
     double sx, sy, sz;
@@ -537,7 +565,10 @@ static Shear shear_of(WrVec3 d)
 }
 
 /* Woop, Benthin and Wald: the edge functions e0, e1, e2 of the sheared triangle decide; a ray on an edge (0)
-   counts as inside for both neighbours, so that no ray passes between them. */
+   counts as inside for both neighbours, so that no ray passes between them.
+   e_k is the signed area of the ray and the edge opposite corner k; on a shared edge both triangles compute
+   the same products with opposite order, so the signs are exactly opposite (HC134, HC135). t is the weighted
+   mean of the sheared z. */
 static void test(const WrReferenceMesh *m, int32_t i, bool cull, const WrReferenceRay *ray,
                  const Shear *s, WrReferenceHit *best)
 {
@@ -593,6 +624,7 @@ bool wr_reference_mesh_hit(const WrReferenceMesh *m, bool cull, const WrReferenc
 
 /* ---- tangent frames ---- */
 
+/* One tangent for each corner of each triangle, [3 triangle + corner], not shared: seams differ by triangle. */
 static bool reference_mesh_frame(WrReferenceMesh *mesh, WrNormalFrame frame, WrError *err)
 {
     const WrTriangles *t = mesh->source;
@@ -603,6 +635,8 @@ static bool reference_mesh_frame(WrReferenceMesh *mesh, WrNormalFrame frame, WrE
                                  t->corners, t->triangles, t->triangle_count, mesh->tangents, err);
 }
 
+/* MikkTSpace interpolates n and t without normalising and computes b = sign (n x t) per point; other frames
+   interpolate both tangents and normalise. */
 bool wr_reference_mesh_axes(const WrReferenceMesh *mesh, const WrReferenceHit *hit, WrMapAxes *axes)
 {
     const WrVec3 none = { 0, 0, 0 };
@@ -642,7 +676,9 @@ static WrVec3 shading_normal(const WrTriangles *t, const WrReferenceHit *hit, Wr
     return v3_unit(n, face);
 }
 
-/* The normal, moved to the visible side of its face. */
+/* The normal, moved to the visible side of its face.
+   Interpolated normals may face away from the viewer on a visible face near the outline. Adding least - n.to
+   along `to` moves them to 1e-4 in front, continuously; otherwise bumps would flip sign there (HC24). */
 static WrVec3 seen_normal(WrVec3 n, WrVec3 face, WrVec3 to)
 {
     const double least = 1e-4;
@@ -704,17 +740,22 @@ static WrVec3 way_to_object(const WrPlacement *place, WrVec3 w)
     return (WrVec3){ own.x / s.x, own.y / s.y, own.z / s.z };
 }
 
+/* The lighting space is object space times the stretch: angles and distances there are those of the world up
+   to rotation and size. */
 WrVec3 wr_reference_stretched(const WrReferenceView *view, WrVec3 p)
 {
     return v3_times(p, view->stretch);
 }
 
+/* A normal transforms by the cofactor matrix of the stretch, |s1 s2 s3| / s_i, which stays finite for flat
+   objects (HC33, HC153). */
 WrVec3 wr_reference_normal_stretched(const WrReferenceView *view, WrVec3 n)
 {
     const WrVec3 turned = v3_times(n, view->cofactor), none = { 0, 0, 0 };
     return view->stretched ? v3_unit(turned, none) : n;
 }
 
+/* Positions of lamps in the lighting space of this object, so that shading needs no transformation per sample. */
 static void take_lights(WrReferenceView *view, const WrScene *scene, const WrPlacement *place)
 {
     view->lights = wr_alloc((size_t)scene->light_count + 1, sizeof *view->lights);
@@ -750,6 +791,7 @@ static void hide_faces(WrReferenceView *view)
         view->hidden[face] = view->info->convex_closed && outside && away[face];
 }
 
+/* Ownership: view->mesh.source holds a reference to the mesh in all cases; bezier.source points into it. */
 static bool take_mesh(WrReferenceView *view, const WrScene *scene, WrError *err)
 {
     WrTriangles *mesh =
@@ -765,6 +807,9 @@ static bool take_mesh(WrReferenceView *view, const WrScene *scene, WrError *err)
            (!framed || reference_mesh_frame(&view->mesh, frame, err));
 }
 
+/* The camera in object space: `right`, `up`, `forward` are divided by the stretch, so they may be skewed and
+   of any length; the ray parameter s stays the depth along the world's view direction. s_min is the near
+   plane. */
 bool wr_reference_view_init(WrReferenceView *view, const WrScene *scene, double turn_deg, int width,
                             int height, WrError *err)
 {
@@ -815,6 +860,8 @@ void wr_reference_view_fini(WrReferenceView *view)
     *view = (WrReferenceView){ 0 };
 }
 
+/* A ray is q + s d with s = 0 in the plane through the object's centre: coordinates near the surface are small
+   numbers even if the eye is far away (HC154). The eye is at s = -depth. */
 WrReferenceRay wr_reference_view_ray(const WrReferenceView *view, double x, double y)
 {
     const double across = (2 * x / view->width - 1) * view->half_w;
@@ -826,6 +873,7 @@ WrReferenceRay wr_reference_view_ray(const WrReferenceView *view, double x, doub
                              view->s_min };
 }
 
+/* Derivatives of q and d by x and y of the picture, pixels. */
 void wr_reference_view_spread(const WrReferenceView *view, WrReferenceRay *per_x,
                               WrReferenceRay *per_y)
 {
@@ -869,7 +917,8 @@ static bool hit_sphere(const WrReferenceView *view, const WrReferenceRay *ray, W
     return true;
 }
 
-/* As the sphere, in x and y only; rays parallel to the axis hit nothing, because the tube is open. */
+/* As the sphere, in x and y only; rays parallel to the axis hit nothing, because the tube is open.
+   Both roots are tried: the nearer one may lie beyond a rim while the far one shows the inside. */
 static bool hit_cylinder(const WrReferenceView *view, const WrReferenceRay *ray,
                          WrReferenceHit *hit)
 {
@@ -919,7 +968,9 @@ static bool hit_cone(const WrReferenceView *view, const WrReferenceRay *ray, WrR
     return false;
 }
 
-/* The plane of each visible face: (u,v) are the dot products with Pu and Pv, which are perpendicular. */
+/* The plane of each visible face: (u,v) are the dot products with Pu and Pv, which are perpendicular.
+   u = w . Pu / |Pu|^2 along a face's own axes. The slack of 2^-48 makes neighbouring faces overlap by rounding
+   only. */
 static bool hit_faces(const WrReferenceView *view, const WrReferenceRay *ray, WrReferenceHit *hit)
 {
     bool found = false;

@@ -33,7 +33,9 @@ typedef struct Filter {
     double z;
 } Filter;
 
-/* Value number i, any i, of n values `stride` apart, extended according to the axis. */
+/* Value number i, any i, of n values `stride` apart, extended according to the axis.
+   On a clamped axis the texels outside continue the parabola through the outermost three (Lagrange's form):
+   T[-1] = 3 T[0] - 3 T[1] + T[2]. With fewer than three texels the last one repeats. */
 static double texel(const double *in, size_t stride, int n, int i, bool periodic)
 {
     if (periodic) return in[(size_t)((i % n + n) % n) * stride];
@@ -46,7 +48,10 @@ static double texel(const double *in, size_t stride, int n, int i, bool periodic
            end[2 * inward] * (x * (x - 1) / 2);
 }
 
-/* Replaces in [count + 2 REACH][lanes], from number -REACH on, by the coefficients. */
+/* Replaces in [count + 2 REACH][lanes], from number -REACH on, by the coefficients.
+   in[i * lanes + k]: the lane runs fastest, so that the inner loop is contiguous. Both recursions start from
+   their fixed points of a constant sequence, 6 T / (1 - z) and -z p / (1 - z); that guess is wrong by at most
+   the change within the REACH texels, and decays as said above. */
 static void recurse(double *in, int count, int lanes, double z)
 {
     const int total = count + 2 * REACH;
@@ -63,7 +68,10 @@ static void recurse(double *in, int count, int lanes, double z)
     }
 }
 
-/* Texels of row j -> coefficients along u, in the table's row j + 2. */
+/* Texels of row j -> coefficients along u, in the table's row j + 2.
+   Heights are stored minus the table's first texel (HC48): a large common offset would cost digits of the
+   differences. Rows of table->c are `pitch` = width + 4 doubles; texel (i, j) is at row j + 2, column i + 2,
+   so that the four taps i - 1 .. i + 2 of a point exist for i = -1 .. width - 1 without a test. */
 static void filter_row(int j, int worker, void *ctx)
 {
     (void)worker;
@@ -85,7 +93,9 @@ static void filter_row(int j, int worker, void *ctx)
     wr_free(texels);
 }
 
-/* Coefficients along v for BLOCK columns. */
+/* Coefficients along v for BLOCK columns.
+   Reads rows 2 .. n + 1, which filter_row wrote, and writes all n + 4 rows, the margins included. It runs in
+   place: `wide` holds a copy of the block's columns. */
 static void filter_columns(int block, int worker, void *ctx)
 {
     (void)worker;
@@ -133,7 +143,10 @@ void wr_reference_table_fini(WrReferenceTable *table)
 }
 
 /* Weights of four coefficients for the value at a = 0..1 past the second, and of their three differences for the
-   slope. */
+   slope.
+   Uniform cubic B-spline; the slope is that of the quadratic B-spline of the differences c[k+1] - c[k]. In
+   this form the slope of a flat table is exactly 0 (HC47); derivative weights of the four coefficients sum to
+   rounding noise. */
 static void weights(double a, double w[4], double d[3])
 {
     const double b = 1 - a;
@@ -161,6 +174,9 @@ static double bounded(double x)
     return x > DBL_MAX ? DBL_MAX : x < -DBL_MAX ? -DBL_MAX : x;
 }
 
+/* F = h T and, by the chain rule, Fu = h W r dT/dx; rows run down, so Fv has a minus sign. x = W u - 1/2
+   because texel centres are at half-integers. Outside a clamped axis the weights are those of its end and the
+   slope is 0. */
 void wr_reference_table_at(const WrReferenceTable *table, const WrScene *scene, double u, double v,
                            double *f, double *fu, double *fv)
 {
@@ -253,7 +269,9 @@ typedef struct End {
     double f, u, v;
 } End;
 
-/* u and v of the patch at t, 0..1, along an edge. */
+/* u and v of the patch at t, 0..1, along an edge.
+   A strip's parameter u follows the edge, 0 .. 1 whatever the surface's own range is; v leads from the sheet's
+   displaced edge (v = 0) to the shared point (v = 1). */
 static void raised_edge_at(const WrReferenceRaised *raised, WrRaisedEdge edge, double t, double *u,
                            double *v)
 {
@@ -276,7 +294,11 @@ static End end_of(const WrReferenceRaised *raised, WrRaisedEdge edge, double t)
 }
 
 /* Displacement of a point shared by two sheets: onto both their planes; if those are almost parallel, the mean
-   displacement. */
+   displacement.
+   Solves d.n_a = f_a and d.n_b = f_b in the plane of the two normals; c = n_a.n_b, and 1 - c^2 is the
+   determinant of the system. It is small for almost parallel normals, where d would grow without bound; hence
+   the limit of twice the larger height. Both sheets compute the same d, so that their strips meet without a
+   gap (HC124). */
 static WrVec3 shared(const End *a, const End *b)
 {
     const double c = v3_dot(a->n, b->n), most = fmax(fabs(a->f), fabs(b->f));
@@ -299,7 +321,9 @@ static void strip_at(const WrReferenceRaised *raised, const WrRaisedSheet *sheet
     *to = v3_add(a.p, shared(&a, &b));
 }
 
-/* As wr_raised_at, for strips and corners. */
+/* As wr_raised_at, for strips and corners.
+   The tangent along a strip is a central difference, as strip_at has no closed derivative; P is bilinear
+   across, so Pv and the blend of the two ends' tangents are exact in v. */
 static void raised_joint_at(const WrReferenceRaised *raised, const WrRaisedSheet *sheet, double u,
                             double v, WrRaisedPoint *out)
 {
@@ -324,7 +348,8 @@ static bool same_place(const WrReferenceRaised *raised, WrVec3 a, WrVec3 b)
     return v3_len(v3_sub(a, b)) < ALIKE * raised->size;
 }
 
-/* True if both are one edge in space, in equal or opposite direction. */
+/* True if both are one edge in space, in equal or opposite direction.
+   Two points that are not symmetric about the middle: an edge and its reverse agree at neither. */
 static bool mates(const WrReferenceRaised *raised, WrRaisedEdge a, WrRaisedEdge *b)
 {
     const double t[2] = { 0.287, 0.731 };
@@ -419,6 +444,7 @@ static int raised_joints(const WrReferenceRaised *raised, WrRaisedSheet out[WR_R
 #define UNDECIDED 1e-10
 #define SLACK 1e-7 /* of a cell: extension beyond its border, so that no hit is lost between two */
 
+/* P' = P + F n, Pu' = Pu + Fu n + F n_u, Pv' = Pv + Fv n + F n_v (equation B4, no term dropped). */
 static void raised_at(const WrReferenceRaised *raised, const WrRaisedSheet *sheet, double u,
                       double v, WrRaisedPoint *out)
 {
@@ -479,6 +505,8 @@ static double change(const WrVec3 *t, int by)
     return most;
 }
 
+/* The normals are sampled at the 3 x 3 points alone; 20 % and 0.01 are the margin for those between. 2 marks a
+   cell whose normals turn by more than 84 degrees: nothing is concluded from it. */
 static double spread_of(const WrVec3 *pu, const WrVec3 *pv)
 {
     const WrVec3 none = { 0, 0, 0 }, middle = v3_unit(v3_cross(pu[4], pv[4]), none);
@@ -491,6 +519,10 @@ static double spread_of(const WrVec3 *pu, const WrVec3 *pv)
     return 1.2 * most + 0.01;
 }
 
+/* For a quarter of the cell, of sides du/2 and dv/2, Taylor's bound is
+       (|P'uu| du^2 + 2 |P'uv| du dv + |P'vv| dv^2) / 32.
+   Neighbouring points are half a cell apart, so |P'uu| du = 2 change(pu, 1) and |P'uv| dv = 2 change(pu, 3);
+   P'uv is also 2 change(pv, 1) / du, and the two estimates are averaged. Together this is bend / 8. */
 static WrRaisedBox measure(const WrReferenceRaised *raised, const WrRaisedSheet *sheet, int i,
                            int j)
 {
@@ -510,6 +542,7 @@ static WrRaisedBox measure(const WrReferenceRaised *raised, const WrRaisedSheet 
     return box_of(low, high, SAFETY * bend / 8 + 1e-12 * raised->size, spread_of(pu, pv));
 }
 
+/* ceil(n / 2^level), the number of boxes of a level along an axis; odd counts leave a last box with one child. */
 static int halved(int n, int level)
 {
     return (int)(((int64_t)n + ((int64_t)1 << level) - 1) >> level);
@@ -630,6 +663,8 @@ void wr_reference_raised_fini(WrReferenceRaised *raised)
 
 /* ---- ray search ---- */
 
+/* The ray is q + s d with d of any length; s is comparable between sheets, so one `best` serves the whole
+   search. */
 typedef struct Search {
     const WrReferenceRaised *raised;
     const WrRaisedSheet *sheet;
@@ -640,7 +675,9 @@ typedef struct Search {
     WrReferenceHit best;
 } Search;
 
-/* Ray parameter at which the box is entered, or INFINITY. */
+/* Ray parameter at which the box is entered, or INFINITY.
+   Slab test. `inverse` is finite even for a component 0 of d (see reciprocal), because 0 * INFINITY would be
+   NaN for a ray within a slab's plane. */
 static double enters(const Search *search, const WrRaisedBox *box)
 {
     const double q[3] = { search->ray->q.x, search->ray->q.y, search->ray->q.z };
@@ -657,6 +694,9 @@ typedef struct Cell {
     double u0, v0, du, dv;
 } Cell;
 
+/* Accepts (u, v) within the cell plus SLACK: neighbours then overlap, and a hit on their common border is
+   found twice rather than not at all. Only the nearest hit counts, so doubles do no harm. s is the foot of the
+   point on the ray, not Newton's own value, which carries the remaining error of the step. */
 static void offer(Search *search, const Cell *c, const WrRaisedPoint *at, double u, double v,
                   bool lost)
 {
@@ -670,7 +710,11 @@ static void offer(Search *search, const Cell *c, const WrRaisedPoint *at, double
     raised_place(search->raised, search->sheet, u, v, &search->best);
 }
 
-/* Newton's method from (u, v); most: longest step, in cells. */
+/* Newton's method from (u, v); most: longest step, in cells.
+   Solves (P'(u, v) - q) x d = 0 by two plane equations. Convergence is quadratic at regular points and linear
+   at silhouettes, where Pu', Pv' and d are coplanar; there the steps may stay long although the point is on
+   the ray already. So `off`, the distance from the ray, decides too: three steps without halving it end the
+   search. A start that leaves the neighbouring cells is dropped: their own boxes cover those points. */
 static void solve(Search *search, const Cell *c, double u, double v, double most)
 {
     const WrReferenceRay *ray = search->ray;
@@ -695,6 +739,9 @@ static void solve(Search *search, const Cell *c, double u, double v, double most
     if (off < UNDECIDED * size) offer(search, c, &at, u, v, !(off < TOUCHES * size));
 }
 
+/* If the ray is steeper to the middle tangent plane than all normals of the cell deviate from the middle one,
+   then n.d has one sign over the cell and the ray crosses it at most once: one start is enough. Otherwise
+   there may be two crossings, or a tangent one, and five starts with short steps look for both. */
 static void try_cell(Search *search, const WrRaisedBox *box, int i, int j)
 {
     const WrRaisedSheet *sheet = search->sheet;
@@ -723,7 +770,10 @@ typedef struct Entry {
     double from;
 } Entry;
 
-/* Pushes the box's four children onto the stack, the farthest first. */
+/* Pushes the box's four children onto the stack, the farthest first.
+   Insertion sort of at most four. The nearest child is popped first, so `best` shrinks early and look_through
+   discards the others by their entry alone. A level adds at most three entries to the stack: 4
+   WR_RAISED_LEVELS is enough. */
 static int push_children(const Search *search, const Entry *at, Entry *stack, int depth)
 {
     const WrRaisedSheet *sheet = search->sheet;
@@ -792,7 +842,9 @@ typedef struct Walk {
     Row *rows; /* [height] */
 } Walk;
 
-/* Screen position of an object's point, pixels. */
+/* Screen position of an object's point, pixels.
+   The view's axes are skewed if the object is stretched, so the coordinates come from Cramer's rule, with
+   triple products and not with dot products. */
 static void pixel_of(const WrReferenceView *view, WrVec3 p, double at[2])
 {
     const WrVec3 from = v3_sub(p, view->perspective ? view->eye : view->middle);
@@ -815,6 +867,9 @@ static void light_of(const WrReferenceStage *stage, WrSurfacePoint at, const WrR
                        (WrReferenceShare){ 0, 1 }, rgb);
 }
 
+/* Measures the same parameter (u, v) twice: on the base with the bumped normal, and displaced with the exact
+   one. `way` is the parallax in pixels that bump mapping leaves out, `light` the squared shading difference
+   (mean over channels). */
 static void note(const Walk *walk, const WrReferenceRay *ray, const WrReferenceHit *hit, Row *row)
 {
     const WrReferenceStage *stage = walk->stage;
@@ -909,6 +964,8 @@ typedef struct Shell {
     double R, H; /* H: height of a tube, which ends there; INFINITY: it is a sphere */
 } Shell;
 
+/* The height above the base is |p| - R for a sphere and hypot(x, y) - R for a tube: exact, unlike the parabola
+   of `Way`. */
 static WrVec3 point_at(const Shell *shell, double s)
 {
     return v3_mad(shell->ray->q, shell->ray->d, s);
@@ -922,6 +979,7 @@ static void parameters(const Shell *shell, WrVec3 p, double *u, double *v)
     *v = fmin(fmax(*v, 0), 1);
 }
 
+/* Positive: the point is outside the displaced surface F(u, v) above the foot of p. */
 static double above(const Shell *shell, double s)
 {
     const WrVec3 p = point_at(shell, s);
@@ -955,6 +1013,8 @@ static void clip_ends(const Shell *shell, double part[2])
     part[0] = fmax(part[0], fmin(a, b)), part[1] = fmin(part[1], fmax(a, b));
 }
 
+/* Steps per cell of the table, not per length: a feature narrower than a cell cannot exist in the interpolated
+   relief. The path is measured by 32 chords; u jumps at the seam, so the shorter way round counts. */
 static int steps_of(const Shell *shell, const double part[2])
 {
     double cells = 0, last[2] = { 0, 0 };
@@ -970,7 +1030,11 @@ static int steps_of(const Shell *shell, const double part[2])
     return (int)fmin(fmax(LEAST, ceil(PER_CELL * cells)), MAX_MOST);
 }
 
-/* Hit on the relief of a base that has a shell (wr_parallax_has_shell), without the point. */
+/* Hit on the relief of a base that has a shell (wr_parallax_has_shell), without the point.
+   The search starts where the ray enters the shell of radius R + highest, or, for a tube, where it passes an
+   open end; `side` is -1 if it starts below the relief and hits it from within. A ray that reaches R + lowest
+   has crossed the relief, so the interval can end there. The first step with a change of sign is bisected; 48
+   halvings reach double precision. */
 static bool reference_shell(const WrReferenceStage *stage, const WrReferenceRay *ray,
                             WrReferenceHit *hit, double *side)
 {
@@ -1007,7 +1071,11 @@ static bool reference_shell(const WrReferenceStage *stage, const WrReferenceRay 
     return true;
 }
 
-/* A ray above the base that it hit: (u,v)(t) = base + t (a, b), height(t) = t (rise + t bend). */
+/* A ray above the base that it hit: (u,v)(t) = base + t (a, b), height(t) = t (rise + t bend).
+   To second order in t. (a, b) is the velocity in parameters: the first fundamental form maps it to (d.Pu,
+   d.Pv). The base falls away from its tangent plane by the second fundamental form, so height = t n.d + t^2/2
+   (n_u a + n_v b).(Pu a + Pv b). t = 0 is the hit on the base, t < 0 lies before it; `side` is -1 for rays
+   that arrive from behind, and `rise` <= 0. */
 typedef struct Way {
     const WrReferenceStage *stage;
     double u, v, a, b, rise, bend, side;
@@ -1015,6 +1083,7 @@ typedef struct Way {
     bool opens, leaves; /* it enters, or leaves, where there is no relief */
 } Way;
 
+/* The range of F without a scan of the spline: a formula is bounded by its sum of amplitudes. */
 bool wr_reference_has_parallax(const WrScene *scene)
 {
     return scene->parallax && !wr_reference_displaced(scene) && scene->height != 0 &&
@@ -1071,6 +1140,9 @@ static bool down_to(const Way *w, double h, double *t)
     return part >= 0;
 }
 
+/* A closed axis ends the search half a turn from the hit: beyond it the parabola describes the surface no
+   more. An open axis ends at 0 and 1; where the surface itself ends there (not at a pole), a ray passes into
+   the open. */
 static void clip(Way *w, const WrShape *shape, bool across)
 {
     const WrSurfaceInfo *info = wr_surfaces[shape->kind];
@@ -1090,7 +1162,10 @@ static void clip(Way *w, const WrShape *shape, bool across)
     }
 }
 
-/* Limits the range of t. false: it is empty. */
+/* Limits the range of t. false: it is empty.
+   The ray is at or below `high` between the two roots of height(t) = high. With bend > 0 it comes down, turns
+   at -rise / (2 bend) and rises again: if it never reaches `low`, the interval ends at the mirror image of its
+   start. */
 static bool limit(Way *w, const WrShape *shape)
 {
     const double high = w->side > 0 ? w->stage->highest : -w->stage->lowest;
@@ -1140,7 +1215,9 @@ static double within(bool round, double x)
     return round ? x - floor(x) : fmin(fmax(x, 0), 1);
 }
 
-/* Continues the ray to the relief. at: the base's point at the hit. */
+/* Continues the ray to the relief. at: the base's point at the hit.
+   Steps: velocity in parameters, parabola above the base, limits, march, and the point at the relief. hit->s
+   grows by t because d is the derivative of the ray by s. */
 static bool go_on(const WrReferenceStage *stage, const WrReferenceRay *ray, WrReferenceHit *hit,
                   WrSurfacePoint *at, double *side)
 {

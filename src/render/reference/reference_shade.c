@@ -21,11 +21,17 @@
 
 /* ---- shadows of objects ---- */
 
+/* The reference evaluates each term by its definition: rays for shadows, sums over directions for the
+   surroundings, marches for relief. It shares data and surface formulas with the renderer, but no kernel, so
+   that equal errors are unlikely. */
+
 static const double pi = 3.14159265358979323846;
 
 #define LAMP_POINTS 64 /* points on an area lamp */
 #define ABOVE 1e-7     /* of the object's radius: height of the rays' origin above the surface */
 
+/* Casters hide from both sides and with all their faces: culling and hidden faces are rules of the camera's
+   view. */
 void wr_reference_caster(WrReferenceCaster *caster, const WrReferenceStage *stage)
 {
     *caster = (WrReferenceCaster){ stage->view, stage };
@@ -64,6 +70,8 @@ static WrVec3 outward(const WrReferenceStage *stage, const WrSurfacePoint *at,
                                          v3_scale(flat.n_unit, wr_reference_side(view, &flat)));
 }
 
+/* Rays may have any length; the direction is divided by the caster's size, so that the parameter stays the
+   distance in world units and hits of all casters compare with `away`. */
 static bool meets(const WrReferenceCaster *caster, WrVec3 from, WrVec3 l, double away)
 {
     const WrPlacement *place = &caster->view.place;
@@ -76,6 +84,9 @@ static bool meets(const WrReferenceCaster *caster, WrVec3 from, WrVec3 l, double
     return met && hit.s < away;
 }
 
+/* A bumped normal may face a lamp that the surface itself turns away from (HC25). A ray towards it would start
+   into the object's own body; for the own caster it is turned into the tangent plane, so that only real
+   obstacles count. Whether such a point is lit at all is the reflection model's decision. */
 static bool is_blocked(const WrReferenceStage *stage, WrVec3 from, WrVec3 n, WrVec3 l, double away)
 {
     const double up = v3_dot(n, l);
@@ -92,7 +103,9 @@ static bool is_blocked(const WrReferenceStage *stage, WrVec3 from, WrVec3 n, WrV
 
 /* Visible share of a lamp past all objects. l: unit vector to it, along the object's axes, and away, its
    distance, both in world proportions; radius: of an area lamp, radians, of whose points each sample uses its
-   share. Below the surface's own horizon the object itself is tested along the horizon. */
+   share. Below the surface's own horizon the object itself is tested along the horizon.
+   Area lamps: point k of 64 lies at radius sqrt((k + 1/2) / 64) and at k times the golden angle, an even
+   spread over the disc. share.of samples of one pixel use every share.of-th point each; together they use all. */
 static double reference_cast_share(const WrReferenceStage *stage, const WrSurfacePoint *at,
                                    const WrReferenceHit *hit, WrVec3 perturbed, WrVec3 l,
                                    double away, double radius, WrReferenceShare share)
@@ -121,6 +134,10 @@ static double reference_cast_share(const WrReferenceStage *stage, const WrSurfac
 
 /* ---- environment light ---- */
 
+/* Diffuse light: the sphere is cut in ACROSS x DOWN equal steps of longitude and latitude, each replaced by
+   one lamp at its brightness-weighted mean direction. A lamp of strength 1 yields pi f (n.l) (NUMERICS-LIGHT),
+   hence rgb = light * solid angle / pi. */
+
 /* Parts of the sphere for the sum of diffuse light: so small that a cosine is nearly linear over each. */
 #define ACROSS 96
 #define DOWN 48
@@ -132,6 +149,8 @@ static int wrapped(int i, int count)
     return (i % count + count) % count;
 }
 
+/* Rows beyond a pole: the row at the pole is reflected through its mean, 2 mean - own. The bilinear value at
+   the pole itself is then the mean of the row, for every longitude (HC111). */
 static double texel(const WrEnvironmentMap *s, int column, int row, int c)
 {
     const WrImage *image = s->image;
@@ -176,7 +195,9 @@ static WrVec3 along(const double rotation[9], double turn_deg, WrVec3 d)
                      rotation[2] * w.x + rotation[5] * w.y + rotation[8] * w.z };
 }
 
-/* n x m sample points of one part: its light, and its mean direction. */
+/* n x m sample points of one part: its light, and its mean direction.
+   The solid angle of a cell of the sampling grid is (4 pi / W) sin(pi / 2H) cos(latitude): exact, so the sum
+   is 4 pi. */
 static void sum_sector(const WrEnvironmentMap *s, int i, int j, int n, int m,
                        WrReferenceSector *out)
 {
@@ -198,6 +219,7 @@ static void sum_sector(const WrEnvironmentMap *s, int i, int j, int n, int m,
     for (int c = 0; c < 3; c++) out->rgb[c] = rgb[c];
 }
 
+/* At least one sample per texel, so that a sun of a few texels is not missed (HC113). */
 static int places(int texels, int parts)
 {
     const int n = (texels + parts - 1) / parts;
@@ -237,7 +259,8 @@ static void reference_surround_fini(WrReferenceSurround *surround)
     *surround = (WrReferenceSurround){ 0 };
 }
 
-/* True if the part at that column and row of a grid belongs to the share. Neighbours belong to other shares. */
+/* True if the part at that column and row of a grid belongs to the share. Neighbours belong to other shares.
+   7 rows apart the same column belongs to the same share again: each share covers the sphere evenly. */
 static bool takes(WrReferenceShare share, int column, int row)
 {
     return (column + 7 * row) % share.of == share.part;
@@ -281,7 +304,14 @@ static double width_of(const WrMaterial *m, const WrMatter *matter)
     return wr_reflects[m->model].shininess ? sqrt(2 / (m->shininess + 2)) : matter->alpha;
 }
 
-/* Highlights: facets h, weighted by their distribution; each mirrors the light from 2 (v.h) h - v. */
+/* Highlights: facets h, weighted by their distribution; each mirrors the light from 2 (v.h) h - v.
+   The facets' distribution is GGX's with alpha = width_of, whatever the model; it only sets where samples lie.
+   With c = n.h, w = 1 + c^2 (a^2 - 1) and D = a^2 / (pi w^2), the density of l is D c / (4 v.h), so a sample
+   counts
+       pi f (n.l) L / pi / density = 4 (v.h) w^2 / (a^2 c) * (pi f (n.l)) L.
+   c comes from x in 0..1 by c^2 = (1 - x) / (1 + x (a^2 - 1)); x = t^2 (3 - 2t) with dx = 6 t (1 - t) dt
+   places more samples at both ends, where the integrand changes fastest. The points form a regular grid: no
+   random numbers, same bits always. */
 static void add_shine(const WrReferenceStage *stage, const WrMatter *is, WrVec3 n, WrVec3 v,
                       const double colour[3], WrReferenceShare part, double own[3], double white[3])
 {
@@ -350,7 +380,10 @@ static bool meets_relief(const WrReferenceStage *stage, WrVec3 p, WrVec3 perturb
 }
 
 /* True if the relief hides a lamp in direction l. Above the tangent plane the ray rises by n.l per length, and
-   (a, b) is its motion in u and v: it is marched in steps of an eighth of a texel until it is above everything. */
+   (a, b) is its motion in u and v: it is marched in steps of an eighth of a texel until it is above everything.
+   (a, b) is the inverse of the first fundamental form applied to (l.Pu, l.Pv). The march ends when t n.l
+   exceeds the whole range of heights (`shadow`), or after four periods. The base is treated as its tangent
+   plane along the way. */
 static bool is_hidden(const WrReferenceStage *stage, const WrSurfacePoint *at, double u, double v,
                       WrVec3 l)
 {
@@ -409,7 +442,8 @@ static double reference_lamp_share(const WrReferenceStage *stage, const WrSurfac
 }
 
 /* Tangent of the horizon's elevation along w, a unit vector in the tangent plane: marched in quarters of a texel
-   until nothing can be higher. */
+   until nothing can be higher.
+   It ends when even the largest remaining rise could not exceed the best slope: t best > range. */
 static double horizon_along(const WrReferenceStage *stage, const WrSurfacePoint *at, double u,
                             double v, WrVec3 w)
 {
@@ -429,7 +463,11 @@ static double horizon_along(const WrReferenceStage *stage, const WrSurfacePoint 
     return best;
 }
 
-/* Unoccluded share of the sky's light. */
+/* Unoccluded share of the sky's light.
+   With h the horizon's elevation in azimuth phi, n_z = n.n0 and n_phi the component of n along w
+   (NUMERICS-LIGHT d):
+       AO = 1/pi sum of [n_z cos^2 h / 2 + n_phi ((pi/2 - h)/2 - sin(2h)/4)] dphi;
+   h is at least the elevation where the hemisphere of n begins, atan2(-n_phi, n_z). */
 static double reference_open(const WrReferenceStage *stage, const WrSurfacePoint *at, double u,
                              double v, WrVec3 perturbed)
 {
@@ -471,7 +509,10 @@ static double pulse(double t, double d)
     return fraction(t) >= 1 - d ? 1 : 0;
 }
 
-/* Pulses, or their mean over an edge. */
+/* Pulses, or their mean over an edge.
+   The mean over a window is the difference of an integral at its ends; its slope is the difference of the
+   pulse at its ends. Whole turns are removed first: at t = 1e6 the difference of the integral would have no
+   digits left (HC118). */
 static Rise ring(double t, double d, double edge)
 {
     if (!(edge > 0)) return (Rise){ pulse(t, d), 0 };
@@ -491,7 +532,9 @@ static Rise wave(double t)
     return (Rise){ 0.5 + 0.5 * sin(turn), WR_PI * cos(turn) };
 }
 
-/* Checker of cubes: odd cells along one axis are 1, even ones 0. */
+/* Checker of cubes: odd cells along one axis are 1, even ones 0.
+   (1 - s_x s_y s_z) / 2 with s = 1 - 2 odd, odd the share of odd cells in the window; exact for axis-aligned
+   boxes. */
 static double board(const WrSolidTexture *grain, double edge, const double p[3], double slope[3])
 {
     double side[3], rise[3];
@@ -504,7 +547,9 @@ static double board(const WrSolidTexture *grain, double edge, const double p[3],
     return 0.5 - 0.5 * side[0] * side[1] * side[2];
 }
 
-/* Argument of the pattern, with its slope: noise, and rings or bands. */
+/* Argument of the pattern, with its slope: noise, and rings or bands.
+   t = k rho + A noise (wood, rho the distance from the axis) or k z + A noise (marble). The gradient of rho is
+   0 / 0 on the axis and counts as 0 there (HC117). */
 static double place(const WrSolidTexture *grain, const WrOctavesPlan *noise, const double p[3],
                     double slope[3])
 {
@@ -574,14 +619,18 @@ static WrVec3 unit_of(WrVec3 a)
     return v3_scale(a, 1 / sqrt(dot(a, a)));
 }
 
-/* Rule for normals that bump turned away from the viewer. */
+/* Rule for normals that bump turned away from the viewer.
+   n* = unit(n + (1e-3 - n.v) v) where n.v < 1e-3 (HC105): continuous across the silhouette, never black, never
+   a flip. */
 static WrVec3 bent_back(WrVec3 n, WrVec3 v)
 {
     const double short_of = 1e-3 - dot(n, v);
     return short_of > 0 ? unit_of(v3_mad(n, v, short_of)) : n;
 }
 
-/* False where microfacets reflect nothing. */
+/* False where microfacets reflect nothing.
+   c and s are normalised to c^2 + s^2 = 1, s from the cross product: 1 - c^2 has no digits left near a sharp
+   peak (HC99). h is undefined for l = -v: nothing is reflected (HC97). */
 static bool face(WrVec3 n, WrVec3 l, WrVec3 v, Facing *out)
 {
     const WrVec3 seen = bent_back(n, v), sum = v3_add(l, v);
@@ -593,7 +642,9 @@ static bool face(WrVec3 n, WrVec3 l, WrVec3 v, Facing *out)
     return true;
 }
 
-/* Blinn 1977 with Cook's form of Fresnel's equation: g^2 = ior^2 + c^2 - 1. */
+/* Blinn 1977 with Cook's form of Fresnel's equation: g^2 = ior^2 + c^2 - 1.
+   eta < 1 and gg < 0 is total reflection. For eta = 1 the result is 0 at every angle; the formula would be 0 /
+   0 at c = 0 (HC102). */
 static double fresnel(double c, double ior)
 {
     const double gg = ior * ior + c * c - 1;
@@ -626,7 +677,8 @@ static double power_lobe(const WrMatter *m, WrEnergy energy, WrVec3 n, WrVec3 l,
 }
 
 /* D G F / (n.v) as in Blinn 1977, with D = (c3^2 / (cos^2 (c3^2 - 1) + 1))^2, here c3 for c3^2; 1 - cos^2 is
-   written as sin^2, which keeps its digits near the peak. */
+   written as sin^2, which keeps its digits near the peak.
+   1 / (4 c3^2) is the energy form's factor: D then integrates as GGX does (NUMERICS-LIGHT a). */
 static double cavities(const WrMatter *m, WrEnergy energy, WrVec3 n, WrVec3 l, WrVec3 v)
 {
     Facing at;
@@ -652,7 +704,10 @@ static void torrance_sparrow(const WrMatter *m, WrEnergy energy, const Incidence
     *white = cavities(m, energy, at->n, at->l, at->v);
 }
 
-/* Share that microfacets reflect directly, and the rest, for multiple reflection. */
+/* Share that microfacets reflect directly, and the rest, for multiple reflection.
+   Fujii's model as improved by Portsmouth, Kutz and Hill (EON): the exact albedo of the single reflection,
+   E(mu) = a (1 + sigma/pi G(mu)). Multiple reflection adds (1 - E(l)) (1 - E(v)) / (1 - mean E), so a white
+   surface reflects all light (HC103). */
 static double matt_albedo(const WrMatter *m, double mu)
 {
     const double s = sqrt(fmax(0, 1 - mu * mu));
@@ -660,6 +715,7 @@ static double matt_albedo(const WrMatter *m, double mu)
     return m->a * (1 + m->sigma / pi * g);
 }
 
+/* q > 0 divides by max(n.l, n.v), q <= 0 by 1: no trigonometric function, no tan at 90 degrees (HC107). */
 static void oren_nayar(const WrMatter *m, WrEnergy energy, const Incidence *at, double own[3],
                        double *white)
 {
@@ -684,6 +740,7 @@ static void oren_nayar(const WrMatter *m, WrEnergy energy, const Incidence *at, 
     }
 }
 
+/* A polynomial in sqrt(mu), fitted once per material: the albedo is very steep at mu = 0, less so in the root. */
 static double kept_albedo(const WrMatter *m, double mu)
 {
     const double x = sqrt(fmin(fmax(0, mu), 1));
@@ -693,7 +750,10 @@ static double kept_albedo(const WrMatter *m, double mu)
 }
 
 /* GGX's D with sin^2 for 1 - cos^2, times Smith's height-correlated masking, n.l and pi; Schlick's Fresnel term
-   with v.h = |l + v| / 2. Metal (share m->metal) reflects in the surface's colour. */
+   with v.h = |l + v| / 2. Metal (share m->metal) reflects in the surface's colour.
+   The diffuse part of a dielectric is (1 - E(l)) (1 - E(v)) m->again, with `again` 1 / (1 - mean E): the sum
+   never exceeds 1. The glTF form 1 - F is kept as the published variant; it exceeds 1 for white dielectrics
+   (HC103). */
 static void ggx(const WrMatter *m, WrEnergy energy, const Incidence *by, double own[3],
                 double *white)
 {
@@ -750,7 +810,9 @@ static void reference_reflect(const WrMatter *m, int model, WrEnergy energy, WrV
 
 #define WAVE 12 /* cells per wave of a formula */
 
-/* The exact normal that a mode approximates; a mode that differs deliberately is kept. */
+/* The exact normal that a mode approximates; a mode that differs deliberately is kept.
+   `blinn` is rendered with the true normal: the difference is the approximation's error. `invariant` is
+   another model (B15), not an approximation, and is its own truth. */
 static WrBumpMode truth_of(WrBumpMode mode)
 {
     switch (mode) {
@@ -768,7 +830,9 @@ static bool has_slopes(const WrScene *scene)
     return scene->height != 0 || (scene->normals.image && scene->normals.strength != 0);
 }
 
-/* Height range of a relief that casts shadows. */
+/* Height range of a relief that casts shadows.
+   Relief shadows exist for periodic tables on unstretched surfaces of one chart; elsewhere `relief`
+   stays 0 and nothing is shadowed. */
 static void note_shadow(WrReferenceStage *stage, const WrField *field)
 {
     const WrScene *scene = stage->scene;
@@ -789,7 +853,8 @@ static void note_shadow(WrReferenceStage *stage, const WrField *field)
 
 #define ROUGHS 257
 
-/* Material parameters at steps of roughness, between which matter_at interpolates: the integrals change little. */
+/* Material parameters at steps of roughness, between which matter_at interpolates: the integrals change little.
+   Only the range of steps that can occur is filled: wr_scene_matter integrates albedos. */
 static void note_roughness(WrReferenceStage *stage)
 {
     const WrSolidTexture *grain = &stage->scene->grain;
@@ -884,7 +949,8 @@ static void height_of(const void *ctx, double u, double v, double *f, double *fu
     wr_reference_height(ctx, u, v, f, fu, fv);
 }
 
-/* Number of cells with one bend of F each: texels, or a fixed number per wave or power. */
+/* Number of cells with one bend of F each: texels, or a fixed number per wave or power.
+   A spline bends once per texel; WAVE cells per wave keep the bend within a cell small. */
 static void cells_of(const WrScene *scene, const WrField *field, double cells[2])
 {
     double u = field ? wr_field_width(field) : 1, v = field ? wr_field_height(field) : 1;
@@ -944,6 +1010,10 @@ static bool ordinary(double squared)
     return squared > 1e-60 && squared < 1e60;
 }
 
+/* N' = (Pu + F n_u) x (Pv + F n_v) + n x (Fu qv - Fv qu) (B6 without its zero term); blinn drops n_u and n_v,
+   invariant scales D to length |grad F| in parameter units (B15). If the sum is below 1e-8 of its terms it
+   consists of rounding errors, or squares leave double range: then shade/bump.h's scaled form decides (HC09 to
+   HC15). */
 WrVec3 wr_reference_normal(WrBumpMode mode, const WrSurfacePoint *at, double f, double fu,
                            double fv)
 {
@@ -996,7 +1066,8 @@ static void picture_colour(const WrReferenceStage *stage, double u, double v, do
         for (int c = 0; c < 3; c++) rgb[c] += at.weight[k] * (double)at.texel[k][colours ? c : 0];
 }
 
-/* max(0, n'.h)^s of unit vectors; near 1 from 1 - n'.h = |n' - h|^2 / 2, so that a high power loses no digits. */
+/* max(0, n'.h)^s of unit vectors; near 1 from 1 - n'.h = |n' - h|^2 / 2, so that a high power loses no digits.
+   HC89, HC90: pow(1 - x, s) with x = |n' - h|^2 / 2 is exp(s log1p(-x)); no value above 1 can occur. */
 static double lobe(WrVec3 perturbed, WrVec3 h, double s)
 {
     const double nh = v3_dot(perturbed, h);
@@ -1035,7 +1106,9 @@ static void place_colour(const WrReferenceStage *stage, WrVec3 object, double u,
     for (int c = 0; c < 3; c++) rgb[c] *= (1 - g) * grain->light[c] + g * grain->dark[c];
 }
 
-/* n' bent by the solid texture's heights: the surface displaced along n by them (Perlin 1985). */
+/* n' bent by the solid texture's heights: the surface displaced along n by them (Perlin 1985).
+   n' = unit(n - (g - (g.n) n)), g = height * gradient: without the projection a slope along n would change the
+   normal's length and so the tilt (NUMERICS-LIGHT c). Object space, so that the grain does not swim (HC120). */
 static WrVec3 embossed(const WrReferenceStage *stage, WrVec3 object, double side, WrVec3 n)
 {
     const WrSolidTexture *grain = &stage->scene->grain;
@@ -1046,6 +1119,8 @@ static WrVec3 embossed(const WrReferenceStage *stage, WrVec3 object, double side
     return unit(v3_sub(n, v3_mad(s, n, -v3_dot(s, n))));
 }
 
+/* I = C (ka + kd terms) + white terms (DESIGN, "Shading"): `own` is multiplied by the surface's colour,
+   `white` is not. Light is summed over lamps in their order, in double. */
 void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at,
                         const WrReferenceHit *hit, WrVec3 perturbed, WrReferenceShare share,
                         double rgb[3])
@@ -1101,7 +1176,9 @@ static double step_squared(const WrReferenceRay *ray, const WrReferenceRay *step
     return du * du + dv * dv;
 }
 
-/* 1 up to a quarter of half a period, or of the plane, per pixel; 0 from a whole one on. */
+/* 1 up to a quarter of half a period, or of the plane, per pixel; 0 from a whole one on.
+   An endless plane towards the horizon: beyond half a period per pixel slopes would be aliased noise. Smoothstep
+   between. */
 static double left_of(double squares)
 {
     const double t = fmin(fmax((sqrt(squares) - 0.25) / 0.75, 0), 1);

@@ -1,4 +1,7 @@
-/* Shadow casters: closed forms and facets, and the visibility of a lamp past them. */
+/* Shadow casters: closed forms and facets, and the visibility of a lamp past them.
+   A body is a caster in its own object space: closed form, quads or a tree of triangles. WrShadowRaysTo adds
+   the affine map from the lighting space of the shaded object to it. Rays keep their parameter through the
+   map, so t compares with the distance to the lamp. */
 #include "render/shadows/shadow_rays.h"
 
 #include "base/error.h"
@@ -12,7 +15,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Builds the geometry. Call body_size before, with the same field. Errors: no memory. */
+/* Builds the geometry. Call body_size before, with the same field. Errors: no memory.
+   Invariant: a body is measured (size) for every frame, but built (update) only when some object may receive
+   its shadow. */
 static bool shadow_rays_body_update(WrShadowRaysBody *body, const WrScene *scene,
                                     const WrField *field, WrError *err);
 
@@ -40,7 +45,8 @@ static double value(const double *c, int degree, double t)
 /* of the interval: near an extreme, the value's error is the square of this */
 #define NEAR_ENOUGH 1e-7
 
-/* Root of the cubic c, which is monotonic from a to b. false: there is none. */
+/* Root of the cubic c, which is monotonic from a to b. false: there is none.
+   Regula falsi for the start, Newton's method inside a bracket, bisection when a step leaves it. */
 static bool root_of(const double c[4], double a, double b, double *root)
 {
     const double slopes[3] = { c[1], 2 * c[2], 3 * c[3] };
@@ -62,7 +68,9 @@ static bool root_of(const double c[4], double a, double b, double *root)
 }
 
 /* True if p is on the outer half and the ray leads outwards. Then it never returns, because the squared distance
-   from the circle in the tube's middle is convex outside that circle. */
+   from the circle in the tube's middle is convex outside that circle.
+   With g = (rho - R)^2 + z^2 the squared distance from the circle, half its derivative along the ray is ((rho
+   - R) (x dx + y dy) + rho z dz) / rho. This spares most rays that start on the torus itself. */
 static bool goes_away(double R, double r, WrVec3 p, WrVec3 d)
 {
     const double rho = sqrt(p.x * p.x + p.y * p.y), out = p.x * d.x + p.y * d.y;
@@ -73,7 +81,12 @@ static bool goes_away(double R, double r, WrVec3 p, WrVec3 d)
 
 /* With the foot f nearest the middle and p = f + t d, G = (p.p + R^2 - r^2)^2 - 4 R^2 (x^2 + y^2) is 0 on the
    torus; p.p = f.f + t^2 d.d, so it has no t^3. G changes sign on the way exactly if it does so between the ends
-   of the way and its extremes, the roots of a cubic. */
+   of the way and its extremes, the roots of a cubic.
+   Coefficients, with k = f.f + R^2 - r^2 and dd = d.d:
+       G = (k + dd t^2)^2 - 4 R^2 ((f_x + t d_x)^2 + (f_y + t d_y)^2).
+   G' is a cubic without t^2; its own extremes are at +-sqrt(-q / 6 dd^2), so it is monotonic on each of the
+   three parts between `ends`. Rays that only touch the tube are undecided by rounding, which a shadow's edge
+   hides. */
 static bool shadow_rays_meets_torus(const WrShape *shape, WrVec3 o, WrVec3 d, double most)
 {
     const double R = shape->value[0], r = shape->value[1], dd = v3_dot(d, d);
@@ -131,7 +144,9 @@ static float middle(const WrTriangles *t, int32_t i, int axis)
 }
 
 /* Partitions order[first .. end): the first `split - first` along the axis come before all others (Hoare's
-   selection). */
+   selection).
+   Hoare's selection moves elements equal to the pivot to both sides, so many equal centres do not become
+   quadratic. */
 static void part_at(const WrTriangles *t, int32_t *order, int32_t first, int32_t end, int32_t split,
                     int axis)
 {
@@ -167,15 +182,17 @@ static int widest_axis(const float box[6])
     return axis;
 }
 
-/* The first triangle below a box, one of the 2^level neighbouring boxes of its level. */
+/* The first triangle below a box, one of the 2^level neighbouring boxes of its level.
+   The triangles below the k-th of 2^l boxes are count k / 2^l up to the next: no index needs to be stored. */
 static int32_t first_of(const WrShadowRaysBody *body, int32_t box, int32_t beside)
 {
     const int64_t count = body->triangles->triangle_count;
     return (int32_t)(count * box / beside);
 }
 
-/* tree_bring builds the tree of boxes around body->triangles; tree_meets intersects a ray with it. Errors: no
-   memory. */
+/* Builds the tree of boxes around body->triangles. Errors: no memory.
+   boxes[2^l - 1 + k] is box k of level l, an implicit complete binary tree; children of `at` are 2 at + 1 and
+   2 at + 2. The number of leaves is the smallest power of two with at most LEAF triangles each. */
 static bool shadow_rays_tree_update(WrShadowRaysBody *body, WrError *err)
 {
     const int32_t count = body->triangles->triangle_count;
@@ -203,6 +220,8 @@ typedef struct Ray {
     double o[3], d[3], by[3], most; /* by: 1 / d */
 } Ray;
 
+/* A component of d that is 0 has the reciprocal of +-`tiny`: slabs then work without NaN. The relative slack
+   at the end covers the rounding of the two divisions. */
 static bool meets_box(const Ray *ray, const float box[6])
 {
     double near = 0, far = ray->most;
@@ -221,7 +240,9 @@ static WrVec3 place(const float p[3])
     return (WrVec3){ (double)p[0], (double)p[1], (double)p[2] };
 }
 
-/* Ray-triangle intersection by Moeller and Trumbore (1997), two-sided. */
+/* Ray-triangle intersection by Moeller and Trumbore (1997), two-sided.
+   Two-sided. Two triangles may both miss a ray on their common edge by rounding; SEAM lets both include it, as
+   a shadow needs no unique owner of the hit. */
 static bool meets_triangle(const WrTriangles *t, int32_t i, WrVec3 o, WrVec3 d, double most)
 {
     const int32_t *corner = t->triangles[i].corner;
@@ -305,7 +326,9 @@ static bool holds_corner(const Cut *cut, double v, double step)
     return false;
 }
 
-/* Largest distance of a step's middle from its chord, with n steps along u or v. */
+/* Largest distance of a step's middle from its chord, with n steps along u or v.
+   A parabola's chord is farthest from it in the middle. 16 x 16 steps are tested, not all. Steps that contain
+   a corner row are skipped, because place_rows inserts a row there. */
 static double off_by(const Cut *cut, bool along_u, int n)
 {
     const WrSurfaceCell c = cut->cell;
@@ -326,7 +349,8 @@ static double off_by(const Cut *cut, bool along_u, int n)
     return most;
 }
 
-/* Largest distance of a cell's centre from the diagonal along which the cell is cut. */
+/* Largest distance of a cell's centre from the diagonal along which the cell is cut.
+   The diagonal's error includes twist, |Puv| du dv / 4, which the errors along u and v do not show. */
 static double off_across(const Cut *cut, int across, int down)
 {
     const WrSurfaceCell c = cut->cell;
@@ -363,7 +387,8 @@ static int steps_of(const Cut *cut, bool along_u, double enough)
     return n < MAX_MOST ? n : MAX_MOST;
 }
 
-/* Chooses the steps in both directions; returns their error. */
+/* Chooses the steps in both directions; returns the number along v, cut->off holds their error. Twice the error of one direction is allowed across a cell. The sum of both directions' errors bounds the
+   rest. */
 static int choose_steps(Cut *cut, double enough)
 {
     int across = steps_of(cut, true, enough), down = steps_of(cut, false, enough);
@@ -377,6 +402,7 @@ static int choose_steps(Cut *cut, double enough)
     return down;
 }
 
+/* Merges the even rows with the corner rows, in ascending order; down is the number of strips. */
 static void place_rows(Cut *cut, int steps)
 {
     int next = 0;
@@ -403,6 +429,8 @@ typedef struct Facets {
     int32_t point_count, count;
 } Facets;
 
+/* Point (i, j) is at j * (across + 1) + i. Triangles share vertices within a face; faces touch without
+   sharing. */
 static void add_cut(const Cut *cut, Facets *to)
 {
     const int32_t first = to->point_count, wide = cut->across + 1;
@@ -447,6 +475,8 @@ static bool facets_of(WrShadowRaysBody *body, const WrRaised *raised, WrError *e
                                        .point_count = facets.point_count,
                                        .triangle_count = facets.count };
     body->triangles = facets.corners ? wr_triangles_new(&source, err) : NULL;
+    /* Facets cut inside a convex surface by up to `off`. Rays start higher by twice that, so that the surface
+       does not shade itself with its own facets. */
     body->lift += 2 * off;
     wr_free(facets.points);
     wr_free(facets.corners);
@@ -506,7 +536,10 @@ static double gap(WrVec3 from, WrVec3 way, double ball, bool shrinks, WrVec3 to,
 }
 
 /* True if b can be between any point of a and the lamp. The gap is convex in t, so its minimum is found by
-   ternary search. */
+   ternary search.
+   For a point lamp the union of all rays from a's sphere is a cone that ends at the lamp, for a distant one a
+   cylinder; `wide` adds the area lamp's radius at the far end. b is a possible caster if its sphere touches
+   that region. */
 static bool may_hide(const Standing *a, const Standing *b, const WrLight *light)
 {
     const double spread = tan(fmin(light->size_deg, 45) * WR_PI / 180);
@@ -534,7 +567,8 @@ static bool may_any(const WrShadowRaysRequest *ask, const Standing *a, const Sta
     return false;
 }
 
-/* Rotation from a's axes to b's, times `by`, with b's stretch removed. */
+/* Rotation from a's axes to b's, times `by`, with b's stretch removed.
+   m = by S_b^-1 M_b^T M_a, with M the rotations and S_b the stretch. */
 static void turn_to(const WrPlacement *a, const WrPlacement *b, double by, double m[9])
 {
     const double stretch[3] = { b->stretched ? b->stretch.x : 1, b->stretched ? b->stretch.y : 1,
@@ -547,6 +581,8 @@ static void turn_to(const WrPlacement *a, const WrPlacement *b, double by, doubl
         }
 }
 
+/* The shaded point in a's lighting space is p; in b's object space it is m p + from. from absorbs both
+   centres, so that any_hides needs one matrix product per ray. */
 static WrShadowRaysTo see(const Standing *a, const Standing *b, const WrShadowRaysBody *body,
                           bool own)
 {
@@ -572,6 +608,8 @@ static bool finite_to(const WrShadowRaysTo *to)
     return isfinite(sum);
 }
 
+/* Equal areas: the k-th of n rings has radius sqrt((k + 1/2) / n); successive points turn by the golden angle,
+   0.382 turns. */
 static void fill_disc(WrShadowRays *cast, int rays)
 {
     cast->rays = rays < WR_SHADOW_RAYS_RAYS ? rays : WR_SHADOW_RAYS_RAYS;
@@ -583,6 +621,8 @@ static void fill_disc(WrShadowRays *cast, int rays)
     }
 }
 
+/* to[0 .. count) can hide lamps of this object, to[count .. all) are the others, kept on request for views
+   that show all. */
 bool wr_shadow_rays_prepare(WrShadowRays *cast, const WrShadowRaysRequest *ask, WrError *err)
 {
     Standing own, other;
@@ -609,6 +649,7 @@ bool wr_shadow_rays_prepare(WrShadowRays *cast, const WrShadowRaysRequest *ask, 
     return true;
 }
 
+/* A lamp without light casts no shadow: nothing is built for it. */
 bool wr_shadow_rays_needed(const WrScene *scene)
 {
     for (int i = 0; i < scene->light_count; i++) {
@@ -620,6 +661,8 @@ bool wr_shadow_rays_needed(const WrScene *scene)
     return false;
 }
 
+/* A convex body lies behind each of its tangent planes, and a ray towards a lamp in front of the plane never
+   meets it again. */
 static bool shadow_rays_spares_itself(const WrShadowRaysBody *body)
 {
     const WrSurfaceInfo *info = wr_surfaces[body->shape.kind];
@@ -659,7 +702,8 @@ static bool meets_quads(const WrShadowRaysBody *body, WrVec3 o, WrVec3 d, double
     return false;
 }
 
-/* Real roots of a t^2 + 2 b t + c, without cancellation. */
+/* Real roots of a t^2 + 2 b t + c, without cancellation.
+   The larger root in magnitude from the sum without cancellation, the other from the product of roots c / a. */
 static bool roots_of(double a, double b, double c, double t[2])
 {
     const double left = b * b - a * c;
@@ -677,7 +721,8 @@ static bool meets_sphere(const WrShape *shape, WrVec3 o, WrVec3 d, double most)
     return (t[0] > 0 && t[0] < most) || (t[1] > 0 && t[1] < most);
 }
 
-/* Open tube or cone: x^2 + y^2 = (r + k w)^2, with w = z measured from the middle, within half the height. */
+/* Open tube or cone: x^2 + y^2 = (r + k w)^2, with w = z measured from the middle, within half the height.
+   w.r.t. the middle: a cylinder has k = 0, a cone k = -R / H and r = R / 2. */
 static bool meets_tube(double r, double k, double H, WrVec3 o, WrVec3 d, double most)
 {
     const double wide = r + k * o.z, grows = k * d.z;
@@ -719,7 +764,8 @@ void wr_shadow_rays_body_fini(WrShadowRaysBody *body)
     *body = (WrShadowRaysBody){ 0 };
 }
 
-/* Hash of F, for a displaced surface. */
+/* Hash of F, for a displaced surface.
+   Everything that changes the displaced shape, and nothing else, so that material edits keep the facets. */
 static WrHash relief_of(const WrScene *scene, const WrField *field)
 {
     const WrAnalytic *formula = &scene->analytic;
@@ -739,6 +785,8 @@ static WrHash relief_of(const WrScene *scene, const WrField *field)
     return hash;
 }
 
+/* Keeps the built geometry if shape, relief and mesh are those of the last frame; otherwise frees it, and it
+   is rebuilt on demand. */
 static void shadow_rays_body_size(WrShadowRaysBody *body, const WrScene *scene,
                                   const WrField *field, bool moves)
 {
@@ -788,7 +836,9 @@ static bool shadow_rays_body_update(WrShadowRaysBody *body, const WrScene *scene
 
 /* ---- lamps ---- */
 
-/* True if the caster may block the lamp: tests its bounding sphere against the cone of rays to the lamp. */
+/* True if the caster may block the lamp: tests its bounding sphere against the cone of rays to the lamp.
+   The squared distance of the sphere's centre from the axis of the cone, against the sphere's radius plus the
+   cone's widest part before the sphere's far end. */
 static bool may_meet(const WrShadowRaysTo *to, WrVec3 p, WrVec3 l, double away, double spread)
 {
     const WrVec3 off = v3_sub(to->middle, p);
@@ -810,7 +860,9 @@ static bool is_hidden(const WrShadowRaysTo *to, WrVec3 p, WrVec3 l, double away)
     return shadow_rays_meets(to->body, o, d, away);
 }
 
-/* True if any caster blocks that point of the lamp. */
+/* True if any caster blocks that point of the lamp.
+   The own body is tested only along or above the tangent plane: see is_blocked in reference_shade.c for the
+   reason. */
 static bool any_hides(const WrShadowRays *cast, const int *near, int count, WrVec3 p, WrVec3 n,
                       WrVec3 l, double away)
 {
@@ -823,6 +875,8 @@ static bool any_hides(const WrShadowRays *cast, const int *near, int count, WrVe
     return false;
 }
 
+/* The casters near the cone of this lamp are collected once for all points of an area lamp. `lift` moves the
+   start off the surface by more than the error of facets and of single-precision positions. */
 double wr_shadow_rays_share(const WrShadowRays *cast, int count, WrVec3 p, WrVec3 n, WrVec3 l,
                             double away, double radius)
 {

@@ -3,6 +3,7 @@
 
 #define W_EACH _Pragma("omp simd")
 
+/* x - floor(x) rounds to 1 for tiny negative x: that is the position 0 of the next period. */
 ALWAYS float turned(float x)
 {
     const float turn = x - floorf(x);
@@ -15,7 +16,9 @@ ALWAYS float held(float x)
     return x > -FLT_MAX ? x : -FLT_MAX;
 }
 
-/* Layout of a table's texels. */
+/* Layout of a table's texels.
+   apron: texels beside the table that repeat its opposite edge, so that the right and lower neighbour need no
+   wrap. */
 typedef struct Texels {
     int width, height, pitch, apron;
     float ru, rv;
@@ -43,6 +46,7 @@ ALWAYS __m128 w_two(const float *from)
     return _mm_castsi128_ps(_mm_loadl_epi64((const __m128i *)(const void *)from));
 }
 
+/* Heights of fewer bits and positions in double take the general loops. */
 static bool looks_central(const WrLook *look)
 {
     return look->periodic_u && look->periodic_v && !look->wide && !look->heights;
@@ -77,6 +81,7 @@ ALWAYS void central_slopes(const WrLook *look, const bool noted, WrStrip *strip)
     }
 }
 
+/* The copy holds dF/du of the table's cell; the scale adds height and replication, u = r u' (shade/slope.h). */
 ALWAYS void scale_slopes(const WrLook *look, WrStrip *strip)
 {
     const float scale_u = look->scale_u, scale_v = look->scale_v;

@@ -36,6 +36,7 @@ static void put_parameters(WrStrip *strip)
 
 /* SIMD evaluation of sphere rows (sphere_rows.h). Part of simd_set_body.h. */
 
+/* gx + i is exact for whole numbers up to 2^24; x of neighbouring lanes differ by 1. */
 ALWAYS Wide row_places(float gx, int i)
 {
     return w_all(gx + (float)i) + w_count();
@@ -51,6 +52,7 @@ ALWAYS WideCurve w_curve(const WrForm *form, const WrChord *chord)
     wr_form_along(form, chord, c);
     return (WideCurve){ w_all(c[0]), w_all(c[1]), w_all(c[2]) };
 }
+/* Horner's scheme: two products per polynomial and pixel. */
 ALWAYS Wide w_bent(WideCurve of, Wide x)
 {
     return of.c0 + x * (of.c1 + x * of.c2);
@@ -111,14 +113,16 @@ ALWAYS Wide broad_highlight(const Lamp *of, Wide n_dot_l, Wide n_dot_v, Wide l_d
     return whole_power(w_kept(shown, n_dot_h), of->whole);
 }
 
-/* Polynomials along a row from which the light is computed. */
+/* Polynomials along a row from which the light is computed.
+   lit = n.l d.d along the row: the light of a smooth sphere needs no n, v or l per pixel. */
 typedef struct SmoothRow {
     WideCurve dd, rr;
     WideSlant lit;
     float from; /* x of the row's pixel 0 */
 } SmoothRow;
 
-/* Lights the chord. Returns the largest n.l. */
+/* Lights the chord. Returns the largest n.l.
+   n.v = r / |d|, and l.v = -d.l / |d| from `across`, which is d.l. */
 ALWAYS float smooth_chord(const SmoothRow *row, const Scenery *s, const WrWidePaint how, int first,
                           WrStrip *strip)
 {
@@ -147,7 +151,8 @@ ALWAYS float smooth_chord(const SmoothRow *row, const Scenery *s, const WrWidePa
     return w_largest(largest);
 }
 
-/* u and v from the values that smooth_chord stored. */
+/* u and v from the values that smooth_chord stored.
+   LATER keeps r in strip->s and 1 / d.d in n_len. */
 static void chord_parameters(const WrSphereRows *ball, const WrChord *chord, float from,
                              WrStrip *strip)
 {
@@ -192,7 +197,9 @@ static bool wide_smooth(const WrSphereRows *ball, const WrRays *rays, const WrKe
     return true;
 }
 
-/* The picture's colours under that light. */
+/* The picture's colours under that light.
+   First the light with LATER, then fetches of colours, then this: the fetch stage reads u and v of the whole
+   strip. */
 static void wide_paint(const WrRays *rays, const WrKernLight *light, const WrKernShine *shine,
                        const WrKernMaterial *material, WrStrip *strip)
 {

@@ -16,7 +16,13 @@
 
 /* ---- heights ---- */
 
-/* Coefficients of the interpolating spline of that periodic table, as a table; NULL: no memory. */
+/* The surface P + F n becomes triangles: each face is cut by lines into cells, each cell into nu x nv squares,
+   each square into two triangles. The number of cuts follows from a bound of the distance between facet and
+   surface, in pixels (epsilon). */
+
+/* Coefficients of the interpolating spline of that periodic table, as a table; NULL: no memory.
+   A fetch by bspline-fit computes its coefficients from 57 texels a side; here all are computed once, and F is
+   then the plain B-spline of that table. */
 static WrField *coefficients_of(const WrField *field, WrError *err)
 {
     const int w = wr_field_width(field), h = wr_field_height(field);
@@ -72,7 +78,9 @@ double wr_raised_most(const WrScene *scene, const WrField *field)
 #define WR_DICE_SIDE 16      /* largest number of steps along a cell at which F is measured */
 #define WR_DICE_MAX_CUTS 256 /* largest number of cuts of a cell's side */
 
-/* A cell of a face: its needs, and its cuts. */
+/* A cell of a face: its needs, and its cuts.
+   Layout of a cell's output: corners at `corner` + y (nu + 1) + x, triangles from `triangle` on, two for each
+   square, row by row. */
 typedef struct WrDiceCell {
     int32_t face, i, j;   /* position among the face's cells */
     int steps_u, steps_v; /* steps at which F was measured */
@@ -118,6 +126,9 @@ typedef struct WrDicePoint {
 
 /* ---- Welding of shared points on the domain's border: seams, poles, edges of a cube ---- */
 
+/* Points are equal if their positions agree to 1e-6 of the radius. Comparing (u, v) would not find seams,
+   poles or cube edges. */
+
 #define FINE 1e6 /* resolution of positions: parts of the surface's radius */
 
 static WrDicePoint dice_point(int32_t index, const WrSurfacePoint *at, double f, double size)
@@ -157,7 +168,9 @@ static int32_t dice_run(const WrDicePoint *points, int32_t from, int32_t count)
     return end;
 }
 
-/* x of A x = b with a symmetric A of columns a0, a1, a2. */
+/* x of A x = b with a symmetric A of columns a0, a1, a2.
+   Cramer's rule. damp keeps A regular if all normals are equal; the solution is then the mean displacement
+   along n. */
 static WrVec3 solve(WrVec3 a0, WrVec3 a1, WrVec3 a2, WrVec3 b)
 {
     const double det = v3_dot(a0, v3_cross(a1, a2));
@@ -165,7 +178,9 @@ static WrVec3 solve(WrVec3 a0, WrVec3 a1, WrVec3 a2, WrVec3 b)
                      v3_dot(a0, v3_cross(a1, b)) / det };
 }
 
-/* d with n_i . d = f_i, by least squares, if it is at most twice the largest f; else the mean displacement. */
+/* d with n_i . d = f_i, by least squares, if it is at most twice the largest f; else the mean displacement.
+   Faces that meet at an edge or a corner displace a shared point differently; a common d lies on all displaced
+   tangent planes, as a mitre joint does. At a sharp edge d would be very long: hence the limit (HC124). */
 static WrVec3 dice_move(const WrDicePoint *points, int32_t count)
 {
     const double damp = 1e-9 * count;
@@ -205,7 +220,8 @@ static double texels_along(const WrDicing *d, bool along_u)
     return r * (along_u ? wr_field_width(d->field) : wr_field_height(d->field));
 }
 
-/* Texels per cell: a power of two. */
+/* Texels per cell: a power of two.
+   A power of two, so that lines stay on texels at every size of a block. */
 static int block_of(double texels)
 {
     int block = 1;
@@ -214,7 +230,8 @@ static int block_of(double texels)
 }
 
 /* Lines through texel centres, symmetric from both ends: blocks of `block` texels, and single texels where the
-   two halves do not meet in the middle. */
+   two halves do not meet in the middle.
+   F of a bilinear table bends only at texel centres: facets between such lines follow it exactly. */
 static int lay_middles(int texels, int block, double *line)
 {
     int count = 0;
@@ -229,7 +246,8 @@ static int lay_middles(int texels, int block, double *line)
     return count - 1;
 }
 
-/* The lines of one axis between low and high; returns the number of cells between them. */
+/* The lines of one axis between low and high; returns the number of cells between them.
+   Room: at most 4 CELLS even lines, or the two halves of lay_middles with the single texels between. */
 static int lay_axis(double texels, bool whole, double low, double high, double **lines)
 {
     const int block = block_of(texels);
@@ -269,6 +287,12 @@ static void lay_face(WrDicing *d, int face)
 }
 
 /* ---- needs of a cell ---- */
+
+/* A straight step of length h deviates from the curve by at most h^2 |P'_uu| / 8, with (NUMERICS-LIGHT d)
+       |P'_uu| <= |P_uu| + 2 |F_u| |n_u| + |F| |n_uu| + |F_uu|.
+   The first three terms are `bend`, measured on the base; the last is `kink`, measured on F itself, because F
+   varies on a much finer scale. A square is cut along one diagonal, which deviates from the bilinear patch by
+   |F_uv| du dv / 4: `twist`. */
 
 static int steps_of(double width, double texels)
 {
@@ -317,7 +341,9 @@ static void differ(WrDiceCell *c, const Heights *h, double *slope_u, double *slo
     *most = fmax(fabs(low), fabs(high));
 }
 
-/* Pixels per object unit at the nearest point of a sphere around p; 0: it is outside the picture. */
+/* Pixels per object unit at the nearest point of a sphere around p; 0: it is outside the picture.
+   The sphere is tested against the sides of the view pyramid: distance from a side is (x - z w) / sqrt(1 +
+   w^2). */
 static double pixels_at(const WrView *view, WrVec3 p, double radius)
 {
     const double k = view->scale, per = view->grid_h / (2.0 * view->half_h) / view->samples * k;
@@ -331,7 +357,8 @@ static double pixels_at(const WrView *view, WrVec3 p, double radius)
     return per / fmax(z - r, 0.01 * view->radius);
 }
 
-/* Curvature of the base over the cell, and its position on screen. slope_*: over a step; most: of |F|. */
+/* Curvature of the base over the cell, and its position on screen. slope_*: over a step; most: of |F|.
+   n_uu is not available in closed form: a difference of n_u over the cell, plus |n_u|^2 for its part along n. */
 static void measure_base(const WrDicing *d, WrDiceCell *c, double slope_u, double slope_v,
                          double most)
 {
@@ -389,6 +416,9 @@ static void dice_lay(WrDicing *d, WrPool *pool)
 
 /* ---- number of cuts ---- */
 
+/* A source of error below SHARE epsilon needs no cuts. Second differences over `steps` shrink by (steps / n)^2
+   for n cuts, so n = steps sqrt(kink per / 8); bilinear heights never need more cuts than texels. */
+
 /* Steps across a cell along one axis. per: pixels per unit, divided by epsilon's share. */
 static double steps_for(const WrDicing *d, const WrDiceCell *c, double bend, double kink, int steps)
 {
@@ -400,6 +430,7 @@ static double steps_for(const WrDicing *d, const WrDiceCell *c, double bend, dou
     return fmax(fmax(base, own), steps * sqrt(c->twist * per / 4));
 }
 
+/* Rates are steps along a whole side of the face; a corner's rate is the largest need of the cells around it. */
 static void raise_to(double *rate, double want)
 {
     *rate = fmax(*rate, fmin(want, 1e9)); /* NaN is ignored */
@@ -434,7 +465,8 @@ static int border_corner(const WrDiceFace *f, int k)
     return left < f->nv - 1 ? (left + 1) * row : (left - (f->nv - 1) + 1) * row + f->nu;
 }
 
-/* Sets equal rates for corners at one position: along a seam for each axis, along the edges of a cube for both. */
+/* Sets equal rates for corners at one position: along a seam for each axis, along the edges of a cube for both.
+   Without this, both sides of a seam could choose different cuts and leave a crack. */
 static void join_corners(WrDicing *d)
 {
     int32_t count = 0;
@@ -467,7 +499,9 @@ static void join_corners(WrDicing *d)
     wr_free(points);
 }
 
-/* Smallest sufficient power of two. */
+/* Smallest sufficient power of two.
+   Powers of two: the points of a coarser edge are a subset of those of a finer one. The factor 1 - 1e-9 keeps
+   rounding of the product from doubling the cuts. */
 static int cuts_for(double rate, double width)
 {
     const double want = rate * width * (1 - 1e-9);
@@ -476,6 +510,8 @@ static int cuts_for(double rate, double width)
     return cuts;
 }
 
+/* An edge's cuts follow from its two ends only, so both cells at it choose the same number; the inside has the
+   larger of two opposite edges (NUMERICS-LIGHT d, "crack-free"). */
 static void cut_cell(WrDicing *d, WrDiceCell *c)
 {
     const WrDiceFace *f = &d->face[c->face];
@@ -550,7 +586,9 @@ static void make_points(const WrDicing *d, const WrDiceCell *c)
     }
 }
 
-/* The corner in column x and row y; on an edge that is cut less often, the nearest existing one before it. */
+/* The corner in column x and row y; on an edge that is cut less often, the nearest existing one before it.
+   The number of skipped columns is a power of two, so the remainder finds the last existing point. corner_of
+   repeats a corner instead of making a fan: degenerate triangles cover nothing in the raster. */
 static int32_t corner_of(const WrDiceCell *c, int x, int y)
 {
     if (y == 0) x -= x % (c->nu / c->edge[0]);
@@ -621,6 +659,7 @@ static void weld(const WrDicing *d, const WrDicePoint *points, int32_t count)
     }
 }
 
+/* Only border points are sorted: O(n log n) in the circumference. */
 static void weld_all(const WrDicing *d)
 {
     int32_t count = 0, at = 0;
@@ -651,6 +690,7 @@ static bool allocate(WrDicing *d, WrError *err)
     return false;
 }
 
+/* `end` holds the first triangle after each face, so that a triangle's face is found by comparison. */
 static void hand_over(WrDicing *d, WrDice *dice)
 {
     WrTriangles *t = wr_alloc(1, sizeof *t);
@@ -681,6 +721,8 @@ static void fini(WrDicing *d)
     wr_free(d->height);
 }
 
+/* Too many triangles: epsilon grows by at least 1.5 and is chosen again. Cells are measured once, only the
+   choice is repeated. */
 bool wr_dice_make(WrDice *dice, const WrScene *scene, const WrField *field, const WrView *view,
                   double epsilon, WrPool *pool, WrError *err)
 {

@@ -16,7 +16,9 @@ void wr_occlusion_map_table_drop(WrOcclusionMapTable *table)
     *table = (WrOcclusionMapTable){ 0 };
 }
 
-/* Mean length of a texel along u and v, in units of height, which must not be 0. */
+/* Mean length of a texel along u and v, in units of height, which must not be 0.
+   pu, pv per unit of u, v: divided by texels per unit and by the height, they scale slopes of F to true
+   slopes. */
 static void occlusion_map_texel(const WrScene *scene, const WrField *field, double *across,
                                 double *down)
 {
@@ -32,6 +34,7 @@ static void occlusion_map_texel(const WrScene *scene, const WrField *field, doub
     *down = high / (fmax(fabs(scene->replicate_v), 1e-9) * wr_field_height(field) * per);
 }
 
+/* After an edit only texels in `changed` are computed again; the key is that of the field before and after. */
 bool wr_occlusion_map_table_update(WrOcclusionMapTable *table, const WrScene *scene,
                                    const WrField *field, const WrOcclusionMapEdit *edit,
                                    const WrHorizon *horizon, WrPool *pool, WrError *err)

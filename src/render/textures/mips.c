@@ -19,6 +19,8 @@ void wr_color_mips_drop(WrColorMips *tint)
     *tint = (WrColorMips){ 0 };
 }
 
+/* rgba [h + 2][w + 2][4] with a border of one texel; the fourth number is padding, so that a texel is one
+   vector load. Grey pictures repeat their channel. */
 bool wr_color_mips_update(WrColorMips *tint, const WrImage *image, WrWrap wrap_u, WrWrap wrap_v,
                           WrError *err)
 {
@@ -58,6 +60,7 @@ static float *row_of(const WrColorMips *tint, int level, int j)
     return (level ? at->data : tint->rgba) + ((size_t)(j + 1) * (size_t)at->pitch + 1) * 4;
 }
 
+/* Box weights as for slopes (slope_pyramid.c): means are preserved at odd sizes (HC55). */
 static void make_row(int j, int worker, void *ctx)
 {
     (void)worker;
@@ -121,6 +124,8 @@ void wr_normal_mips_drop(WrNormalMips *relief)
     *relief = (WrNormalMips){ 0 };
 }
 
+/* Moments are those of slopes, not of vectors: means of p, q and their covariance (NUMERICS-SCENES b). Maps in
+   object space have no slopes and average their vectors. */
 static void fill(WrPyramid *pyramid, const WrImage *image)
 {
     const WrPyramidLevel *at = &pyramid->level[1];
@@ -138,6 +143,8 @@ static void fill(WrPyramid *pyramid, const WrImage *image)
         }
 }
 
+/* The pyramid is allocated for twice the size, so that the map itself is level 1 and is built like the levels
+   of a table. */
 bool wr_normal_mips_update(WrNormalMips *relief, const WrImage *image, bool vectors, WrWrap wrap_u,
                            WrWrap wrap_v, WrPool *pool, WrError *err)
 {
@@ -165,6 +172,7 @@ void wr_frames_drop(WrFrames *frames)
     *frames = (WrFrames){ 0 };
 }
 
+/* Six floats per corner: t, and b or, for mikk, the sign from which b is computed per sample. */
 static void put_frame(const WrTangent *from, bool mikk, float *out)
 {
     const WrVec3 b = from->b, sign = { from->sign, 0, 0 }, second = mikk ? sign : b;

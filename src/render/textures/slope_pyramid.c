@@ -12,6 +12,9 @@
 
 /* ---- slope bounds ---- */
 
+/* Bounds of |Fu|, |Fv| over a box of (u, v), from bounds per tile of the table. A box of more than TILES_MAX
+   tiles has the bound of the whole table: the search would cost more than it saves. */
+
 #define REACH 3      /* texels: those that a fetch reads beside its position, and rounding */
 #define TILES_MAX 64 /* largest number of tiles of a box */
 
@@ -25,7 +28,8 @@ static double limited(double x)
     return x > 0 ? fmin(x, 1) : 0;
 }
 
-/* Positions a .. b of the axis; flipped: texel 0 is at 1. */
+/* Positions a .. b of the axis; flipped: texel 0 is at 1.
+   `flipped`: rows run down. The run is widened by REACH texels: taps beside the position and rounding. */
 static Run run_of(double a, double b, int size, bool periodic, bool flipped)
 {
     const Run all = { 0, size - 1 };
@@ -52,7 +56,8 @@ static int next_tile(int i, int size)
     return i + (end < size ? end : size) - at;
 }
 
-/* Adds the slopes of tile `at`, including those to tile `first`. */
+/* Adds the slopes of tile `at`, including those to tile `first`.
+   Without slopes per tile only flatness can be decided: equal heights in all tiles, else unbounded. */
 static void add_tile(const WrLevel *level, int at, int first, float steepest[2])
 {
     const bool even =
@@ -84,7 +89,10 @@ void wr_level_box(const WrLevel *level, double u0, double u1, double v0, double 
     for (int c = 0; c < 2; c++) steepest[c] = most[c];
 }
 
-/* A texel during construction. */
+/* A texel during construction.
+   Level l has one texel for a box of about 2^l x 2^l table texels, as floats of fu, fv, f, - and for MOMENTS
+   suu, suv, svv, -. Level 0 of the slope kinds is the gradient copy itself. Each level has an apron of one
+   texel. */
 typedef struct Cell {
     double fu, fv, f, suu, suv, svv;
 } Cell;
@@ -159,6 +167,9 @@ static void read_level(const WrPyramid *pyramid, int level, int i0, int i1, int 
         }
 }
 
+/* Sizes need not be even (HC55): texel i of m covers n/m texels of the level below, from i n / m on; ends
+   count in part. Weights are exact ratios and sum to 1, so the mean is preserved at each level and no phase
+   shift occurs. */
 WrShare wr_pyramid_box_weights(int i, int n, int m)
 {
     WrShare s = { (int)((int64_t)i * n / m), 0, { 0 } };
@@ -172,7 +183,9 @@ WrShare wr_pyramid_box_weights(int i, int n, int m)
     return s;
 }
 
-/* Mean first, then the covariance around it. */
+/* Mean first, then the covariance around it.
+   Law of total covariance: the mean of covariances plus the covariance of means. E[p^2] - E[p]^2 would cancel
+   for large slopes of small variance, and become negative (HC93, HC142). */
 static Cell gather(const Cell *source, size_t pitch, const WrShare *u, const WrShare *v)
 {
     Cell sum = { 0 };
@@ -220,6 +233,7 @@ static void make_row(const Job *job, int i0, int i1, int j)
     wr_free(source);
 }
 
+/* RANGE: least and largest fu, fv of a block; comparisons only, so bounds are exact. */
 static void join_range(const float *in, float *out)
 {
     out[0] = in[0] < out[0] ? in[0] : out[0];
@@ -334,7 +348,8 @@ static void remake(Job *job, int a, int b, int c, int d)
 }
 
 /* A tile's texels change the slopes of their neighbours, across periodic ends too. On a clamped axis the
-   extrapolated end depends on 2 texels inside. */
+   extrapolated end depends on 2 texels inside.
+   reach: one texel for central differences, two more for extrapolated ends. */
 static void remake_tile(int tx, int ty, void *ctx)
 {
     Job *job = ctx;

@@ -25,7 +25,9 @@ bool wr_solid_texture_resolution_known(const WrScene *scene)
             how == WR_INVERT_CONE);
 }
 
-/* Number of bands of the pattern per unit of space. */
+/* Number of bands of the pattern per unit of space.
+   Bound of |grad t|: of rings plus amount times the sum of the octaves' slopes. A band is half a period,
+   narrower where light and dark have unequal shares. */
 static double bands(const WrSolidTexture *grain)
 {
     const WrSolidTextureInfo *info = &wr_grains[grain->kind];
@@ -43,6 +45,7 @@ static double bands(const WrSolidTexture *grain)
     return moved / fmax(narrow, 1e-3);
 }
 
+/* Texels along u and v as if the pattern were a table: adaptive sampling compares them with a pixel. */
 void wr_solid_texture_texels(const WrScene *scene, double texels[2])
 {
     double along[2] = { 0, 0 };

@@ -10,7 +10,8 @@
 #include <string.h>
 
 /* Catmull-Rom weights: their absolute values add up to 1.25 per axis, so the spline exceeds the table's range.
-   Its slopes are bounded by the differences times 1.5 along an axis and 1.25 across. */
+   Its slopes are bounded by the differences times 1.5 along an axis and 1.25 across.
+   (1.25^2 - 1) / 2 = 0.28125 of the range on either side; 1.5 * 1.25 = 1.875. */
 #define OVERSHOOT 0.28125
 #define STEEPER 1.875
 
@@ -20,7 +21,8 @@ static double entry(const WrTableCopy *copy, int i, int j)
     return copy->data ? (double)copy->data[at] : copy->fine[at];
 }
 
-/* Ranges of all entries and of the differences of neighbours, one past each border included. */
+/* Ranges of all entries and of the differences of neighbours, one past each border included.
+   F and the slopes of schemes with weights in 0..1 stay within these; see OVERSHOOT for the others. */
 static void measure(WrHeightBounds *bounds, const WrTableCopy *copy, int width, int height)
 {
     bounds->low = INFINITY, bounds->high = -INFINITY;
@@ -58,7 +60,8 @@ void wr_height_bounds_update(WrHeightBounds *bounds, const WrTable *table, WrSch
 }
 
 /* True if a border of the domain is a single point, as at a pole. axis 0: the border at u = `at`; 1: at v =
-   `at`. */
+   `at`.
+   At a pole all u are one point: there is no border that rays could leave through. */
 static bool is_point(const WrShape *shape, int axis, double at)
 {
     double across = 0, size = 0;
@@ -98,6 +101,8 @@ void wr_parallax_range(const WrScene *scene, const WrHeightBounds *bounds, const
     range[1] = fmin(fmax(low * unit, high * unit), FARTHEST);
 }
 
+/* steep: largest |dF| in object space per unit of u or v, a Lipschitz constant that bounds the step. Infinite
+   for formulas and for nearest, which jumps. */
 void wr_parallax_fill(WrParallax *parallax, const WrScene *scene, const WrField *field,
                       const WrHeightBounds *bounds, const WrPlan *plan, double scale)
 {

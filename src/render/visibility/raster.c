@@ -12,6 +12,13 @@
 
 /* ---- triangles into a tile ---- */
 
+/* Coordinates are whole numbers of 1/256 sample, x to the right, rows down; sample (i, j) has its centre at
+   256 i + 128. Vertices are rounded once, before any triangle uses them, and all edge functions are exact
+   integers from then on. So a shared edge is the same number with opposite sign in its two triangles, and a
+   fill rule assigns each sample on it to exactly one of them (HC85, HC135): no gap and no sample drawn twice,
+   for any order of triangles and threads.
+   `close` is 1 / depth in perspective and -depth otherwise: larger is nearer, and it is affine on the screen. */
+
 /* ---- silhouette ---- */
 
 static WrVec3 sum3(const double a[3], const double b[3], double x, const double c[3], double y)
@@ -20,7 +27,10 @@ static WrVec3 sum3(const double a[3], const double b[3], double x, const double 
                      a[2] + x * b[2] + y * c[2] };
 }
 
-/* True if the ray's distance from the bounding sphere exceeds the distance of rays within the pixel. */
+/* True if the ray's distance from the bounding sphere exceeds the distance of rays within the pixel.
+   The ray's distance from the centre is |foot|; within the pixel the foot moves by at most half the
+   derivatives of the ray by x and y at that parameter. The factor 0.51 instead of 0.5 and the 1e-5 are margins
+   for rounding: a pixel may be kept for nothing, but never lost. */
 static bool misses_ball(const WrView *view, const WrRaysd *rays, double x, double y)
 {
     const double R = view->shell_d.value[0];
@@ -36,7 +46,10 @@ static bool misses_ball(const WrView *view, const WrRaysd *rays, double x, doubl
     return v3_len(foot) - slack > R * (1 + 1e-5);
 }
 
-/* True if all four corners of the pixel are outside the same edge of the quad, or none hits its plane in front. */
+/* True if all four corners of the pixel are outside the same edge of the quad, or none hits its plane in front.
+   The pixel's image on the plane is a quadrilateral if all four rays hit the plane from the same side; then it
+   misses the face if one edge of the face separates them. A pixel that contains the horizon has an unbounded
+   image: kept. */
 static bool misses_quad(const WrView *view, const WrRaysd *rays, const WrQuadd *quad, double x,
                         double y)
 {
@@ -119,7 +132,9 @@ static WrClipVertex raster_camera_vertex(const WrView *view, WrVec3 p, double u,
                            v };
 }
 
-/* Grid position of x and of y along the camera's axes, 1/256 samples; inv: 1 / depth, or 1. */
+/* Grid position of x and of y along the camera's axes, 1/256 samples; inv: 1 / depth, or 1.
+   Both functions are shared by the scalar and the vector path, with the same order of operations, so that both
+   round a vertex to the same place. */
 static inline double column_at(double x, double inv, double half_w, double grid_w)
 {
     return (0.5 + 0.5 * x * inv / half_w) * grid_w * 256.0;
@@ -172,7 +187,9 @@ static bool raster_bound(const WrView *view, WrVec3 p, int32_t *x, int32_t *y)
 }
 
 /* From here on doubles are whole numbers; below 2^51, adding and subtracting it rounds to the nearest whole
-   number, ties to even, like rint. */
+   number, ties to even, like rint.
+   Adding 1.5 * 2^52 moves the units' digit to the last bit of the mantissa. Unlike rint it vectorises without
+   SSE4.1; the guard band keeps |x| far below 2^51. */
 #define WHOLE_FROM 0x1.8p52
 
 /* Vertices during projection. */
@@ -214,6 +231,8 @@ static WrVertexPlace bound_of(const WrView *view, WrVec3 p, int32_t *x, int32_t 
     return raster_bound(view, p, x, y) ? WR_VERTEX_OUT : WR_VERTEX_BEHIND;
 }
 
+/* Vertices outside the guard band have no exact position; they only get a bound for block boxes, and their
+   triangles go through clipping. */
 static void raster_project_row(const WrView *view, int count, const float *x, const float *y,
                                const float *z, const WrRasterRow *row)
 {
@@ -233,8 +252,12 @@ static void raster_project_row(const WrView *view, int count, const float *x, co
     }
 }
 
-/* Edge from (ax, ay) to (bx, by): e(x, y) > 0 on its left; whole numbers, 1/256 sample squared. Samples on the
-   edge belong to it only if it is a top or left one. */
+/* Edge from (ax, ay) to (bx, by): e(x, y) > 0 on the inner side; whole numbers, 1/256 sample squared. Samples on the
+   edge belong to it only if it is a left one, or a horizontal one at the bottom (rows run down).
+       e(x, y) = (bx - ax) (y - ay) - (by - ay) (x - ax)
+   is twice the signed area of (a, b, sample). Moving by one sample adds -256 dy or 256 dx. For edges that do
+   not own their samples 1 is subtracted once at the start, so that the inner loop tests e >= 0 for all three:
+   one sign bit of their OR. Coordinates stay below 2^31, products below 2^63. */
 typedef struct Edge {
     int64_t at, step_x, step_y;
 } Edge;
@@ -279,7 +302,10 @@ typedef struct Walk {
     int32_t x0, y0, x1, y1; /* samples of the tile */
 } Walk;
 
-/* Writes sample `cell`, whose edge values are fa, fb, fc; false if it is outside. */
+/* Writes sample `cell`, whose edge values are fa, fb, fc; false if it is outside.
+   l1 and l2 are the barycentric weights of the second and third vertex; the error of each is 2^-24 relative,
+   from the conversion of the exact integer. u and v are interpolated as u / depth and multiplied by the depth
+   at the sample. A tie in depth keeps the earlier triangle (HC85), hence the strict comparison. */
 static inline bool take(const Walk *walk, int64_t fa, int64_t fb, int64_t fc, size_t cell,
                         WrDepthTile *tile)
 {
@@ -294,7 +320,9 @@ static inline bool take(const Walk *walk, int64_t fa, int64_t fb, int64_t fc, si
     return true;
 }
 
-/* Covers row by row; a row ends at the triangle's far side. */
+/* Covers row by row; a row ends at the triangle's far side.
+   A triangle is convex: samples of a row inside it are contiguous, so the first one outside after them ends
+   the row. */
 static void cover(Walk *walk, WrDepthTile *tile)
 {
     for (int32_t y = walk->y0; y < walk->y1; y++) {
@@ -312,7 +340,9 @@ static void cover(Walk *walk, WrDepthTile *tile)
 }
 
 /* Largest side L of a triangle, 1/256 samples, whose edge values fit in 32 bits over its box, with one vector to
-   its right and one row below: 2 L (L + 18 * 256) < 2^31. */
+   its right and one row below: 2 L (L + 18 * 256) < 2^31.
+     e| <= 2 L (distance from the box's corner) with both factors at most L plus the overhang: 16 samples of a vector and 2
+   more for rounding to samples. */
 #define SMALL_SIDE 30000
 
 static void cover_small(const Walk *walk, WrDepthTile *tile)
@@ -341,7 +371,10 @@ static int64_t shifted(const Edge *edge, int64_t at, const signed char *shift)
     return at + edge->step_x / 256 * shift[0] + edge->step_y / 256 * shift[1];
 }
 
-/* Covers a tile whose samples are offset from the grid. */
+/* Covers a tile whose samples are offset from the grid.
+   A shift moves a sample by up to half a sample; step / 256 is the edge function's change for 1/256 sample,
+   exact because the steps are multiples of 256. Shifted samples of a row need not be contiguous, so no row
+   ends early. */
 static void cover_shifted(Walk *walk, WrDepthTile *tile)
 {
     for (int32_t y = walk->y0; y < walk->y1; y++) {
@@ -358,7 +391,9 @@ static void cover_shifted(Walk *walk, WrDepthTile *tile)
 }
 
 /* Converts from the grid of `of` samples a pixel to that of k. Each vertex is rounded independently, so that
-   triangles that share it still do. */
+   triangles that share it still do.
+   floor((2 x k + of) / (2 of)) is x k / of rounded to nearest. C divides towards zero, hence the correction
+   for negative x. */
 static int32_t to_grid(int32_t x, int k, int of)
 {
     int64_t twice = 2 * (int64_t)x * k + of;
@@ -386,7 +421,11 @@ static void farthest_first(WrRasterVertex *a, WrRasterVertex *b, WrRasterVertex 
     }
 }
 
-/* mark: value of u over the whole triangle; NULL: u and v are interpolated. */
+/* mark: value of u over the whole triangle; NULL: u and v are interpolated.
+   Order of the vertices: first to the tile's grid, then the area's sign by the rounded places (else a sliver
+   could have a sign here and another area below), then so that the area is positive, then the farthest first.
+   The box is widened by half a sample for shifted samples. Outside the tile nothing is set up, so `at` starts
+   from the tile's first sample. */
 static void raster(const WrView *view, WrRasterVertex a, WrRasterVertex b, WrRasterVertex c,
                    const float *mark, WrDepthTile *tile)
 {
@@ -444,7 +483,9 @@ static void raster_marked(const WrView *view, const WrRasterVertex corner[3], fl
     raster(view, corner[0], corner[1], corner[2], &mark, tile);
 }
 
-/* Signed distance of a vertex from clip plane k: near, left, right, bottom, top. */
+/* Signed distance of a vertex from clip plane k: near, left, right, bottom, top.
+   Planes of the view pyramid, slightly inside of those wr_raster_project tests against: a vertex that clipping
+   makes then passes project() in spite of rounding, and 1 / depth stays finite (HC82, HC83). */
 static double inside(const WrView *view, int k, const WrClipVertex *c)
 {
     double reach = 0.99 * WR_GUARD * (view->perspective ? c->depth : 1.0);
@@ -464,6 +505,8 @@ static WrClipVertex between(const WrClipVertex *a, const WrClipVertex *b, double
                            a->v + t * (b->v - a->v) };
 }
 
+/* Each plane adds at most one vertex to a convex polygon: 3 + 5 = 8 of 16. Interpolation is linear before the
+   division by depth, so u and v stay right in perspective. The result is drawn as a fan. */
 static void clipped(const WrView *view, const WrClipVertex corner[3], const float *mark,
                     WrDepthTile *tile)
 {
@@ -501,6 +544,9 @@ static void raster_clipped_marked(const WrView *view, const WrClipVertex corner[
     clipped(view, corner, &mark, tile);
 }
 
+/* The tile in units of the frame's grid. One sample more where vertices are rounded to another grid, or
+   samples are shifted: a triangle outside could otherwise be discarded although its rounded version reaches
+   in. */
 static WrRasterBounds raster_bounds(const WrDepthTile *tile, int samples)
 {
     const int k = tile->k > 0 ? tile->k : samples;
@@ -519,6 +565,9 @@ static bool raster_meets(const WrViewMeshBlock *b, const WrRasterBounds *tile)
 
 /* ---- curved surfaces ---- */
 
+/* Vertex (i, j) of the mesh is at index j * (mu + 1) + i in all arrays; u runs along a row. x, y, z are object
+   space in kernel units and depend on the shape alone; sx, sy, close, out depend on the view too and are
+   projected again when it changes. blocks [blocks_v][blocks_u] bound WR_MESH_BLOCK^2 cells each. */
 static void free_points(WrViewMesh *mesh)
 {
     wr_free(mesh->v);
@@ -583,7 +632,9 @@ static void measure_bend(WrViewMesh *mesh, const WrShape *shape)
     mesh->measured = true;
 }
 
-/* The error of a cell's chord is at most (|Puu| du^2 + 2 |Puv| du dv + |Pvv| dv^2) / 8 (Taylor). */
+/* The error of a cell's chord is at most (|Puu| du^2 + 2 |Puv| du dv + |Pvv| dv^2) / 8 (Taylor).
+   With 2 du dv <= du^2 + dv^2 the bound separates into (|Puu| + |Puv|) du^2 / 8 and (|Pvv| + |Puv|) dv^2 / 8;
+   each may be half the tolerance. Hence cells = sqrt(2 k bend), k = samples per unit / (8 tolerance). */
 static void choose_cells(const WrViewMesh *mesh, const WrShape *shape, const WrView *view,
                          int finer, int *mu, int *mv)
 {
@@ -641,6 +692,8 @@ static void place_rows(WrViewMesh *mesh, const WrShape *shape)
     }
 }
 
+/* A block may be discarded only if the tile is outside the bounds of all its vertices. Vertices behind the
+   near plane have no place on the screen, so a block that straddles the plane counts as unbounded (`clipped`). */
 static void project_row(int j, int worker, void *ctx)
 {
     (void)worker;
@@ -696,6 +749,9 @@ static void allocate(WrViewMesh *mesh, int mu, int mv)
     mesh->blocks = wr_alloc((size_t)(mesh->blocks_u * mesh->blocks_v), sizeof *mesh->blocks);
 }
 
+/* Newton's method starts from the raster's (u, v), which is within one cell (reach). Its error after a step is
+   the square of the one before times bend / slope; on a mesh of 64 cells or more two steps reach float
+   precision. */
 static WrNewton choose_newton(const WrViewMesh *mesh, const WrSurfaceInfo *info, double scale,
                               const WrMeshRequest *ask)
 {
@@ -726,6 +782,8 @@ WrViewProjection wr_view_projection(const WrView *view)
                                .perspective = view->perspective };
 }
 
+/* Three stages, each only if its inputs changed: second derivatives of the shape, points of the mesh,
+   projection. A view that only turns repeats the last one. */
 void wr_view_mesh_prepare(WrViewMesh *mesh, const WrShape *shape, const WrView *view,
                           const WrMeshRequest *ask, const WrKernels *kernels, WrPool *pool)
 {
@@ -790,7 +848,9 @@ typedef struct Block {
     int i0;
 } Block;
 
-/* Bits of the sides of the tile that each vertex of a row is outside of; 0 if it has no position. */
+/* Bits of the sides of the tile that each vertex of a row is outside of; 0 if it has no position.
+   The bits of four vertices are ANDed: a cell is skipped if one side of the tile has all of them outside. A
+   vertex behind the near plane has no bits, so its cell is always kept. */
 static void find_sides(const Block *block, size_t at, unsigned char sides[WR_MESH_BLOCK + 1])
 {
     const WrViewMesh *mesh = block->mesh;
@@ -819,7 +879,9 @@ static bool looks_away(const Block *block, size_t a, size_t b, size_t c)
     return block->culls && (area == 0 || (area > 0) != block->mirrored);
 }
 
-/* Draws a cell whose four vertices are in front of the eye and near the picture. */
+/* Draws a cell whose four vertices are in front of the eye and near the picture.
+   (i, j) is the cell's upper left vertex. Both triangles share the diagonal a - d, drawn with the same two
+   vertices: no crack. */
 static void raster_whole(const Block *block, size_t at, int i, int j, WrDepthTile *tile)
 {
     const size_t low = at + (size_t)block->mesh->mu + 1;
@@ -848,7 +910,8 @@ static void raster_cell(const Block *block, size_t at, int i, int j, WrDepthTile
     raster_clipped(block->mesh, block->view, two, tile);
 }
 
-/* Draws the cells of block b that may overlap the tile: those whose corners are not all outside the same side. */
+/* Draws the cells of block b that may overlap the tile: those whose corners are not all outside the same side.
+   Two rows of bits, used alternately: each vertex is classified once, though two rows of cells use it. */
 static void raster_block(Block *block, int b, WrDepthTile *tile)
 {
     const WrViewMesh *mesh = block->mesh;
@@ -963,7 +1026,11 @@ static void make_cone(int block, int worker, void *ctx)
 }
 
 /* True if all faces of the block certainly face away from the eye. With the axis at angle b from the direction
-   to the eye and normals within a of it, n . (eye - P) <= |w| cos(b - a) + radius. */
+   to the eye and normals within a of it, n . (eye - P) <= |w| cos(b - a) + radius.
+   Derivation: P = centre + r with |r| <= radius, so n.(eye - P) <= n.w + radius; n.w <= |w| cos(angle), and
+   the angle between n and w is at least b - a. cos(b - a) = cos b cos a + sin b sin a. Strictly negative by
+   1e-6 |w|: float normals and the integer area test may differ from this by rounding, and a visible face must
+   not be lost (E61). */
 static bool cone_looks_away(const WrTriangleCone *cone, const WrView *view)
 {
     if (cone->cosine < 0) return false;
@@ -1057,6 +1124,8 @@ static void bound_group(int group, int worker, void *ctx)
     to->groups[group] = all;
 }
 
+/* Corners are projected once for all triangles around them, and blocks of WR_TRIANGLE_BLOCK consecutive
+   triangles are bounded; triangles are sorted along a space-filling curve, so blocks are compact. */
 bool wr_view_triangles_prepare(WrViewTriangles *to, const WrTriangles *source, const WrView *view,
                                bool blocks_apart, WrPool *pool, WrError *err)
 {
@@ -1102,7 +1171,9 @@ static void raster_out(const WrViewTriangles *from, const WrView *view, int32_t 
     raster_clipped_marked(view, corner, (float)i, tile);
 }
 
-/* True if all three are outside the same side. */
+/* True if all three are outside the same side.
+   Marked triangles hold their index in u, and no depth-corrected (u, v): these are computed later, exactly,
+   for the visible triangle alone. */
 static bool beyond(int32_t a, int32_t b, int32_t c, int64_t from, int64_t to)
 {
     return (a < from && b < from && c < from) || (a > to && b > to && c > to);

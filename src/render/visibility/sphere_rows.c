@@ -46,14 +46,17 @@ static bool set_rays(const WrRays *rays, const WrShapef *shape, WrForm o[3], WrF
         q[1][i] = by * (double)rays->qx[i], e[1][i] = by * (double)rays->dx[i];
         q[2][i] = by * (double)rays->qy[i], e[2][i] = by * (double)rays->dy[i];
     }
-    /* With parallel rays s is constant in the picture plane. */
+    /* With parallel rays s is constant in the picture plane.
+       s of P is (P - q).a / d.a with a across the picture plane; its minimum over the unit sphere is at P =
+       -+a / |a|. */
     const double across[3] = { q[1][1] * q[2][2] - q[1][2] * q[2][1],
                                q[1][2] * q[2][0] - q[1][0] * q[2][2],
                                q[1][0] * q[2][1] - q[1][1] * q[2][0] };
     const double size = sqrt(product(across, across)), along = product(e[0], across);
     const double nearest = -(product(q[0], across) / along + fabs(size / along));
     if (!(nearest > least + 1e-5 * (1 + fabs(least)))) return false;
-    /* With perspective all rays pass through the eye: q - k d. */
+    /* With perspective all rays pass through the eye: q - k d.
+       q_x = k d_x for all x: o = q - k d is the eye, the same for every pixel. */
     const double k = rays->perspective ? product(q[1], e[1]) / product(e[1], e[1]) : 0;
     for (int i = 0; i < 3; i++) {
         o[i] = (WrForm){ { q[0][i] - k * e[0][i], q[1][i], q[2][i] } };
@@ -63,6 +66,8 @@ static bool set_rays(const WrRays *rays, const WrShapef *shape, WrForm o[3], WrF
     return true;
 }
 
+/* along = o.w d.d - (o.d) d.w. With perspective o.w is a constant, else d.d is: each product stays a
+   quadratic. */
 static WrSlant slant_of(const WrForm o[3], const WrForm d[3], const WrForm *dd, const WrForm *od,
                         const double w[3], bool near)
 {
@@ -73,7 +78,8 @@ static WrSlant slant_of(const WrForm o[3], const WrForm d[3], const WrForm *dd, 
     return (WrSlant){ plus(along, times(*od, across), -1), across };
 }
 
-/* Smallest l.v of all visible points: v deviates from the direction to the centre at most as far as the outline. */
+/* Smallest l.v of all visible points: v deviates from the direction to the centre at most as far as the outline.
+   cos(a + b) with a the angle from the centre's direction to l, and sin b = 1 / |o|. */
 static double least_facing(const WrForm o[3], const WrForm d[3], const double l[3], bool near)
 {
     double a[3];
@@ -83,6 +89,8 @@ static double least_facing(const WrForm o[3], const WrForm d[3], const double l[
     return facing * sqrt(1 - sine * sine) - sqrt(fmax(1 - facing * facing, 0)) * sine;
 }
 
+/* r^2 is negative definite in x (c[3] < 0) where rows meet the sphere in one chord. Up to 1000 radii of
+   distance, coefficients keep enough bits in float. */
 void wr_sphere_rows_make(WrSphereRows *ball, const WrRays *rays, const WrShapef *shape,
                          const WrKernLight *light)
 {
@@ -120,6 +128,8 @@ static int whole_above(double x, int most)
     return below + ((double)below < x);
 }
 
+/* Roots of r^2 = r0 + r1 x + c3 x^2 in double: at = -r1 / (2 c3), half = sqrt(disc) / (2 |c3|). `middle` is a
+   whole number, so that x - middle is exact. */
 bool wr_chord_of(const WrSphereRows *ball, double gx, double y, int count, WrChord *chord)
 {
     const double *r = ball->rr.c, r0 = r[0] + y * (r[2] + y * r[5]), r1 = r[1] + y * r[4];

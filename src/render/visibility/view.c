@@ -11,7 +11,9 @@
 #include <math.h>
 #include <string.h>
 
-/* World position -> kernel position. */
+/* World position -> kernel position.
+   Kernel units are object units times a power of two after which the radius is 1 .. 2: exact in float, and
+   squares neither overflow nor underflow (HC09). All rays and surfaces below are in these units. */
 static WrVec3 bring_in(const WrPlacement *place, double scale, WrVec3 w)
 {
     return v3_scale(wr_place_object(place, w), scale);
@@ -42,7 +44,10 @@ static void narrow_rays(const WrRaysd *in, WrRays *out)
 /* and if its height above an infinite plane is below this part of the distance to the plane's centre */
 #define LOW 1e-4
 
-/* Rays as affine functions of the sample's grid position (i, j), whose centre is (i + 1/2, j + 1/2). */
+/* Rays as affine functions of the sample's grid position (i, j), whose centre is (i + 1/2, j + 1/2).
+   The ray of grid position (i, j) is q0 + i qx + j qy + s (d0 + i dx + j dy). Its origin lies in the plane
+   through the object's centre, so that s and positions are small differences and not large numbers with the
+   eye's distance in them (HC154). */
 static void make_rays(const WrView *view, WrVec3 centre, double grid_w, double grid_h,
                       WrRaysd *rays)
 {
@@ -83,7 +88,8 @@ static void make_lit(WrView *view, const WrPlacement *place)
     narrow_rays(rays, &view->lit.rays);
 }
 
-/* The grids of 1, 2, 4, ... below K samples a side, and of K. */
+/* The grids of 1, 2, 4, ... below K samples a side, and of K.
+   They serve passes with fewer samples than K, such as the first samples of adaptive sampling. */
 static void make_grids(WrView *view, WrVec3 centre)
 {
     const int K = view->samples;
@@ -115,7 +121,9 @@ typedef struct Extent {
 static const Extent everything = { -INFINITY, -INFINITY, INFINITY, INFINITY };
 
 /* Range of x/z on the sphere of radius r with its centre at (x, z), z > r: the slopes of its tangents through
-   the eye. */
+   the eye.
+   In the plane of eye and axis the tangents have slopes (x z +- r sqrt(x^2 + z^2 - r^2)) / (z^2 - r^2).
+   Differences of squares are written as products, which keep their digits when the eye is close to the sphere. */
 static void tangents(double x, double z, double r, double *least, double *most)
 {
     const double half = r * sqrt(fmax(0, x * x + (z - r) * (z + r))), dd = (z - r) * (z + r);
@@ -156,13 +164,15 @@ static Extent extent_of_quads(const WrView *view)
     return e;
 }
 
-/* A pixel clamped to 0 .. size. */
+/* A pixel clamped to 0 .. size.
+   The cast is safe: NaN and numbers beyond the picture are clamped first. */
 static int pixel_at(double x, int size)
 {
     return x > 0 ? x < size ? (int)x : size : 0;
 }
 
-/* radius: of the bounding sphere. */
+/* radius: of the bounding sphere.
+   2 and 3 pixels of margin: rounding, samples off the pixel's centre, and tiles of whole pixels. */
 static void find_bounds(WrView *view, WrVec3 centre, double radius, int width, int height)
 {
     const Extent e =
@@ -189,6 +199,9 @@ static bool onto_plane(const WrView *view, const WrQuadd *quad, WrVec3 foot, dou
     return part > 0 && part < 1e4;
 }
 
+/* Parallax moves the hit beyond the base's borders: the quad is widened to all points of the plane from which
+   a ray may reach the relief over the patch. Eight corners suffice, because the map from the box to the plane
+   preserves straight lines. */
 #define WIDE 1024 /* in u and v, if no better bound is known */
 
 void wr_view_widen(WrView *view, double low, double high)
@@ -221,6 +234,7 @@ void wr_view_widen(WrView *view, double low, double high)
 
 #define ENDLESS_TUBE 1e30 /* large, but representable as a float */
 
+/* The shell sphere (or endless tube) contains the relief of a round base: rays start at it. */
 void wr_view_grow(WrView *view, double more)
 {
     const double radius = view->shape_d.value[0] + more;
@@ -261,7 +275,8 @@ static bool find_facing(const WrShape *shape, double scale, const WrVec3 *eye, W
 
 /* If two faces that share an edge both face the viewer, or both face away, each extends beyond it by the
    rounding error of u and v, so that a ray along it hits one of them. At an outline neither does, because
-   samples beside it do not belong to the object. */
+   samples beside it do not belong to the object.
+   The overlap is of the size of rounding: 2^-48 in double, 2^-21 in float. */
 #define JOINT 0x1p-48
 #define JOINT_SINGLE 0x1p-21f
 
@@ -356,6 +371,8 @@ bool wr_view_outside(const WrScene *scene, double radius, double turn_deg, int w
     return true;
 }
 
+/* Depth of objects in one scene is measured along the view direction from the camera's target, in world units;
+   deep . p + deep_from for a point p in kernel units. */
 static void find_depth(WrView *view, const WrCamera *camera, const WrPlacement *place)
 {
     const WrVec3 centre = v3_scale(place->centre, view->scale);
@@ -399,7 +416,8 @@ static void make_lights(WrView *view, const WrScene *scene, const WrPlacement *p
     }
 }
 
-/* wr_shape_scaled in double. */
+/* wr_shape_scaled in double.
+   In double: the float version clamps to the range of float. */
 static void scale_shape(const WrShape *shape, double scale, WrShape *out)
 {
     const WrSurfaceInfo *info = wr_surfaces[shape->kind];
@@ -411,6 +429,8 @@ static void scale_shape(const WrShape *shape, double scale, WrShape *out)
             out->value[at] = shape->value[at] * (info->params[p].length ? scale : 1.0);
 }
 
+/* An upper bound: the largest |F| at the nearest possible depth, times pixels per unit (E21, E50). -1:
+   unknown. */
 bool wr_view_rise(const WrScene *scene, const WrField *field, double radius, double turn_deg,
                   int width, int height, double *rise, WrError *err)
 {
