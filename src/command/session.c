@@ -193,7 +193,8 @@ bool wr_session_find_layer(const WrSession *session, const char *word, int *inde
 
 /* ---- view history ---- */
 
-/* Record a view if the view of the document has changed. */
+/* Record a view if the view of the document has changed. Views have a history of their own: moving the camera must not push
+   edits out of the undo list. */
 static void session_note_view(WrSession *session)
 {
     WrViews *views = session->state.views;

@@ -366,6 +366,8 @@ WrField *wr_export_sheet(WrExportJob *job, bool *good, WrError *err)
         !o->atlas && !o->mips)
         return NULL;
     Sheet s = { .job = job };
+    /* Order: a formula becomes a table, then the arrangement of cells, repeats, resizing, and the atlas last; each step reads
+       the table of the step before. */
     *good = (!job->analytic || make(&s, job->width, job->height, formula_row, err)) &&
             lay_sheet(&s, err) && repeat(&s, err) && resize(&s, err);
     if (*good && o->atlas) {

@@ -43,6 +43,8 @@ typedef struct WrFilmSums {
     uint16_t mean[WR_FILM_GRID * WR_FILM_GRID][4]; /* in 257ths of a code: 65535 is 255 */
 } WrFilmSums;
 
+/* Frames are 8-bit RGB or RGBA, row by row from the top. Per frame only the means of its cells are kept, for the check of the
+   finished file. */
 struct WrFilm {
     const WrFilmKind *kind;
     WrFilmOptions options;
@@ -442,6 +444,8 @@ static bool film_check(WrFilm *film, WrFilmReport *report, WrError *err)
     "scale=out_color_matrix=bt709:out_range=tv:flags=bicubic+accurate_rnd+full_chroma_int,"        \
     "format=yuv420p," SRGB ":colorspace=bt709:range=tv"
 
+/* `wrong`: largest difference of a cell's mean, in codes, that the codec may cause: 0 for lossless APNG, 12 for a palette of
+   256 colours. first_loop: ffmpeg's value for "play once"; formats count plays or repeats, GIF repeats. */
 const WrFilmKind wr_film_kinds[] = {
     { .ending = "gif",
       .name = "GIF",

@@ -543,7 +543,8 @@ static void read_light(const WrImage *image, int channel, bool linear, WrSheet *
     wr_free(light);
 }
 
-/* Subtracts a Gaussian blur of that width; preserves the mean. */
+/* Subtracts a Gaussian blur of that width; preserves the mean. Uneven lighting of a photo varies slowly: subtracting a wide
+   Gaussian blur leaves the texture. */
 static bool high_pass(WrSheet *sheet, double sigma, const WrGenerateJob *job, WrError *err)
 {
     const WrOpOptions options = { .pool = job->pool };

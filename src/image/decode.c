@@ -185,6 +185,7 @@ static bool open_pat(WrPlain *p, const unsigned char *bytes, WrError *err)
 
 static bool open_hgt(WrPlain *p, int64_t length, WrError *err)
 {
+    /* SRTM tiles cover one degree with a sample on both borders: 3 or 1 arc seconds apart. */
     static const int sides[] = { 1201, 3601 };
     for (int k = 0; k < 2; k++)
         if (length == (int64_t)2 * sides[k] * sides[k]) p->width = p->height = sides[k];

@@ -148,6 +148,7 @@ static int32_t take(Free *f, uint32_t id)
         add_outline(f, id, &g);
     }
     wr_array_push(&m->glyphs, g);
+    /* known[id] is 1 + the glyph's index in the text, 0: not used yet; each glyph is converted once. */
     f->own->known.data[id] = m->glyphs.count;
     return m->glyphs.count - 1;
 }

@@ -403,7 +403,8 @@ static void take_array(json_object *node, const char *name, int count, double *o
     }
 }
 
-/* A matrix by columns, or a translation, a rotation quaternion and a scale. */
+/* A matrix by columns, or a translation, a rotation quaternion and a scale. The rotation matrix of the unit quaternion (x, y,
+   z, w): R = I + 2 w [v]x + 2 [v]x^2. */
 static void own_matrix(json_object *node, double out[12])
 {
     double m[16] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
@@ -514,6 +515,7 @@ static bool read_pose(Gltf *file, json_object *skin, Body *body, WrError *err)
         const int64_t node =
             json_object_is_type(item, json_type_int) ? json_object_get_int64(item) : -1;
         double m[12] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0 };
+        /* File matrices are stored by columns, ours by rows without the last one. */
         for (int k = 0; inverse.at && k < 12; k++) m[k] = inverse.at[16 * i + k % 4 * 4 + k / 4];
         if (node < 0 || node >= file->nodes)
             good = wr_fail(err, "is damaged: a skin names node %lld, which is not there",
@@ -576,6 +578,8 @@ static void move_uv(const double m[6], const double *uv, float out[2])
 static bool add_points(WrMeshBuild *build, const Body *body, const double own[12],
                        const double uv_m[6], bool *mirrored, WrError *err)
 {
+    /* A skinned point has a matrix of its own, which replaces the node's (glTF 2.0, 3.7.3.3: the node's transform is
+       ignored). */
     double m[12], c[9];
     memcpy(m, own, sizeof m);
     if (!wr_mesh_build_reserve(build, body->points.count, 0, err)) return false;

@@ -783,6 +783,7 @@ static bool add_face(Ply *ply, WrError *err)
     return wr_mesh_build_polygon(ply->build, ply->polygon, (int32_t)count, err);
 }
 
+/* Strips are lists separated by -1. */
 static bool add_strips(Ply *ply, WrError *err)
 {
     const size_t count = ply->corners.count;

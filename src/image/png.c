@@ -153,6 +153,7 @@ typedef struct Text {
     char *name, *text; /* owned */
 } Text;
 
+/* libpng pulls bytes from `take` and delivers rows in order; codes hold one row, or all rows of an interlaced picture. */
 struct WrCodecReader {
     int fd;
     int64_t at; /* bytes of the file read into the block so far */
