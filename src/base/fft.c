@@ -9,6 +9,10 @@
 
 #define FACTORS 16
 
+/* Mixed-radix Stockham transform of n complex numbers (re, im interleaved, double) with factors 2, 3, 4, 5, 7, 11, 13; other
+   lengths by Bluestein's convolution at a power of two >= 2 n - 1. Twiddle factors come from wr_sincos_turns, which is exact
+   at multiples of a quarter turn and the same on all processors. A plan is read-only after its creation: threads share it,
+   each with its own scratch. */
 struct WrFft {
     int n, passes;
     int factor[FACTORS];
@@ -57,6 +61,8 @@ static bool plan_chirp(WrFft *fft, WrError *err)
     if (!fft->inner || !fft->chirp || !fft->answer) return false;
     for (int k = 0; k < n; k++) {
         double sine, cosine;
+        /* exp(-pi i k^2 / n) has the period 2 n in k^2: reduced as an integer, since k^2 / n in floating point loses the
+           digits of the angle. */
         wr_sincos_turns((double)((int64_t)k * k % (2 * n)) / (2.0 * n), &sine, &cosine);
         fft->chirp[2 * k] = cosine;
         fft->chirp[2 * k + 1] = -sine;
@@ -131,6 +137,7 @@ static void pass_2(const WrFft *fft, const Pass *s)
     }
 }
 
+/* Radix 4 needs no multiplications within the butterfly: its roots of unity are 1, -i, -1, i, which swap and negate parts. */
 static void pass_4(const WrFft *fft, const Pass *s)
 {
     size_t lane = 2 * (size_t)s->stride, far = lane * (size_t)s->m;
@@ -252,7 +259,8 @@ static void hartley(const WrFft *fft, double *a, double *b, double *scratch)
     }
 }
 
-/* Index to which x[j] moves: even indices forwards, then odd ones backwards (Makhoul 1980). */
+/* Index to which x[j] moves: even indices forwards, then odd ones backwards (Makhoul 1980). The cosine transform of n numbers
+   is then one complex transform of n, not of 2 n or 4 n. */
 static int fold(int j, int n)
 {
     return j % 2 == 0 ? j / 2 : n - 1 - j / 2;

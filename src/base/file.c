@@ -118,6 +118,8 @@ bool wr_file_read(const char *path, size_t limit, char **bytes, size_t *length, 
     size_t want = (size_t)size, have = 0;
     char *block = wr_try_alloc(want + 1, 1, path, err);
     if (!block) goto fail;
+    /* A file may shrink or grow while it is read: at most the size at opening is read, and *length is the number of bytes
+       that came. */
     while (have < want) {
         int64_t n = wr_fd_read(fd, block + have, want - have);
         if (n < 0) {
@@ -154,6 +156,7 @@ char *wr_path_join(const char *folder, const char *path)
     return text.data;
 }
 
+/* The extension in lower case, at most 15 letters; a name that begins with its only dot (".config") has none. */
 const char *wr_path_ending(const char *path, char buffer[16])
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;

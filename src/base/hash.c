@@ -12,6 +12,8 @@
 #include <string.h>
 #include <xxhash.h>
 
+/* XXH3, 128 bits: not cryptographic; it detects changes and damage. The library's seed has 64 bits, so a chain of hashes
+   passes on 64 bits of each. SHA-256 identifies files from outside, where somebody may construct equal hashes. */
 WrHash wr_hash_bytes(const void *bytes, size_t count, WrHash seed)
 {
     XXH128_hash_t h = XXH3_128bits_withSeed(bytes, count, seed.low ^ (seed.high << 1));

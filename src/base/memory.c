@@ -77,6 +77,8 @@ static void *aligned(size_t bytes, bool zeroed)
     }
     if (!raw) return NULL;
     if (whole >= LARGE) wr_pages_large(raw, whole);
+    /* Layout: raw ... [Head] [block]; the block is aligned to WR_ALIGN (a cache line), or to a large page for huge ones, and
+       the header lies directly before it. */
     uintptr_t start = ((uintptr_t)raw + sizeof(Head) + align - 1) & ~(uintptr_t)(align - 1);
     const size_t counted = bytes < WR_MEMORY_COUNTED ? 0 : bytes;
     *head_of((void *)start) = (Head){ raw, 0, counted };
@@ -84,6 +86,8 @@ static void *aligned(size_t bytes, bool zeroed)
     return (void *)start;
 }
 
+/* Small requests abort on failure: they cannot be refused sensibly. Sizes that depend on files or users go through
+   wr_try_alloc, which returns an error. */
 static void *alloc(size_t count, size_t size, bool zeroed)
 {
     size_t bytes;
@@ -127,7 +131,8 @@ static void give(void *block)
     if (block) free(head_of(block)->raw);
 }
 
-/* Returns a cached block that is large enough and not much larger; NULL if none. */
+/* Returns a cached block that is large enough and not much larger; NULL if none. Reusing a large block saves the page faults
+   of fresh memory, which take longer than the work on it in repeated exports and filters. */
 static void *take_kept(size_t bytes)
 {
     void *block = NULL;

@@ -14,6 +14,9 @@ typedef struct Worker {
     WrThread thread;
 } Worker;
 
+/* Pieces are distributed by an atomic counter: fast threads take more. Every worker enters each run, if only to find the
+   counter past the end, so `active` reaching 0 means that no thread holds the run's ctx any more. Pieces must write to
+   disjoint memory; results then do not depend on the number of threads. */
 struct WrPool {
     WrMutex run_lock; /* one run at a time */
     WrMutex lock;     /* guards the members below */
@@ -140,6 +143,8 @@ static void run_on_all(WrPool *pool, int count, WrPiece piece, void *ctx, bool r
     pool->reports = reports;
     pool->quiet = (WrProgress){ .cancel = here ? here->cancel : NULL };
     __atomic_store_n(&pool->next, 0, __ATOMIC_RELAXED);
+    /* Members are written under the lock before the generation changes; workers read them after they have taken the lock and
+       seen it, so the relaxed counter needs no further ordering. */
     pool->active = pool->threads - 1;
     pool->generation++;
     wr_cond_wake_all(&pool->wake);
@@ -244,6 +249,7 @@ bool wr_once_async_wait(WrOnceAsync *once, WrError *err)
     wr_once_async_watch_end();
     wr_mutex_lock(&lock);
     begin(once, wr_progress_here() == NULL);
+    /* Waiting with a timeout: a cancellation does not signal the condition. */
     while (once->busy && !(stopped = wr_progress_stopped()))
         wr_cond_wait_ms(&changed, &lock, CHECK_MS);
     bool done = once->done;

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+/* The progress of the running task belongs to the thread, so that deep functions check for cancellation without a parameter
+   through all layers. wr_progress_enter replaces it by a part, from..to of the whole; the caller restores the previous one. */
 static _Thread_local const WrProgress *here;
 static _Thread_local int64_t checks;
 

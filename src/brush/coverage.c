@@ -84,7 +84,8 @@ static void below_tile(const WrTargets *t, int tx, int ty, float *out)
         for (int k = 0; k < TEXELS; k++) out[k] = level;
 }
 
-/* Bilinear between whole texels; an integer shift copies. */
+/* Bilinear between whole texels; an integer shift copies. One tap more than a tile on the right and below: shifts are
+   floored, so the second taps of the last row and column lie there. */
 static void shifted_tile(const WrTargets *t, int tx, int ty, float *out)
 {
     enum { SIDE = WR_TILE + 1 };
@@ -112,6 +113,8 @@ static int half_width(int reach, int off)
 /* Prefix sums of rows give the sum of any part of a row by one difference. */
 static void sharp_tile(const WrTargets *t, int tx, int ty, float *out)
 {
+    /* Sharpening: target = f + (f - mean of a disc). Rows of the disc are runs, and a run's sum is the difference of two
+       prefix sums: O(reach) per texel instead of O(reach^2). In double, so that the differences keep their digits. */
     int reach = t->reach, side = WR_TILE + 2 * reach, texels = 0;
     float *row = wr_alloc((size_t)side, sizeof *row);
     double *sums = wr_alloc((size_t)side + 1, sizeof *sums);
@@ -152,6 +155,8 @@ static void doublings(const float *row, int side, float sign, int levels, float 
     }
 }
 
+/* Maximum over a disc, row by row of the disc: the maximum of a run of n texels is that of the two runs of 2^k <= n at its
+   ends, which may overlap (sparse table). sign = -1 computes minima. */
 static void extreme_tile(const WrTargets *t, int tx, int ty, float sign, float *out)
 {
     int reach = t->reach, side = WR_TILE + 2 * reach, levels = 1;
@@ -235,7 +240,9 @@ static bool maker_closed(const WrStrokeResolver *maker, int tx, int ty)
     return selection && !wr_field_tile(selection, tx, ty) && !(wr_field_level(selection) > 0.0f);
 }
 
-/* The effective weight of the coverage. */
+/* The effective weight of the coverage. Coverage c of a stroke becomes the weight c opacity s with the selection s. With
+   buildup, coverage sums beyond 1; `rest` holds the part of the sum that a float would lose, so that a million faint dabs
+   still count (HC76). */
 static void parts(const WrStrokeResolver *maker, const WrStrokeResolve *make,
                   const float *selection, int at, float *part)
 {
@@ -299,6 +306,8 @@ static void make_mark(const WrStrokeResolver *maker, const float *before, const 
     }
 }
 
+/* Every texel is computed from the table at the stroke's start and the coverage so far, never from its present height: the
+   result does not depend on how often or in which order tiles are resolved. */
 void wr_stroke_resolve(const WrStrokeResolver *maker, const WrStrokeResolve *make)
 {
     alignas(WR_ALIGN) float part[WR_TILE], flat[WR_TILE];
@@ -349,6 +358,7 @@ void wr_coverage_fini(WrCoverage *cover)
     wr_stroke_resolver_fini(&cover->maker);
 }
 
+/* Pages exist only for touched tiles; `changed` lists those with new coverage since the last resolve. */
 static WrPage *page_of(WrCoverage *cover, int tx, int ty)
 {
     WrPage **slot = &cover->pages[(size_t)ty * (size_t)cover->tiles_u + (size_t)tx];

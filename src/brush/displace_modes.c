@@ -12,7 +12,8 @@ void wr_mover_fini(WrMover *mover)
     *mover = (WrMover){ 0 };
 }
 
-/* One axis of the box: from *low, *count texels. */
+/* One axis of the box: from *low, *count texels. If the box would exceed a periodic table, it is the whole axis once: each
+   texel is moved once per dab. */
 static bool axis(double p, double reach, double margin, int n, WrWrap wrap, int *low, int *count)
 {
     WrWindow w = wr_window(p, 0.0, reach, n, wrap);
@@ -162,7 +163,8 @@ static void cover_box(WrCoverage *cover, WrMoveBox *box, int i, int j)
     }
 }
 
-/* A fraction of the dab moves towards `dragged`; the weights of the mode are reduced. */
+/* A fraction of the dab moves towards `dragged`; the weights of the mode are reduced. f' = f + w drag (dragged - f) + (1 -
+   drag) (f_mode - f). */
 static void drag_box(WrMoveBox *box, const float *before, double drag, double dragged)
 {
     size_t texels = (size_t)box->pitch * (size_t)box->height;
@@ -188,6 +190,8 @@ static bool lay_out(WrMover *mover, WrMoveBox *box, float **weights, float **bef
     return true;
 }
 
+/* Unlike covering modes, moving ones read present heights and write them at once, dab after dab. The box of heights is copied
+   out with the margin that the mode reads, changed in plain memory, and written back where the weight is above 0. */
 void wr_move_dab(WrMover *mover, WrCoverage *cover, const WrDabShape *shape, double radius,
                  double way_x, double way_y, double drag, double dragged)
 {

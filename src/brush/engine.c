@@ -76,6 +76,9 @@ static void engine_tap(WrEngine *engine);
 
 /* ---- path ---- */
 
+/* The path is a list of samples with times of the engine's own clock, which never runs backwards and skips long pauses. A step
+   hands the library one straight piece of it; pieces end at corners, since the library draws its dabs on straight lines
+   between two positions. */
 #define STRIDE 8.0      /* radii and dabs: maximum motion of one call, ... */
 #define NEAR_DAB 4e-6   /* dabs: distances too small for float */
 #define STRIDES 65536   /* ... unless this many calls are not enough for a step */

@@ -37,7 +37,8 @@ static char *user_folder(void)
     return home && *home ? wr_path_join(home, ".local/share/wrinkle/brushes") : NULL;
 }
 
-/* NULL if it does not exist. The caller frees it. */
+/* NULL if it does not exist. The caller frees it. Collections are in order of priority: a preset of the user hides one of the
+   same name further down. */
 static char *collection_folder(Collection collection)
 {
     WrText path = { 0 };
@@ -140,7 +141,8 @@ static void add_preset(WrLibrary *library, int collection, const char *root, con
     wr_array_push(&library->found, found);
 }
 
-/* below: path relative to root, "" or "classic". */
+/* below: path relative to root, "" or "classic". Depth and number are limited against links that form a cycle; sorting
+   afterwards makes the order independent of the file system's. */
 static void look_through(WrLibrary *library, int collection, const char *root, const char *below,
                          int deep)
 {

@@ -18,6 +18,8 @@ WrModeArgs wr_mode_args(const WrBrush *brush)
                          .kernels = wr_brush_kernels() };
 }
 
+/* Terms of a mode: f height at the stroke's start, c coverage times opacity, 0..1, or more with buildup. Where c = 0 the bits
+   of f remain. */
 static void add(const WrModeArgs *args, double strength, const float *start, const float *part,
                 int count, float *out)
 {

@@ -10,6 +10,8 @@
 
 /* ---- dabs ---- */
 
+/* A motion is the exact sweep of a round dab along a segment (a capsule): no dabs, no spacing. Only brushes whose cross
+   section does not change along the segment, except in strength, can be drawn so. */
 bool wr_draw_by_motions(const WrBrush *b)
 {
     return !b->preset && !b->tip && !wr_mode_work(b->mode)->move && !(b->flow < 1.0) &&
@@ -17,6 +19,7 @@ bool wr_draw_by_motions(const WrBrush *b)
            (b->pressure == WR_PRESSURE_STRENGTH || b->pressure == WR_PRESSURE_NONE);
 }
 
+/* MAX: overlapping dabs of one stroke do not add up. OVER: c' = c + a (1 - c), builds up to 1. SUM: without limit. */
 static WrCoverageRule rule_of(const WrBrush *b)
 {
     if (b->buildup) return WR_COVERAGE_SUM;
@@ -129,6 +132,7 @@ void wr_draw_dab(WrDraw *draw, const WrDab *dab)
     }
 }
 
+/* Pending coverage is resolved first, since the height under the brush must include the stroke so far. */
 double wr_draw_height(WrDraw *draw, double x, double y, double radius)
 {
     wr_draw_finish(draw, HUGE_VAL);
@@ -189,6 +193,7 @@ WrBrush wr_brush_sane(const WrBrush *brush)
     return sane;
 }
 
+/* The edge is at least one texel wide, also for hardness 1: a narrower one would show stairs in the relief. */
 double wr_brush_inner(const WrBrush *brush)
 {
     double soft = brush->hardness * brush->radius, hard = brush->radius - 1.0;
@@ -196,6 +201,7 @@ double wr_brush_inner(const WrBrush *brush)
     return inner > WR_THIN ? inner : WR_THIN;
 }
 
+/* Texel coordinates with centres at whole numbers: x = u W - 1/2, y = (1 - v) H - 1/2. */
 static double place(double u, int n, WrWrap wrap, bool runs_down)
 {
     double p = wrap == WR_WRAP_PERIODIC ? wr_field_reduce(u, 1.0) : u;

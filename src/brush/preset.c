@@ -440,7 +440,8 @@ static bool read_point(json_object *pair, Place at, float point[2], double reach
     return true;
 }
 
-/* An empty list is no curve. */
+/* An empty list is no curve. A curve of one setting over one input is [[x, y], ...] with x not falling; y is added to the
+   base value. It is linear between points and continues the outer pieces beyond them (libmypaint's mypaint-mapping). */
 static bool read_curve(WrPreset *preset, json_object *list, Place at, int setting, int input,
                        WrError *err)
 {
@@ -465,6 +466,8 @@ static bool read_curve(WrPreset *preset, json_object *list, Place at, int settin
     return true;
 }
 
+/* "NAME": { "base_value": number, "inputs": { "INPUT": curve, ... } }. A setting that the file states replaces the library's
+   default curves, too: without inputs it is constant. */
 static bool read_setting(WrPreset *preset, json_object *value, Place at, int setting, WrError *err)
 {
     const char *name = at.member;
@@ -562,6 +565,7 @@ static bool read_jitter(WrPreset *preset, json_object *list, Place at, WrError *
     return true;
 }
 
+/* The name of a file beside the preset. No slash and no leading dot: a preset from the net must not read other folders. */
 static bool read_tip_file(WrPreset *preset, json_object *value, Place at, WrError *err)
 {
     if (!read_text(value, at, &preset->tip_file, err)) return false;
@@ -628,6 +632,7 @@ static bool read_relief(WrPreset *preset, json_object *relief, Place at, WrError
     return true;
 }
 
+/* The tip's checksum is part of the preset: another picture under the same name would silently paint something else. */
 static bool load_tip(WrPreset *preset, const char *folder, WrError *err)
 {
     if (!preset->tip_file) return true;
@@ -648,6 +653,7 @@ static bool load_tip(WrPreset *preset, const char *folder, WrError *err)
 
 /* ---- the file ---- */
 
+/* JSON presets have version 3, the only one that libmypaint accepts; older presets are lists of lines and are not read. */
 static bool read_version(json_object *root, Place at, WrError *err)
 {
     json_object *version;
@@ -659,6 +665,8 @@ static bool read_version(json_object *root, Place at, WrError *err)
     return true;
 }
 
+/* Members: "version": 3, "settings": {...}, optional texts, and "wrinkle": {...} for the properties that libmypaint has no
+   setting for. libmypaint's loader reads the version and the settings only, so files remain usable there. */
 static bool read_root(WrPreset *preset, json_object *root, const char *folder, WrError *err)
 {
     Place at = { .file = preset->name, .member = "the file" };
@@ -689,6 +697,8 @@ static bool read_root(WrPreset *preset, json_object *root, const char *folder, W
     return load_tip(preset, folder, err);
 }
 
+/* json_tokener_parse_ex stops at the object's end; bytes after it, also a NUL, are an error, or a truncated or concatenated
+   file would be accepted. */
 static json_object *parse_json(const char *text, size_t size, const char *name, WrError *err)
 {
     json_tokener *tokener = json_tokener_new_ex(DEPTH);
@@ -823,6 +833,8 @@ static void add_relief(WrText *text, const WrPreset *preset, const WrBrush *brus
     wr_text_add(text, " },\n");
 }
 
+/* All settings are written, also those at their default: defaults of other versions of MyPaint differ. radius_logarithmic is
+   the natural logarithm of the radius, limited to libmypaint's range; a radius beyond it is stored in "wrinkle". */
 void wr_preset_print(const WrPreset *preset, const WrBrush *brush, WrText *text)
 {
     const WrSettingInfo *radius = wr_preset_setting(MYPAINT_BRUSH_SETTING_RADIUS_LOGARITHMIC);
@@ -1138,6 +1150,7 @@ int wr_preset_curve(const WrPreset *preset, int index, int input, const float (*
     return curve->count;
 }
 
+/* Upper bound of the setting over all inputs: base value plus the highest point of each curve (curves add). */
 double wr_preset_peak(const WrPreset *preset, int setting)
 {
     double sum = preset->base[setting];

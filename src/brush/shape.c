@@ -72,6 +72,8 @@ static void set_ellipse(const WrDab *dab, double aspect, double ux, double uy, W
                : dab->hardness > 1.0 - 1e-6 ? 1.0 - 1e-6
                                             : dab->hardness;
     e->hardness = (float)k;
+    /* libmypaint's falloff over the squared relative distance r: two straight pieces that meet at r = k with the value k:
+         1 + r - r / k for r <= k,   k / (1 - k) (1 - r) beyond */
     e->slope_in = (float)(1.0 / k - 1.0);
     e->slope_out = (float)(k / (1.0 - k));
     e->alpha = (float)dab->alpha;
@@ -92,6 +94,7 @@ static void set_tip(const WrTip *tip, const WrDab *dab, double ux, double uy, Wr
     int width, height;
     wr_tip_size(tip, dab->tip_cell, &width, &height);
     double longer = width > height ? width : height;
+    /* The tip's longer side is the dab's diameter. Coordinates s, t = 1/2 + offset / side are 0..1 inside the picture. */
     double length = dab->radius * width / longer;
     double breadth = dab->radius * height / longer / dab->aspect;
     wr_tip_view(tip, dab->tip_cell, 2.0 * dab->radius / longer, &shape->tip);
@@ -142,6 +145,7 @@ bool wr_shape_of_dab(const WrField *field, const WrTip *tip, const WrDab *dab, c
     return true;
 }
 
+/* Row ey of A ex^2 + 2 B ex ey + C ey^2 = R^2: ex = (-B ey +- sqrt(A R^2 - (A C - B^2) ey^2)) / A with A C - B^2 = s^2. */
 static bool ellipse_span(const WrEllipse *e, double y, double *low, double *high)
 {
     double ey = y - e->y, inside = e->a * e->radius2 - e->aspect * e->aspect * (ey * ey);

@@ -34,6 +34,8 @@ typedef struct Span {
     double head, tail, inverse; /* covered fractions of the first and last; 1/length */
 } Span;
 
+/* Output i covers inputs from i in_n / out_n to (i + 1) in_n / out_n: exact area weights for any ratio, also of odd sizes, so
+   that the mean is preserved. */
 static Span span_of(int i, int in_n, int out_n)
 {
     /* In units of 1/out_n input, so that all ends are integers. */
@@ -291,6 +293,8 @@ typedef struct Header {
     double spacing;
 } Header;
 
+/* .gbr: big-endian uint32 header length, version, width, height, bytes per pixel; in version 2 then "GIMP" and the spacing in
+   percent of the width; the name up to the header's end; pixels row by row from the top, grey or RGBA. */
 static bool read_header(const uint8_t *bytes, size_t size, Header *header, const char *what,
                         WrError *err)
 {
@@ -561,6 +565,7 @@ bool wr_tip_cell_alloc(WrTip *tip, int cell, int width, int height, const char *
                        height, WR_TIP_SIDE);
     WrTipCell made = { .levels = 0 };
     size_t count = 0;
+    /* All mip levels lie in one block: level l is values[start[l]], [height[l]][width[l]], sizes halved and rounded up. */
     for (int w = width, h = height;; w = (w + 1) / 2, h = (h + 1) / 2) {
         made.width[made.levels] = w;
         made.height[made.levels] = h;
@@ -683,6 +688,7 @@ int wr_tip_pick(const WrTip *tip, uint64_t number, double direction_rad, double 
         case WR_TIP_PRESSURE: index = (int)rint(pressure * (rank - 1)); break;
         case WR_TIP_CONSTANT: break;
         }
+        /* Mixed-radix number of the ranks' indices, as GIMP's brush pipes store their cells. */
         cell = cell * rank + index;
     }
     return cell < tip->cells ? cell : 0;

@@ -31,7 +31,8 @@ static bool print_given(const char *line, int form, const char *name, WrText *te
 }
 
 /* Read the value from the scene lines of a new document: from the line of that form, else from any form (the cameras
-   share their eye). */
+   share their eye). Initial values are read from the printed scene, not from a second table, so help cannot disagree with the
+   program. */
 void wr_help_initial(const WrCommand *command, int form, const char *name, WrText *text)
 {
     if (!command->print) return;
@@ -383,7 +384,7 @@ void wr_help_overview(WrText *text)
 
 /* ---- JSON ---- */
 
-/* Print ,"name": */
+/* Print ,"name": JSON is built front to back: a comma precedes every key whose predecessor is not an opening bracket. */
 static void add_key(WrText *text, const char *name)
 {
     char last = text->length ? text->data[text->length - 1] : '{';

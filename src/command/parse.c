@@ -188,7 +188,8 @@ static const char *choice_word(const void *ctx, int i)
     return wr_arg_word(ctx, i);
 }
 
-/* Likelihood that a positional value is meant for an argument, best first. */
+/* Likelihood that a positional value is meant for an argument, best first. The order decides which suggestion wins, best
+   first; a text argument accepts everything and therefore comes last. */
 typedef enum Rank {
     RANK_REQUIRED, /* required, and accepts the value */
     RANK_WORD,     /* a choice that contains the word */
@@ -480,6 +481,8 @@ static char *take_name(const char **p)
     return name;
 }
 
+/* Grammar of a line: verb (value | name=value)* [# comment]; a value is a word without blanks or "..." with \" and \\. There
+   is one line per command, so scripts, journals and history need no other format. */
 static bool ends_word(char c)
 {
     return c == '\0' || c == ' ' || c == '\t' || c == '#';
@@ -705,6 +708,7 @@ void wr_call_print(const WrCall *call, WrText *text)
 {
     if (!call->command) return;
     call_add_title(call, text);
+    /* Positional values first, then names, each in the order of the row: two calls with equal arguments print equal lines. */
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < call->count; i++) {
             const WrArgSpec *spec = &call->specs[i];

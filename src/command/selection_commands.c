@@ -371,6 +371,8 @@ static float *parts_of(const Copying *copy, WrError *err)
     return wr_try_alloc((size_t)copy->box.count_i, 5 * sizeof(float), "rows of the copy", err);
 }
 
+/* rows and seen have the signature of WrImageOut: they are called strip by strip, so a copy needs memory for single rows
+   only. */
 static bool rows(void *ctx, int y, int count, void *out, WrError *err)
 {
     const Copying *copy = ctx;
@@ -492,6 +494,9 @@ static double blended(WrBlend blend, float below, float height)
     return (double)below;
 }
 
+/*   c' = c + cb (1 - c)
+     h' = (c t + cb (1 - c) b) / c', with t = h + cb (blend(b, h) - h)
+   Porter and Duff's "over" with straight alpha; the blend mode counts as far as the layer is covered. */
 static Texel over(WrBlend blend, Texel below, Texel piece)
 {
     double c = (double)piece.cover, cb = (double)below.cover, b = (double)below.height;
@@ -655,6 +660,7 @@ static bool set_up(Moving *m, const WrCall *call, const WrDocument *document, Wr
                    .job = { .like = like, .pool = pool, .progress = progress } };
     if (!check_scale(scale, err) || !set_piece(m, call, like, err)) return false;
     for (int k = 0; k < 2; k++) {
+        /* Tables' rows run down, `move` counts up. */
         m->placing.at[k] = m->placing.from[k] + (k == 0 ? move[0] : -move[1]);
         m->placing.scale[k] = scale[k];
     }

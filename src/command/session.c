@@ -27,6 +27,8 @@
 
 /* ---- input files ---- */
 
+/* Inputs are files that the session has read, with their identity at that time; the window watches them and offers to run the
+   script again after a change. */
 void wr_session_note_input(WrSession *session, const char *path)
 {
     for (int i = 0; i < session->inputs.count; i++)
@@ -120,6 +122,8 @@ static bool session_check_heights(const WrSession *session, int index, WrError *
     return false;
 }
 
+/* All edits pass here: the active layer must be unlocked, visible and have heights. A hidden layer would change without any
+   visible effect, and the user would notice much later. */
 bool wr_session_check_layer(const WrSession *session, WrError *err)
 {
     const int active = session->state.document->active;
@@ -133,6 +137,7 @@ WrLayer *wr_session_layer(WrSession *session, WrError *err)
     return wr_document_edit_begin(session->state.document, &session->stand_in);
 }
 
+/* The selection s applies to every edit alike: old + s (made - old), where s = 0 the bits stay (wr_edit_within). */
 void wr_session_put_field(WrSession *session, WrField **field, WrField *made)
 {
     const WrField *selection = session->state.document->selection;
@@ -188,7 +193,8 @@ bool wr_session_find_layer(const WrSession *session, const char *word, int *inde
 
 /* ---- view history ---- */
 
-/* Record a view if the view of the document has changed. */
+/* Record a view if the view of the document has changed. Views have a history of their own: moving the camera must not push
+   edits out of the undo list. */
 static void session_note_view(WrSession *session)
 {
     WrViews *views = session->state.views;
@@ -220,6 +226,8 @@ WrScene *wr_session_scene_at_start(const WrSession *session)
 
 /* ---- read-only snapshots for other threads ---- */
 
+/* Everything is shared by reference or copied small; tables are copy-on-write, so a snapshot costs the same for any table
+   size. */
 WrSession *wr_session_snapshot(const WrSession *session)
 {
     const WrSessionState *state = &session->state;
@@ -328,6 +336,8 @@ static char *folder_of(const WrSession *session, const WrCall *call)
     return kept;
 }
 
+/* The step's text is the canonical line, not the typed one: with all arguments of the file's folder resolved, it can be
+   repeated elsewhere. */
 void wr_session_remember(WrSession *session, const WrCall *call)
 {
     WrText text = { 0 };
@@ -378,7 +388,9 @@ static bool make_composite(WrSession *session, WrError *err)
     return went_through(true, err);
 }
 
-/* Use the precomputed tables of layers. */
+/* Use the precomputed tables of layers. The window computes slow filters on a worker thread with a clone of the document and
+   then runs the line with its result. Names stay those of the session, since the clone may be older; tables that did not
+   change are compared by key. */
 static bool take_made(WrSession *session, const WrCall *call, WrError *err)
 {
     WrDocument *document = session->state.document;
@@ -446,7 +458,8 @@ static bool run_history(WrSession *session, WrCall *call, WrError *err)
 }
 
 /* Only the outermost command is a step, and only its failure restores the old state. A view is no step: it changes
-   only the view of the present state. */
+   only the view of the present state. Commands run others (gltf, script); depth counts the nesting. Order: the journal is
+   written before the change, so that a crash within the command leaves its line to be reported by the recovery. */
 static bool run_call(WrSession *session, WrCall *call, WrError *err)
 {
     if (!call->command) return true;
@@ -555,6 +568,7 @@ bool wr_session_run(WrSession *session, const char *line, WrError *err)
 
 /* ---- moves through the history ---- */
 
+/* Goes through a command line, so that moves are written to the journal like every other command. */
 bool wr_session_go(WrSession *session, int state, WrError *err)
 {
     char line[32];

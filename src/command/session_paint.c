@@ -233,7 +233,8 @@ void wr_session_forget_brushes(WrSession *session)
 
 /* ---- files ---- */
 
-/* True if none of the entry's files has changed. */
+/* True if none of the entry's files has changed. Modification time alone misses a file replaced by another with the same
+   time; inode and change time do not. */
 static bool is_fresh(const Entry *entry)
 {
     WrFileInfo now;
@@ -587,6 +588,8 @@ typedef struct Clearing {
     const WrField *before, *after;
 } Clearing;
 
+/* Where coverage fell to 0 the heights become 0, too: other heights under no coverage would reappear when coverage is painted
+   again. */
 static void clear_tile(int tx, int ty, void *ctx)
 {
     const Clearing *c = ctx;
@@ -646,6 +649,8 @@ bool wr_session_draw(const WrPainting *painting, WrSampleAt *sample, const void 
 
 /* ---- A stroke in progress: an open command ---- */
 
+/* A stroke is a command whose points arrive one by one. Until its end the session refuses all other commands; the layer is
+   edited in place, and a cancellation restores the state of the last step. */
 bool wr_session_stroke_begin(WrSession *session, const char *head, WrError *err)
 {
     WrCall *call;
@@ -670,7 +675,8 @@ bool wr_session_stroke_begin(WrSession *session, const char *head, WrError *err)
 }
 
 /* The double that the text of `value` with n decimals reads back as. k / 10^n is correctly rounded because both are
-   integers below 2^53. */
+   integers below 2^53. The stroke is drawn with the rounded samples, and the line stores these digits: repeating the line
+   draws the same bits (HC75 concerns event timing, this the text). The sum with 0.0 removes a negative zero. */
 static double round_decimals(double value, double ten_to_n)
 {
     double k = rint(value * ten_to_n);
@@ -705,6 +711,7 @@ bool wr_session_stroke_push(WrSession *session, const WrSample *samples, int cou
     for (int i = 0; i < count; i++) {
         WrSample s = round_sample(samples[i]);
         double row[1][6] = { { s.u, s.v, s.pressure, s.tilt_x, s.tilt_y, s.seconds } };
+        /* Trailing defaults are omitted: u,v; u,v,pressure; with tilts 5, with times 6 numbers. */
         int n = s.seconds != 0 ? 6 : s.tilt_x != 0 || s.tilt_y != 0 ? 5 : s.pressure != 1 ? 3 : 2;
         wr_session_journal_stroke_add(session, (const double(*)[6])row, &n, 1);
         wr_call_add_row(session->stroke_call, "points", row[0], n);

@@ -47,6 +47,7 @@ static const float *row_of_field(const void *ctx, int j, float *room)
     return room;
 }
 
+/* Points are 4 x 4 control points of a bicubic Bezier patch, 16 x 3 = 48 floats each, patches row by row. */
 static WrTriangles *made_of(WrTerrain terrain, const WrShape *shape, WrError *err)
 {
     float(*points)[48];
@@ -150,7 +151,8 @@ static bool terrain_take_layer(WrSession *session, WrCall *call, WrScene *scene,
     return true;
 }
 
-/* True if the layer that holds the form of object i exists and has changed; *index is that layer. */
+/* True if the layer that holds the form of object i exists and has changed; *index is that layer. form_key is the layer's key
+   when the form was made: a comparison of two integers per command instead of heights. */
 static bool lags(const WrDocument *document, int i, int *index)
 {
     const WrScene *object = wr_scene_object(document->scene, i);
@@ -196,6 +198,8 @@ static bool follow_object(WrSession *session, int i, int form, WrError *err)
     return true;
 }
 
+/* Runs after every edit: forms and colours that depend on layers are rebuilt before the step is recorded, so a step never
+   holds a stale surface. */
 bool wr_session_follow(WrSession *session, WrError *err)
 {
     for (int i = 0; i < wr_scene_object_count(session->state.document->scene); i++) {
@@ -424,6 +428,9 @@ static WrTriangles *find_mesh(WrSession *session, WrCall *call, const WrShape *s
     char *path = wr_session_input_path(session, name);
     WrTriangles *mesh = NULL;
     char hex[65];
+    /* The checksum is computed on another thread while the file is parsed. It is compared first: a changed file shall be
+       reported as such, not by the parse error that it may cause. glTF consists of several files, whose joint checksum is
+       computed by wr_input_sha256. */
     WrSha256Work *hash = wr_sha256_begin(path);
     mesh = read_held(session, call, shape, path, err);
     WrError why = { "" };
@@ -699,6 +706,7 @@ static bool run_analytic(WrSession *session, WrCall *call, WrError *err)
     scene->analytic = (WrAnalytic){ .kind = forms[which].kind };
     if (forms[which].list) {
         const WrArg *list = wr_call_arg(call, forms[which].list);
+        /* Rows of the list have a fixed stride, also where the optional phases are omitted (0). */
         size_t width = forms[which].kind == WR_ANALYTIC_POLY ? 3 : 5;
         scene->analytic.terms = wr_alloc((size_t)list->rows, sizeof *scene->analytic.terms);
         scene->analytic.count = list->rows;

@@ -105,7 +105,8 @@ static void take_laid(WrCall *call, const char *name, WrTextureSample *laid)
     take_repeat(call, laid);
 }
 
-/* The picture that a line names: while a document loads, its embedded one, else the file's. The caller frees it. */
+/* The picture that a line names: while a document loads, its embedded one, else the file's. The caller frees it. Documents
+   hold decoded pixels of their pictures, so they open without the original files, on any machine. */
 static WrImage *find_laid(WrSession *session, WrCall *call, const char *name, int which,
                           WrError *err)
 {
@@ -140,7 +141,9 @@ static bool refuse_without(const WrCall *call, const char *const *names, const c
 
 /* ---- colour ---- */
 
-/* Linear RGB, or one grey channel, without alpha; 8-bit and 16-bit values are decoded from sRGB. */
+/* Linear RGB, or one grey channel, without alpha; 8-bit and 16-bit values are decoded from sRGB. Shading works in linear
+   light; decoding here, once per picture, leaves renderers without a colour conversion per lookup. Negative floats have no
+   meaning as reflectance and become 0. */
 static WrImage *linear_colour(const WrImage *from, WrError *err)
 {
     int channels = from->channels < 3 ? 1 : 3;
@@ -177,6 +180,8 @@ static void print_colour(const WrScene *scene, WrText *text)
     print_colour_line(scene, true, text);
 }
 
+/* print_NAME writes the line that recreates the state; print_NAME_content omits the path if a checksum identifies the file,
+   so that equal content has equal text wherever the file lies (wr_print_identity). */
 static void print_colour_content(const WrScene *scene, WrText *text)
 {
     print_colour_line(scene, !*scene->colour_laid.sha256, text);
@@ -305,7 +310,8 @@ static WrImage *read_normals(WrSession *session, const WrCall *call, const char 
     return image;
 }
 
-/* Set the normal map of a line with a file; settings of the earlier map are not kept. */
+/* Set the normal map of a line with a file; settings of the earlier map are not kept. While a document loads, the vectors
+   were decoded before they were saved: green and channels only record the original choice. */
 static bool take_normals(WrSession *session, WrCall *call, const char *name, WrNormalMap *map,
                          WrError *err)
 {
@@ -349,7 +355,8 @@ static bool change_green(const WrCall *call, WrNormalMap *map, WrError *err)
     return true;
 }
 
-/* Convert the present vectors to another space; vectors below the tangent plane are moved to its horizon. */
+/* Convert the present vectors to another space; vectors below the tangent plane are moved to its horizon. Tangent space has z
+   > 0: a vector that points below the surface has no slope. */
 static bool change_space(WrSession *session, const WrCall *call, WrNormalMap *map, WrError *err)
 {
     const bool object = wr_call_choice(call, "space") == 1;
@@ -676,7 +683,8 @@ const WrCommand wr_command_metalness = {
 
 /* ---- The command gltf: load the material of a glTF file for the active object ---- */
 
-/* Run another command's line as a part of this one. */
+/* Run another command's line as a part of this one. The inner command runs within the outer one's step (session->depth): one
+   undo reverts the whole material. */
 static bool run_line(WrSession *session, const WrText *line, WrError *err)
 {
     WrCall *call = NULL;
@@ -716,7 +724,8 @@ static void list(WrText *text, const char *part)
 }
 
 /* Load a picture of the file by running another command; -1: no picture, which removes the present one. An unreadable
-   picture is skipped with a note. */
+   picture is skipped with a note. FILE#N names picture N inside a glTF file, so the line of the step can be repeated from the
+   file alone. */
 static bool take_picture(WrSession *session, const char *file, int image, const char *verb,
                          const char *rest, const char *part, GltfReport *report, WrError *err)
 {

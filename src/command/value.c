@@ -44,6 +44,7 @@ void wr_arg_fini(WrArg *arg)
     *arg = (WrArg){ .choice = -1 };
 }
 
+/* Messages have limited space: at most 48 bytes, cut before a whole UTF-8 sequence (continuation bytes are 10xxxxxx). */
 const char *wr_excerpt(const char *bytes, char buffer[WR_EXCERPT_SIZE])
 {
     size_t n = strlen(bytes), keep = n;

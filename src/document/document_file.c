@@ -45,6 +45,8 @@ static WrSceneAge age_of_object(const WrScene *object)
     return WR_SCENE_OLD;
 }
 
+/* Files carry the oldest version that can hold them, so that older programs read whatever they can; this function and
+   version_of must grow with each new feature. */
 WrSceneAge wr_scene_age(const WrScene *scene)
 {
     WrSceneAge age = WR_SCENE_OLD;
@@ -80,6 +82,9 @@ void wr_image_rows_out(const WrImage *image, int channels, int y, int rows, floa
 #define WR_VERSION "0"
 #endif
 
+/* A document is an OpenEXR file of float32 parts: "F", the composite, first, for programs that read one picture, with the
+   attributes of the document; then for each layer from the bottom "layer:NAME", "cover:N", "mask:N"; "selection"; pictures of
+   objects, 3 channels; the mesh, packed as a picture of one channel. Absent tables have no part: cover and mask NULL mean 1. */
 #define FILE_ATTRIBUTES 8
 #define LAYER_ATTRIBUTES 8
 #define PARTS_MAX                                                                                  \
@@ -584,7 +589,7 @@ static bool check_part(const Loading *in, int index, WrError *err)
 }
 
 /* F, which may be the only layer; else for each layer its heights, cover and mask; selection; pictures; mesh: in
-   this order, and nothing else. */
+   this order, and nothing else. The fixed order makes damage visible: a part out of order is an error, not a guess. */
 static bool find_parts(Loading *in, WrError *err)
 {
     int count = wr_image_file_parts(in->file);
@@ -623,7 +628,7 @@ bool wr_document_all_at(const float *texels, size_t pitch, int columns, int rows
 }
 
 /* Stores a strip of one row of tiles. Tiles at the table's level are not allocated, so that an almost empty
-   table is as small as it was when saved. */
+   table is as small as it was when saved. Strips are as high as tiles, so that each tile is compared and written once. */
 static void store_strip(Loading *in, WrField *field, int y, int rows, const float *strip)
 {
     for (int x = 0; x < in->width; x += WR_TILE) {
@@ -643,6 +648,7 @@ static void clamp_strip(float *strip, size_t count)
     }
 }
 
+/* The first texel becomes the table's level: in an almost empty table most tiles equal it and are not allocated. */
 static WrField *read_field(Loading *in, int part, bool heights, WrError *err)
 {
     WrField *field = NULL;

@@ -112,6 +112,8 @@ int wr_journal_open(const char *path, WrError *err)
     return wr_file_open_no_link(path, WR_FILE_MAX, NULL, err);
 }
 
+/* The lock belongs to the file, not to its name: between open and lock another program may have replaced it, hence the
+   comparison of inodes. */
 bool wr_journal_lock(int fd, const char *path, WrLock how)
 {
     WrFileInfo mine, named;
@@ -205,6 +207,7 @@ WR_ROWS_END(kind_words, WR_JOURNAL_KINDS);
 
 /* ---- escapes ---- */
 
+/* Escapes keep a record on one line and its words without blanks: \n, \r, \s blank, \\, \e empty word. */
 static void add_escaped(WrText *line, const char *text, bool word)
 {
     const char *special = word ? "\\\n\r " : "\\\n\r";
@@ -326,6 +329,9 @@ static bool check_body(const char *text, size_t length, WrJournalSeal *seal)
 
 /* ---- header ---- */
 
+/* Header: MAGIC FORMAT CHECKSUM PROGRAM TIME KIND HASH SHA256 SNAPSHOT PATH. Records: CHECKSUM NUMBER KIND PAYLOAD, one a
+   line, kinds: c command, d its outcome, b s e stroke's head, samples and end, n note, g gap, v saved. Every line is checked
+   by itself, so a torn last line costs that line only. */
 void wr_journal_print_header(WrText *line, const WrJournalHeader *header)
 {
     const WrJournalStart *start = &header->start;
@@ -733,6 +739,8 @@ static bool probe(const WrJournal *journal)
     return ok;
 }
 
+/* After a failed write the journal has a gap and stays broken, but it checks at intervals whether writing works again; the
+   session then starts a new journal from a snapshot of the document. */
 static void retry(WrJournal *journal)
 {
     double now = wr_clock_seconds();
@@ -759,6 +767,8 @@ static bool write_line(WrJournal *journal, WrError *err)
     return wr_fail(err, "%s: %s", journal->path, strerror(errno));
 }
 
+/* Order: the line is written before the command runs; it is flushed to the disk at intervals, not per line, since a process
+   crash loses nothing that was written, and only a power failure needs the flush. */
 static bool append(WrJournal *journal, char kind, const char *payload, WrError *err)
 {
     WrError local;

@@ -83,6 +83,7 @@ static void ora_show(WrOraShowing showing, const WrOraRange *range, float height
     switch (showing) {
     case WR_ORA_HEIGHTS: break;
     case WR_ORA_MIXED: *alpha = mask; break;
+    /* svg:plus adds alpha grey: with grey = part / alpha the sum gains exactly part = h / R. */
     case WR_ORA_SUM: /* alpha as large as the height needs, if the coverage is smaller */
         if (part > cover) cover = part;
         *grey = cover > 0.0 ? part / cover : 0.0;
@@ -182,7 +183,8 @@ static bool is_within(const WrField *heights, float least, float most)
 
 /* Programs that blend in linear light get a different mean of two greys, and a different sum. Equal on both
    scales are the maximum, the minimum, a choice of one, and, since the scale is a power, the product. A factor
-   is no grey, so black must be height 0 and the factor 0..1. */
+   is no grey, so black must be height 0 and the factor 0..1. Example: the mean of codes a and b is (a + b) / 2, in linear
+   light the code of (a^2.2 + b^2.2) / 2; max(a, b) and a b commute with the power. */
 static bool layer_agrees(const WrLayer *layer, const WrOraRange *range)
 {
     if (layer->opacity <= 0.0f) return true;
@@ -220,6 +222,9 @@ static bool ora_agrees(const WrDocument *document, int lowest, const WrOraRange 
 #define PICTURE_MAX ((size_t)2 << 30)  /* bytes of a picture */
 #define PIXELS_MAX ((int64_t)16 << 28) /* total of all layers: 16 of the largest size */
 
+/* OpenRaster: a zip archive whose first entry, "mimetype", is stored uncompressed, so that the type is found at a fixed
+   offset; stack.xml with the layers, topmost first; data/*.png; Thumbnails/thumbnail.png; mergedimage.png. The program's own
+   float tables are additional EXR entries, named by attributes of stack.xml that other programs keep or drop. */
 static const char media_type[] = "image/openraster";
 
 /* The first entry's local header, its name and content. */
@@ -348,7 +353,8 @@ static bool place_row(const Loading *in, const WrOraLayer *layer, const WrImage 
     return whole;
 }
 
-/* Heights and coverage from a layer's PNG. */
+/* Heights and coverage from a layer's PNG. The picture replaces the floats if another program has saved the file and dropped
+   them: 16 bits at most remain of the heights. */
 static bool read_preview(Loading *in, const WrOraLayer *from, WrLayer *layer, WrError *err)
 {
     if (!from->src) return wr_fail(err, "%s: damaged: a layer of it names no picture", in->path);
@@ -727,6 +733,8 @@ static bool thumbnail_rows(void *ctx, int y, int rows, void *out, WrError *err)
 
 /* ---- the archive ---- */
 
+/* libzip requests an entry's size before its bytes, and may read sizes of several entries first. The encoded bytes are freed
+   after each entry, so a picture may be encoded twice; holding all encoded pictures would need as much memory as the file. */
 static bool render(Entry *entry)
 {
     if (entry->bytes) return true;

@@ -20,7 +20,8 @@
 #define STEEPEST                                                                                   \
     0x1p63 /* limit of a slope: its square, and a sum of squares, fit in a float (HC142) */
 
-/* Factors from slopes to slopes per texel, to the right and downwards. */
+/* Factors from slopes to slopes per texel, to the right and downwards. Plain: height per texel. With uvslopes = k, height per
+   cell and k, so the numbers of a map do not depend on its resolution (RenderMan's txmake, OpenImageIO's uvslopes_scale). */
 typedef struct Factors {
     double s, t;
 } Factors;
@@ -39,7 +40,8 @@ static double limited(double slope, bool *bad)
     return isnan(slope) ? 0.0 : copysign(STEEPEST, slope);
 }
 
-/* Stores one texel's channels; returns 1 if a number had to be replaced. */
+/* Stores one texel's channels; returns 1 if a number had to be replaced. Channels: h, h_s, h_t, h_s^2, h_t^2, h_s h_t. Their
+   means over a box are the moments from which LEAN derives the covariance of slopes, Sigma = E[s s^T] - E[s] E[s]^T. */
 static inline int64_t put(double f, double s, double t, float *restrict out)
 {
     bool bad = !(fabs(f) <= (double)HIGHEST);
@@ -62,7 +64,8 @@ typedef struct Piece {
     int64_t replaced;
 } Piece;
 
-/* The spline's value at its middle tap. */
+/* The spline's value at its middle tap. (1 4 1)/6 along both axes: the B-spline's value at a knot is a smoothed height, not
+   the texel's. */
 static double spline_at(const double *at, ptrdiff_t pitch)
 {
     const double above = at[-pitch - 1] + 4.0 * at[-pitch] + at[1 - pitch];

@@ -112,7 +112,8 @@ static int within(int i, int n, bool clamp)
     return rest < 0 ? rest + n : rest;
 }
 
-/* Copies the cell with its margins to (x, y) of the table. */
+/* Copies the cell with its margins to (x, y) of the table. Without margins, a filter near a cell's border would read the
+   neighbour in the atlas; for `margin` texels, and so for log2(margin) mip levels, it reads the cell's own continuation. */
 static void place(WrField *to, const WrField *cell, int x, int y, int margin)
 {
     const int w = wr_field_width(cell), h = wr_field_height(cell), width = w + 2 * margin;
@@ -246,6 +247,8 @@ static void repeat_row(const Sheet *s, int y, float *out)
     copy(s->from, 0, y, s->width, out);
 }
 
+/* Half-drop: two copies side by side, the second moved by half a height; the new cell of 2 w x h tiles plainly. Brick is the
+   same with the axes exchanged. */
 static void half_drop_row(const Sheet *s, int y, float *out)
 {
     const int width = wr_field_width(s->from);
@@ -271,6 +274,8 @@ static void hex_row(const Sheet *s, int y, float *out)
     const size_t width = (size_t)s->width;
     double *u = wr_alloc(3 * width, sizeof *u), *v = u + width, *f = v + width;
     const double t = 1 - (y + 0.5) / s->height;
+    /* In units of the rectangle: x / L = (i + 1/2) / width and y / (sqrt(3) L) = t, hence u = x / L - t and v = 2 t. The
+       rectangle holds two rows of the lattice, so its edges meet the lattice's translations L and (0, sqrt(3) L). */
     for (int i = 0; i < s->width; i++) u[i] = (i + 0.5) / s->width - t, v[i] = 2 * t;
     wr_field_sample(s->from, (WrScheme)s->job->options.scheme, width, u, v, f, NULL, NULL);
     for (int i = 0; i < s->width; i++) out[i] = (float)f[i];
@@ -325,7 +330,8 @@ static bool repeat(Sheet *s, WrError *err)
     return make(s, m * wr_field_width(now(s)), n * wr_field_height(now(s)), repeat_row, err);
 }
 
-/* The power of two that is nearest by ratio. */
+/* The power of two that is nearest by ratio. n^2 > 2 p^2 means n / p > sqrt(2): the geometric mean of p and 2 p separates
+   them. */
 static int power_near(int n)
 {
     int power = 1;
@@ -360,6 +366,8 @@ WrField *wr_export_sheet(WrExportJob *job, bool *good, WrError *err)
         !o->atlas && !o->mips)
         return NULL;
     Sheet s = { .job = job };
+    /* Order: a formula becomes a table, then the arrangement of cells, repeats, resizing, and the atlas last; each step reads
+       the table of the step before. */
     *good = (!job->analytic || make(&s, job->width, job->height, formula_row, err)) &&
             lay_sheet(&s, err) && repeat(&s, err) && resize(&s, err);
     if (*good && o->atlas) {

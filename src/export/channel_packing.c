@@ -131,6 +131,7 @@ static bool make_channel(WrExportJob *job, int c, WrError *err)
         put_constant(job, c, (float)(filling ? metal : pack.number));
         return true;
     }
+    /* The channel's kind runs as a job of its own on the same table; only its map and the range of its codes are used. */
     WrExportJob one = *job;
     one.kind = wr_export_find(filling->kind);
     one.channels = 1;

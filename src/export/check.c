@@ -28,7 +28,9 @@ typedef struct Sums {
     double pp, qq, pq, noise_p, noise_q;
 } Sums;
 
-/* Slopes of texel (i, j); returns the mean square of the error caused by rounding a code by `step`. */
+/* Slopes of texel (i, j); returns the mean square of the error caused by rounding a code by `step`. Rounding errors are
+   uniform over a step, variance step^2 / 12. With p = -n_x / n_z an error of n_x is divided by n_z, one of n_z at most by
+   n_z^2: step / n_z^2 bounds both. */
 static double slopes_at(const WrImage *map, int i, int j, double step, double *p, double *q)
 {
     const float *n = map->data + 3 * ((size_t)j * (size_t)map->width + (size_t)i);
@@ -50,7 +52,9 @@ static void add_texel(const WrImage *map, int i, int j, double step, Sums *sums)
     sums->pq += dp * dq;
 }
 
-/* Computes curl for unit vectors from codes that are `step` apart. */
+/* Computes curl for unit vectors from codes that are `step` apart. A gradient has D_v p = D_u q: the
+   correlation r of the two over the map is 1 for heights, 0 for unrelated slopes, and curl = sqrt(1 - r). Rounding noise lowers
+   r, since it adds to the squares but not to the product: its mean is subtracted from the squares first. */
 static void check_curl(const WrImage *map, double step, WrCheckNormals *normals)
 {
     Sums s = { 0 };
@@ -66,7 +70,8 @@ static void check_curl(const WrImage *map, double step, WrCheckNormals *normals)
 
 #define ENOUGH 8 /* minimum of values besides black and white for detecting their step */
 
-/* True if every code is one of `bits` bits, spread over all of `total` bits. */
+/* True if every code is one of `bits` bits, spread over all of `total` bits. A code c of `total` bits stems from k = round(c
+   few / last) if spreading k back yields c; so 8 bits widened to 16 by a factor of 257 are found, as are 10 or 12 bits. */
 static bool spread(const bool *seen, int total, int bits)
 {
     const double last = (1 << total) - 1, few = (1 << bits) - 1;
@@ -132,6 +137,8 @@ static void add(Set *set, float x)
 {
     const uint32_t bits = bits_of(x), mask = 2 * WR_CHECK_DISTINCT - 1;
     if (set->count == WR_CHECK_DISTINCT) return;
+    /* Multiplicative hashing with linear probing. The table has twice as many slots as it may hold numbers, so probes stay
+       short and a free slot always exists. */
     uint32_t at = (bits * 0x9e3779b1u) >> 15 & mask;
     while (set->slot[at] && set->slot[at] != (uint64_t)bits + 1) at = (at + 1) & mask;
     set->count += !set->slot[at];

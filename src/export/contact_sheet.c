@@ -63,7 +63,7 @@ static void contact_size(const WrContact *contact, int *width, int *height)
 }
 
 /* Range of texels [from, to) on one axis that pixel i of n covers; the nearest texel if there are fewer texels
-   than pixels. */
+   than pixels. Box filter in codes: good enough for a thumbnail, and exact integers on every processor. */
 static void span(int i, int n, int texels, int *from, int *to)
 {
     *from = (int)((int64_t)i * texels / n);

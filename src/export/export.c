@@ -63,6 +63,9 @@ double wr_export_last_code(const WrExportJob *job)
     return job->options.depth == 8 ? 255.0 : 65535.0;
 }
 
+/* Without a border, samples are texel centres: v = 1 - (y + 1/2) / h. With one, samples are the cell's corners and edges, (h
+   + 1) of them, so that adjacent tiles of a terrain share their border samples; on a periodic axis the last equals the first,
+   bit for bit. */
 double wr_export_row_v(const WrExportJob *job, int y)
 {
     if (!job->options.border) return 1.0 - (y + 0.5) / job->height;
@@ -72,7 +75,9 @@ double wr_export_row_v(const WrExportJob *job, int y)
 }
 
 /* Dither offset between -1/2 and 1/2, both excluded: the additive sequence of the plastic number over the
-   texels, whose values are spread evenly over every small neighbourhood, so that no clumps are visible. */
+   texels, whose values are spread evenly over every small neighbourhood, so that no clumps are visible. The constants are
+   2^32 / g, 2^32 / g^2 with the root g = 1.3247 of g^3 = g + 1 (Roberts' R2 sequence); channels are shifted by the golden
+   ratio, so that their patterns do not coincide. */
 static double dither(WrExportTexel at)
 {
     uint32_t phase = (uint32_t)at.column * 0xc13fa9a9U + (uint32_t)at.row * 0x91e10da5U +
@@ -278,7 +283,8 @@ static void keep_codes(WrExportJob *job)
     o->low = report->code_low, o->high = report->code_high;
 }
 
-/* Writes the further mip levels, each from means of the heights of the level before. */
+/* Writes the further mip levels, each from means of the heights of the level before. A normal map's own codes are not
+   averaged: the length of a mean of normals shrinks where the relief is rough. */
 static bool write_levels(WrExportJob *job, const char *path, WrError *err)
 {
     const WrExportReport report = job->report;

@@ -43,6 +43,8 @@ typedef struct WrFilmSums {
     uint16_t mean[WR_FILM_GRID * WR_FILM_GRID][4]; /* in 257ths of a code: 65535 is 255 */
 } WrFilmSums;
 
+/* Frames are 8-bit RGB or RGBA, row by row from the top. Per frame only the means of its cells are kept, for the check of the
+   finished file. */
 struct WrFilm {
     const WrFilmKind *kind;
     WrFilmOptions options;
@@ -58,6 +60,9 @@ struct WrFilm {
 
 /* ---- The ffmpeg process: transfer of bytes in either direction, with cancellation at any time ---- */
 
+/* The child's pipe is a channel that never blocks: each wait ends after LOOK_MS at the latest, so that cancelling, and a
+   hanging ffmpeg, are noticed. Error output goes to a memory file, not to a pipe: a full pipe that nobody reads would stop
+   ffmpeg. */
 #define LOOK_MS 20 /* between two checks for cancellation */
 
 static bool tool_start(WrTool *tool, const char *const *arguments, int out, double patience,
@@ -224,6 +229,8 @@ static int cells_of(int side)
     return cells < 1 ? 1 : cells > WR_FILM_GRID ? WR_FILM_GRID : cells;
 }
 
+/* Means of cells, not pixels, are compared: lossy codecs and 4:2:0 chroma change single pixels by many codes, but hardly the
+   mean of 16 x 16. In 257ths of a code they fill 16 bits, and equal frames have equal integers. */
 static void sum_cell(const uint8_t *pixels, int width, int channels, const int x[2], const int y[2],
                      uint16_t mean[4])
 {
@@ -328,6 +335,9 @@ static bool is_one(const unsigned char *head, const char *name)
     return memcmp(head, name, 4) == 0;
 }
 
+/* RIFF: "RIFF", uint32 size of the rest, "WEBP", then chunks of a four-letter name and a little-endian uint32 length. ANMF
+   holds a frame: x, y, width - 1, height - 1 and the duration in ms as 24-bit numbers, the duration 12 bytes into the
+   payload, 20 into the chunk. A single frame may be written as a still picture, VP8 or VP8L, without ANMF. */
 static Pieces pieces_of(const WrFilm *film, int64_t bytes)
 {
     Pieces pieces = { 0 };
@@ -387,6 +397,8 @@ static bool compare_frame(WrFilm *film, int64_t part, int64_t of, int frame, WrF
 static bool read_pieces(WrFilm *film, WrFilmReport *report, WrError *err)
 {
     const Pieces pieces = pieces_of(film, report->bytes);
+    /* Each duration is rounded to whole milliseconds, and equal consecutive frames are merged: the sum is compared with the
+       tolerance of one frame plus one millisecond per frame. */
     const double frame_ms = 1000.0 / film->options.fps, handed_ms = film->sums.count * frame_ms;
     if (!pieces.whole) return wr_fail(err, "ffmpeg's file is no whole WebP file");
     if (pieces.frames < 1 || pieces.frames > film->sums.count ||
@@ -432,6 +444,8 @@ static bool film_check(WrFilm *film, WrFilmReport *report, WrError *err)
     "scale=out_color_matrix=bt709:out_range=tv:flags=bicubic+accurate_rnd+full_chroma_int,"        \
     "format=yuv420p," SRGB ":colorspace=bt709:range=tv"
 
+/* `wrong`: largest difference of a cell's mean, in codes, that the codec may cause: 0 for lossless APNG, 12 for a palette of
+   256 colours. first_loop: ffmpeg's value for "play once"; formats count plays or repeats, GIF repeats. */
 const WrFilmKind wr_film_kinds[] = {
     { .ending = "gif",
       .name = "GIF",
@@ -569,6 +583,7 @@ static bool start(WrFilm *film, WrError *err)
 
 /* ---- film ---- */
 
+/* 4:2:0 chroma has one sample for 2 x 2 pixels: H.264 needs even sides. */
 static int even(const WrFilmKind *kind, int side)
 {
     return kind->even ? (side + 1) / 2 * 2 : side;
@@ -639,7 +654,9 @@ static const uint8_t *padded(WrFilm *film, const uint8_t *pixels)
     return film->padded;
 }
 
-/* Copies ffmpeg's output to the disk. */
+/* Copies ffmpeg's output to the disk. ffmpeg writes into a spool in memory and never learns the file's path; completed parts
+   are moved to the disk between frames. A format that is rewritten at the end (`rereads`: MP4's index moves to the front)
+   stays in the spool until then. */
 static bool pass_on(WrFilm *film, bool ended, WrError *err)
 {
     char why[WR_FILE_WHY];

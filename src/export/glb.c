@@ -78,6 +78,8 @@ static void add_triangle(WrModel *m, int32_t a, int32_t b, int32_t c, bool mirro
 
 /* ---- triangles that the scene holds ---- */
 
+/* Positions are stretched per axis by s; normals by the cofactors (s_y s_z, s_z s_x, s_x s_y), the inverse transpose times
+   the determinant (NUMERICS.md HC33). A mirrored object's triangles are reversed, so that they stay counter-clockwise. */
 static bool take_triangles(const WrTriangles *t, WrVec3 stretch, WrVec3 cofactor, bool mirrored,
                            WrModel *m, WrError *err)
 {
@@ -108,7 +110,9 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The rows of a face, ascending; where Pv jumps there are two. */
+/* The rows of a face, ascending; where Pv jumps there are two. Rows at a distance of CREASE on both sides of a jump of Pv
+   have separate points with separate normals, so the edge is shaded hard instead of averaged. Regular rows that nearly
+   coincide with them are dropped. */
 static int lay_rows(const WrShape *shape, WrSurfaceCell cell, int steps, double rows[LINES])
 {
     const WrSurfaceInfo *info = wr_surfaces[shape->kind];
@@ -136,6 +140,8 @@ typedef struct Cut {
     double area, per_u, per_v; /* sums over the corners, weighted by the area about them */
 } Cut;
 
+/* per_u = sum |Pu x Pv| |Pu| / sum |Pu x Pv|: the mean length of Pu over the surface's area. A normal map holds one slope per
+   texel for the whole surface, although the scale |Pu| varies with the position: this is the scale that it is made with. */
 static void add_point(Cut *cut, int face, double u, double v, WrModel *m)
 {
     WrSurfacePoint o;
@@ -323,6 +329,8 @@ static bool add_maps(Glb *glb, WrError *err)
 
 /* ---- the binary chunk ---- */
 
+/* glTF 3.6.2: the offset of an accessor's data is a multiple of its component size, and so is a chunk's length (4.4.3): every
+   view is padded to 4 bytes. */
 static void add_bytes(Glb *glb, const void *bytes, size_t length)
 {
     wr_text_add_n(&glb->bin, bytes, length);
@@ -352,7 +360,8 @@ static void add_view(Glb *glb, size_t from, size_t length, int target)
     wr_text_add(&glb->json, "}");
 }
 
-/* Views 0 to 3 are places, normals, (u,v) and corners; then one for each map. */
+/* Views 0 to 3 are places, normals, (u,v) and corners; then one for each map. Components are float32 (5126) and uint32
+   (5125); 34962 is ARRAY_BUFFER, 34963 ELEMENT_ARRAY_BUFFER. Pictures have no target. */
 static void add_views(Glb *glb)
 {
     const WrModel *m = &glb->model;
@@ -363,6 +372,7 @@ static void add_views(Glb *glb)
             for (int c = 0; c < 3; c++)
                 add_float(&glb->bin, k == 0 ? m->points[i][c] : m->normals[i][c]);
         for (int32_t i = 0; k == 2 && i < m->point_count; i++) {
+            /* v points up here and down in glTF: TEXCOORD v = 1 - repeat v. */
             const bool is = isfinite(m->uv[i][0]) && isfinite(m->uv[i][1]);
             add_float(&glb->bin, is ? (float)((double)m->uv[i][0] * glb->repeat[0]) : 0);
             add_float(&glb->bin, is ? (float)(1 - (double)m->uv[i][1] * glb->repeat[1]) : 0);
@@ -388,6 +398,7 @@ static void add_number(Glb *glb, double x)
     wr_text_add_number(&glb->json, x);
 }
 
+/* Bounds of POSITION are required (3.7.2.1) and must be the float32 values that are stored. */
 static void add_accessors(Glb *glb)
 {
     const WrModel *m = &glb->model;
@@ -433,6 +444,8 @@ static void add_texture(Glb *glb, const char *name, int which)
     for (int k = 0; k < which; k++) index += glb->maps[k].png != NULL;
     wr_text_addf(&glb->json, ",\"%s\":{\"index\":%d", name, index);
     if (repeats_otherwise(glb, map)) {
+        /* TEXCOORD_0 is t = 1 - r v with the repeat r of the normal map. A map of repeat r' needs t' = 1 - r' v = (r'/r) t +
+           1 - r'/r, the extension's scale and offset; along u there is no offset. */
         const double x = map->repeat[0] / glb->repeat[0], y = map->repeat[1] / glb->repeat[1];
         wr_text_add(&glb->json, ",\"extensions\":{\"KHR_texture_transform\":{\"scale\":[");
         add_number(glb, x);
@@ -508,6 +521,9 @@ static void describe(Glb *glb)
 
 /* ---- the file ---- */
 
+/* GLB: magic "glTF", uint32 version 2, uint32 total length; then chunks of uint32 length, four-letter type and bytes: first
+   JSON padded with spaces, then BIN padded with zeros. 28 = header 12 + two chunk headers of 8. All numbers are little
+   endian. */
 static bool write_file(Glb *glb, const char *path, WrError *err)
 {
     WrText head = { 0 }, between = { 0 };

@@ -241,6 +241,10 @@ static const char *const slope_names[] = { "dF_du", "dF_dv" };
 static const char *const bump_slope_names[] = { "b0_h",     "b1_dhds",  "b2_dhdt",
                                                 "b3_dhds2", "b4_dhdt2", "b5_dh2dsdt" };
 
+/* Order is that of menus, help and contact sheets. Each row has one of three writers: `rows` produces pixels of the table row
+   by row in parallel; `make` first computes a map of the whole table as floats (job->map), which `rows` = wr_export_map_rows
+   then encodes; `write` writes the whole file itself. green: sign of the green axis of normals, 0 for other kinds.
+   on_surface: positions are (u,v) of the surface, so heights keep the scene's unit and `size` may differ from the table's. */
 const WrExportKind wr_export_kinds[] = {
     { .name = "height",
       .label = "height",

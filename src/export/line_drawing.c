@@ -26,6 +26,9 @@ typedef struct Sheet {
     int wide, high;
 } Sheet;
 
+/* Parallel projection: (x, y) from the cell's centre and z are turned by the angle t about the vertical and tilted by a:
+     right = x cos t - y sin t; up = (x sin t + y cos t) sin a + z cos a; depth = (x sin t + y cos t) cos a - z sin a.
+   Depth grows away from the viewer. At a = 90 degrees the view is straight down. */
 WrLinesPlace wr_lines_place(const WrLinesFrame *f, double u, double v, double z)
 {
     double x = u - 0.5, y = v - 0.5;
@@ -110,6 +113,8 @@ static int within(double x, int low, int high)
     return x < low ? low : x > high ? high : (int)x;
 }
 
+/* Edge functions as barycentric weights, at the centres of FINE x FINE cells per pixel; dividing by the signed area makes
+   them independent of the orientation. */
 static void fill_triangle(Sheet *sheet, WrLinesPlace a, WrLinesPlace b, WrLinesPlace c)
 {
     double area = edge(&a, &b, c.x, c.y);
@@ -145,7 +150,8 @@ static void fill_depth(Sheet *sheet)
 
 /* A point is visible unless the surface is in front of it in all cells around: so a line along a fold, whose
    neighbouring cells are half in front and half behind, is visible. Cells beside the surface are ignored, unless
-   there are no others. */
+   there are no others. CLOSE is a depth in cells: without it a line, which lies on the surface, would be hidden by its own
+   quads' rounding. */
 static bool is_seen(const Sheet *sheet, const WrLinesPlace *p)
 {
     int i = within(floor(FINE * p->x), 0, sheet->wide - 1);
@@ -245,6 +251,8 @@ static void draw_family(const Sheet *sheet, bool along_u, int lines, Points *out
     int places = along_u ? sheet->rows : sheet->columns;
     if (lines > places) lines = places;
     for (int i = 0; i < lines && !wr_progress_stopped(); i++) {
+        /* Line i of n lies on texel row round(i (places - 1) / (n - 1)): lines pass through texel centres, where the heights
+           are exact, and the first and the last are the table's edges. */
         int at = lines > 1 ? (int)(((int64_t)i * (places - 1) + (lines - 1) / 2) / (lines - 1))
                            : places / 2;
         draw_line(sheet, along_u, at, out);

@@ -19,6 +19,9 @@
 
 /* ---- Text definitions of map sets: those of known programs, and the user's ---- */
 
+/* A set is text, one map a line: KIND FILE [NAME=VALUE ...], with one * in FILE for the cell's name; "about TEXT" describes
+   the set; lines with # are comments. The built-in sets below are parsed by the same parser, so the user can copy and change
+   them. */
 #define SET_ENDING ".set"
 #define BLANKS " \t\r"
 
@@ -131,6 +134,8 @@ static bool take_file(const char *word, WrSetMap *map, WrError *err)
     return wr_image_deepest(word, &type, err);
 }
 
+/* The setting is tried on default options, so that an error is reported when the set is read, with its line, and not after
+   half of its files are written. */
 static bool take_setting(const char *word, int index, WrSetMap *map, WrError *err)
 {
     WrExportOptions options = wr_export_default();
@@ -253,7 +258,7 @@ static bool is_name(const char *name, size_t length)
     return length > 0 && length <= WR_SET_NAME && letters >= length;
 }
 
-/* NULL: no such file. Caller frees. */
+/* NULL: no such file. Caller frees. A user's file replaces a built-in set of the same name. */
 static char *own_path(const char *name)
 {
     if (!is_name(name, strlen(name))) return NULL;
@@ -572,6 +577,7 @@ bool wr_export_set(const WrSetOrder *order, const WrDocument *document, WrPool *
     WrExportOptions options[WR_SET_MAPS];
     const size_t before = list->length;
     if (!check_names(order, err) || !settle(order, options, err)) return false;
+    /* All files of a set are renamed together at the end: after an error or a crash no mixture of old and new maps remains. */
     WrFileGroup *group = wr_file_group_begin();
     bool good = write_maps(order, options, document, pool, list, err) &&
                 (!contact_of(order) || write_contact(order, options, document, pool, list, err));

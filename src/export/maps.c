@@ -97,7 +97,8 @@ bool wr_export_mask_make(WrExportJob *job, WrError *err)
 
 /* ---- wear ---------------------------------------------------------------------------------------- */
 
-/* The number of that rank, in any order: the array is partitioned until it is isolated. */
+/* The number of that rank, in any order: the array is partitioned until it is isolated. Hoare's quickselect: linear on
+   average, in place, no full sort of a table. */
 static float ranked(float *x, size_t count, size_t rank)
 {
     size_t low = 0, high = count - 1;
@@ -134,6 +135,9 @@ typedef struct Wear {
     double full;
 } Wear;
 
+/* Wear at a texel with convexity c (relative to full), noise n in -1..1, threshold t:
+     w = clamp((min(c, 1) (1 + noise n) - t) / (1 - t), 0, 1).
+   The noise has `grain` lattice cells across the cell on both axes and the same period, so the map tiles. */
 static void wear_piece(WrExportJob *job, int y, int rows, void *ctx)
 {
     const Wear *wear = ctx;
@@ -246,6 +250,8 @@ static void export_signed_codes(WrExportJob *job, double full)
     const double last = wr_export_last_code(job);
     report->ranged = true;
     report->amplitude = full;
+    /* 0 has a code of its own, 128 or 32768, so that flat is exact; full is last - zero = zero - 1 codes away on both sides,
+       and code 0 is unused. */
     report->zero_code = (int)(last + 1) / 2;
     const double step = full / (report->zero_code - 1);
     report->code_low = -step * report->zero_code;
@@ -273,7 +279,9 @@ static bool beyond(const WrExportReport *report, double x)
     return x < report->code_low || x > report->code_high;
 }
 
-/* Parameters of code_of, for arrays of numbers. */
+/* Parameters of code_of, for arrays of numbers. code = zero + times (x - less) / by, rounded, within 0..last; x outside
+   low..high counts as clipped. Both forms of code_of in one, so that the kernel has no branch. A flat map has times = 0: all
+   codes are `zero`. */
 static WrMapCodes codes_of(const WrExportJob *job)
 {
     const WrExportReport *r = &job->report;
@@ -369,7 +377,8 @@ void wr_export_map_describe(WrExportJob *job)
 
 /* ---- maps of field/maps.h ---- */
 
-/* Computes the map and its range. job: settings except the ground. */
+/* Computes the map and its range. job: settings except the ground. A formula is sampled into a table first where a map reads
+   neighbours (occlusion, cavity); slopes still come from the formula. */
 static bool fill(WrExportJob *job, WrFieldMapKind kind, const WrMapJob *settings,
                  const char *quantity, WrError *err)
 {
@@ -500,6 +509,7 @@ static int nearest(const WrOcclusion *o, double degrees)
     return best;
 }
 
+/* job->map is [height][width][channels]; a horizon is computed as a plane and then interleaved. */
 static bool fill_horizons(WrExportJob *job, const WrOcclusion *o, WrError *err)
 {
     const size_t texels = (size_t)job->width * (size_t)job->height,

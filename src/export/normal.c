@@ -90,8 +90,11 @@ void wr_export_store_normal(const WrExportJob *job, void *out, size_t texel, WrV
 {
     const double component[3] = { n.x, n.y, n.z };
     for (int c = 0; c < 3; c++) {
+        /* axes[c] = +-(1 + component): channel c holds component |axes[c]| - 1 with its sign. */
         const int axis = job->options.axes[c];
         const double own = axis < 0 ? -component[-axis - 1] : component[axis - 1];
+        /* n/2 + 1/2 of -1..1 over codes 0..last: 0 lies between two codes, at 127.5, so a flat 8-bit map reads (128,128,255),
+           tilted by 0.32 degrees (NUMERICS.md L3). All common readers expect this coding. */
         const double value = own / 2.0 + 0.5;
         size_t i = 3 * texel + (size_t)c;
         if (job->options.depth == 32) ((float *)out)[i] = (float)value;
@@ -211,6 +214,8 @@ static void table_rows(Piece *piece)
         PITCH = WR_NORMAL_STRIP + 2 * BEFORE,
         TALL = WR_EXPORT_PIECE_ROWS + 2 * APRON
     };
+    /* texels[j][BEFORE + i] is texel (x + i, y - APRON + j): BEFORE floats precede it, so that the run itself begins on a
+       cache line and its left apron ends the line before. */
     alignas(WR_ALIGN) float texels[PITCH * TALL];
     double taps[PITCH * TALL];
     const bool quick = is_quick(piece);

@@ -47,6 +47,9 @@ ALWAYS bool tilts_of(const WrNormalJob *job, WrNormalStencil stencil, bool divid
     double wild = 0.0;
 #pragma omp simd reduction(+ : wild)
     for (int i = 0; i < count; i++) {
+        /* z = height F over a cell of cell_w x cell_h: dz/dx = height F_u / cell_w and F_u = width dF/dtexel. Rows run down,
+           v up, hence -rows for F_v. The order of the operations is that of the formula in double, so that all sets make the
+           same bytes. */
         double tx = -height * (width * slope(stencil, at + i, 1, pitch));
         double ty = -height * (-rows * slope(stencil, at + i, pitch, 1));
         tx = divides ? tx / cell_w : tx * over_w;
@@ -99,6 +102,8 @@ ALWAYS void pack8(int32_t (*restrict plane)[WR_NORMAL_STRIP], int count, uint8_t
 {
     int i = 0;
 #ifdef __AVX512BW__
+    /* Each 128-bit lane packs four 32-bit texels to 12 bytes; the compression then closes the gaps of 4 bytes between the
+       lanes. */
     const __m512i three = _mm512_broadcast_i32x4(
         _mm_setr_epi8(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1));
     for (; i + 16 <= count; i += 16) {

@@ -95,6 +95,11 @@ typedef struct WrSolid {
 
 /* ---- the body ---- */
 
+/* A closed body in five steps: squares of two triangles cover each face of the surface's (u,v) domain (wr_solid_lay); sides
+   at the same position are joined across seams, faces and poles; triangles are bisected until every sample of the relief is
+   within the error (wr_solid_refine); the border becomes a back with walls, or caps (wr_solid_close); the mesh is turned
+   outwards and written. Triangles share points by number, so the mesh is watertight by construction, not by comparing rounded
+   positions. */
 /* ---- The initial squares of a relief, and the sides that they share ---- */
 
 #define LINES 200  /* maximum lines in one direction */
@@ -141,6 +146,8 @@ static void count_squares(const WrShape *shape, WrSurfaceCell cell, int *nu, int
     const WrSurfaceInfo *info = wr_surfaces[shape->kind];
     WrSurfacePoint o;
     wr_surface_at(shape, 0, (cell.u0 + cell.u1) / 2, (cell.v0 + cell.v1) / 2, &o);
+    /* Aspect of the middle cell on the surface, |Pu| du / (|Pv| dv): bisection keeps the shape of its triangles, so they must
+       start nearly square. */
     const double ratio = v3_len(o.pu) * (cell.u1 - cell.u0) / (v3_len(o.pv) * (cell.v1 - cell.v0));
     *nu = *nv = info->flat && !info->closed_u ? 1 : 4;
     if (!isfinite(ratio) || !(ratio > 0.0)) return;
@@ -195,6 +202,9 @@ static void lay_face(Base *base, int face)
         }
     for (int j = 0; j < nv; j++)
         for (int i = 0; i < nu; i++) {
+            /* Corners a b below, d c above. The longest side, the diagonal a c, must be opposite to corner 2 (refine):
+               triangles (c, a, b) and (a, c, d). across[k] is the neighbour opposite to corner k; squares are numbered row by
+               row, two triangles each. */
             const int a = node + j * (nu + 1) + i, b = a + 1, d = a + nu + 1, c = d + 1;
             const int32_t at = first + 2 * (j * nu + i);
             WrSolidTriangle low = triangle_of(base, face, c, a, b);
@@ -268,6 +278,9 @@ static bool one_curve(const Side *a, const Side *b, double same)
     return true;
 }
 
+/* Sides on the domain's border: those of length 0 are poles; of the others each pair that is one curve in opposite directions
+   is a seam. Quadratic in their number, which is at most a few thousand. Two sides are compared at TRIED points, since a
+   seam's ends alone also agree for two different arcs. */
 static void join_sides(Base *base)
 {
     WrSolidTriangle *relief = base->solid->relief.data;
@@ -353,7 +366,8 @@ static void solid_lay(WrSolid *solid)
     16.0 /* times sqrt(size / error): the sagitta between two samples on a sphere is 1/100 of the error */
 
 /* Samples along one direction of a face, from `from` to `to`. A texel's centre is at k + 1/2 texels from 0, and
-   is a sample if each texel has an odd number of them. */
+   is a sample if each texel has an odd number of them. Texel k's centre is at (k + 1/2) / texels. With an odd number m of
+   samples a texel, at (n + 1/2) / (m texels), sample n = m k + (m - 1) / 2 is that centre. */
 static bool lay_direction(double texels, double fine, double from, double to, double *first,
                           double *step, int *count)
 {
@@ -367,6 +381,8 @@ static bool lay_direction(double texels, double fine, double from, double to, do
     return last - *first < 1e9;
 }
 
+/* The lattice of a face is float[count_v][count_u][3], owned by the solid, u fastest: positions in millimetres of the
+   displaced surface P + F n, scaled. */
 static bool lay_lattice(WrSolid *solid, int face, int64_t *samples, WrError *err)
 {
     const WrScene *scene = solid->scene;
@@ -516,7 +532,8 @@ static double from_side2(const Facet *f, int k, WrVec3 p)
     return v3_dot(d, d);
 }
 
-/* Squared distance of a point. */
+/* Squared distance of a point. Inside the prism over the triangle it is the distance from the plane; outside, from the
+   nearest side as a segment. */
 static double from_facet2(const Facet *f, WrVec3 p)
 {
     bool over = !f->flat;
@@ -530,7 +547,8 @@ static double from_facet2(const Facet *f, WrVec3 p)
 
 /* ---- samples in a triangle ---- */
 
-/* Interval of the row v of the domain inside the triangle; false: empty. */
+/* Interval of the row v of the domain inside the triangle; false: empty. The row cuts a triangle in one interval of u; the
+   minimum and maximum over its three sides are its ends. */
 static bool row_of(const WrSolidTriangle *t, double v, double *from, double *to)
 {
     *from = INFINITY, *to = -INFINITY;
@@ -661,7 +679,9 @@ static int32_t halve(WrSolid *s, int32_t index, int32_t point)
 }
 
 /* Bisects the two triangles at the longest side of one; before that the neighbour, until that side is its
-   longest, too. */
+   longest, too. Rivara's longest-side bisection in its conforming form: corner 2 is opposite to the side that is bisected
+   next (newest-vertex bisection), a neighbour whose own such side is another is bisected first. No T-junctions arise, and
+   angles stay bounded away from 0. The recursion ends since each step goes to a triangle of an earlier generation. */
 static void refine(WrSolid *s, int32_t index)
 {
     int32_t beyond;
@@ -719,6 +739,8 @@ static bool settle(WrSolid *s, WrError *err)
 static bool solid_refine(WrSolid *solid, WrError *err)
 {
     int32_t halved = 1;
+    /* Each round measures new triangles only (error < 0) and ends when none fails. Progress 1 - 8 / (8 + round) is an
+       estimate: the number of rounds is unknown before. */
     for (int round = 0; halved > 0; round++) {
         int32_t *fresh = wr_try_alloc((size_t)solid->relief.count, sizeof *fresh, "a solid", err);
         if (!fresh) return false;
@@ -762,6 +784,8 @@ static bool twice(WrError *err)
     return wr_fail(err, "the surface touches itself at its border: no body can be made of it");
 }
 
+/* Each border side a -> b follows its triangle's orientation, so a border point has one successor; a second one means that
+   the surface touches itself at that point, and no wall can separate inside from outside there. */
 static bool find_next(const WrSolid *s, Border *border, int32_t *count, WrError *err)
 {
     memset(border->next, 0xff, (size_t)s->point_count * sizeof *border->next);
@@ -827,7 +851,9 @@ static void triangle_locations(const WrSolidTriangle *t, WrSolidLocation out[3])
 
 /* ---- a fan over a loop ---- */
 
-/* Centre of a loop of points, and its axis of rotation; `map` converts point numbers. */
+/* Centre of a loop of points, and its axis of rotation; `map` converts point numbers. The centre weighs sides by their
+   length, so that it does not depend on the number of points; the axis is the sum of (p - m) x (q - m), twice the area vector
+   of the loop. */
 static WrVec3 middle_of_loop(const WrSolid *s, const Border *b, const int32_t *map, int32_t start,
                              WrVec3 *up)
 {
@@ -936,6 +962,8 @@ static bool add_shell(WrSolid *s, int32_t *back, int32_t points, WrError *err)
     return true;
 }
 
+/* A wall is two triangles per border side, (b, a, a') and (b, a', b') with back points a', b'. Its (u,v) repeats that of the
+   border: the wall has no area of its own in the texture. */
 static void add_walls(WrSolid *s, const Border *border, const int32_t *back, int32_t points)
 {
     for (int32_t a = 0; a < points; a++) {
@@ -982,7 +1010,8 @@ static bool add_caps(WrSolid *s, const Border *border, WrError *err)
 
 /* ---- the body ---- */
 
-static double wr_solid_volume(const WrSolid *solid)
+/* Divergence theorem: V = 1/6 sum over triangles of a . (b x c), positive if they are counter-clockwise seen from outside. */
+static double enclosed_volume(const WrSolid *solid)
 {
     double sum = 0.0;
     for (int32_t i = 0; i < solid->triangle_count; i++) {
@@ -995,7 +1024,7 @@ static double wr_solid_volume(const WrSolid *solid)
 /* For mirrored objects, and formulas whose normals point inwards. */
 static void turn_outwards(WrSolid *s)
 {
-    if (wr_solid_volume(s) >= 0.0) return;
+    if (enclosed_volume(s) >= 0.0) return;
     for (int32_t i = 0; i < s->triangle_count; i++) {
         const int32_t a = s->triangles[i][0];
         s->triangles[i][0] = s->triangles[i][1];
@@ -1070,6 +1099,7 @@ static bool entry(Out *out, WrError *err)
     return out->bytes.length + LINE < BLOCK || flush(out, err);
 }
 
+/* All binary formats here are little endian; bytes are shifted out, so that the host's order has no influence. */
 static void add_u32(Out *out, uint32_t x)
 {
     const char bytes[4] = { (char)(x & 255), (char)(x >> 8 & 255), (char)(x >> 16 & 255),
@@ -1099,6 +1129,8 @@ static WrVec3 normal_of(const WrSolid *s, const int32_t *t)
     return v3_unit(v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0])), (WrVec3){ 0, 0, 1 });
 }
 
+/* Binary STL: 80 bytes of header (must not start with "solid", the mark of the text form), a uint32 count, then 50 bytes per
+   triangle: normal and three corners as float32, two attribute bytes that are 0. STL has no shared points and no (u,v). */
 static bool write_stl(const WrSolid *s, Out *out, WrError *err)
 {
     char head[80] = WORDS;
@@ -1118,6 +1150,8 @@ static bool write_stl(const WrSolid *s, Out *out, WrError *err)
 
 /* ---- PLY ---- */
 
+/* Binary PLY: a text header, then float32 x y z per point, then per face a uchar 3 with three int32 numbers, and a uchar 6
+   with u v of the three corners: texture coordinates per corner (MeshLab's `texcoord`), since a seam's points have two. */
 static bool write_ply(const WrSolid *s, Out *out, WrError *err)
 {
     wr_text_addf(&out->bytes,
@@ -1155,7 +1189,8 @@ static void add_numbers(Out *out, const char *word, int count, const float *x)
 }
 
 /* A `vt` line is written when a corner's (u,v) differ from those that its point had last.
- * first: [2][points]: the corner with those, 3 times its triangle and its number, -1: none; then the number of their line. */
+   * first: [2][points]: the corner with those, 3 times its triangle and its number, -1: none; then the number of their line.
+   Numbers of v and vt start at 1 in OBJ. */
 static bool write_obj_faces(const WrSolid *s, int32_t *first, Out *out, WrError *err)
 {
     int32_t count = 0;
@@ -1255,7 +1290,10 @@ static double height_at(WrSolid *s, const WrSolidLocation *at)
 }
 
 /* Position of a point in the file, from its sights. With `back` at the lowest height, and `thickness` below
-   that. */
+   that.
+   A point seen from several faces or sides of a seam is displaced along all of its normals n_i: the d of least squares with
+   n_i . d = f. At the back, f is the lowest height, and `across` shifts the point by the thickness along the normals of the
+   scaled object (cofactor n, NUMERICS.md HC33). */
 static void solid_point_position(WrSolid *solid, const WrSolidLocation *locations, int count,
                                  bool back, float out[3])
 {
@@ -1423,7 +1461,7 @@ static void report(WrExportJob *job, const WrSolid *s)
         grow(&low, &high, (WrVec3){ s->points[i][0], s->points[i][1], s->points[i][2] });
     job->report.triangles = s->triangle_count;
     job->report.solid_error = s->worst;
-    job->report.solid_volume = wr_solid_volume(s);
+    job->report.solid_volume = enclosed_volume(s);
     job->report.solid_size[0] = high.x - low.x;
     job->report.solid_size[1] = high.y - low.y;
     job->report.solid_size[2] = high.z - low.z;

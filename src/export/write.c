@@ -83,6 +83,7 @@ static bool fail_by_system(const Strips *s, WrError *err)
     return wr_file_fail(s->target, wr_file_why(errno, why), err);
 }
 
+/* Raw numbers: row by row from the top, channels interleaved, no header; size and byte order are in the sidecar only. */
 static bool write_strip(const Strips *s, int y, int rows, WrError *err)
 {
     const size_t count = (size_t)rows * s->row;
@@ -91,6 +92,7 @@ static bool write_strip(const Strips *s, int y, int rows, WrError *err)
     return wr_file_put(s->target, s->bytes, count * s->each, err);
 }
 
+/* Strips are read back from the file, not from memory, and compared with rows that are computed again as floats. */
 static bool see_strip(const Strips *s, int y, int rows, WrError *err)
 {
     const size_t count = (size_t)rows * s->row, size = count * s->each;
@@ -191,7 +193,8 @@ static void tell(const WrExportJob *job, const char *sha256, WrText *text)
     add_labels(job, text);
 }
 
-/* Writes the description of the last written file, in the same group of files (base/file.h). */
+/* Writes the description of the last written file, in the same group of files (base/file.h). The group renames all its files
+   at the end, so the checksum is computed from the temporary file of the picture. */
 static bool export_sidecar(WrExportJob *job, const char *path, WrError *err)
 {
     WrText name = { 0 }, text = { 0 };
@@ -260,6 +263,8 @@ static double number_error(const WrExportJob *job, float have, float want, bool 
 {
     const WrExportReport *report = &job->report;
     const double should = clamp(report, want), error = fabs(decode(job, have) - should);
+    /* Bounds of one value: half precision rounds by 2^-11 of it, or 2^-25 in the subnormal range; codes by half a step, twice
+       that with dither, plus 2^-22 for the floats between. A plain float must be exact. */
     double bound = job->options.half ? fabs(should) * 0x1p-11 + 0x1p-25 : 0.0;
     if (report->ranged)
         bound =
@@ -271,7 +276,9 @@ static double number_error(const WrExportJob *job, float have, float want, bool 
 
 /* ---- normals ---- */
 
-/* Of the angle between two normals as n/2 + 1/2: the square of its sine, beyond 90 degrees 2 minus that. */
+/* Of the angle between two normals as n/2 + 1/2: the square of its sine, beyond 90 degrees 2 minus that.
+   The sine |a x b| / (|a| |b|) keeps all digits of small angles, which the cosine loses (HC20). Squares are compared, and only
+   the largest becomes an angle. */
 static double turned(const float *have, const float *want)
 {
     const double a[3] = { 2.0 * have[0] - 1, 2.0 * have[1] - 1, 2.0 * have[2] - 1 };
@@ -349,7 +356,8 @@ static void compare_piece(WrExportJob *job, int y, int rows, void *ctx)
     note(receipt, worst, bad_row);
 }
 
-/* The expected rows as floats; counters that they update are discarded. */
+/* The expected rows as floats; counters that they update are discarded. rows() runs a second time with depth 32: the expected
+   values do not pass through the encoder that is verified. */
 static float *wanted(const WrExportJob *job, int y, int rows)
 {
     WrExportJob plain = *job;
@@ -528,6 +536,8 @@ bool wr_export_write(WrExportJob *job, const char *path, WrError *err)
     WrImageOut out[WR_LEVELS_MAX];
     Above above[WR_LEVELS_MAX];
     WrLevels levels = { 0 };
+    /* `make` and `prepare` run before describe(): labels contain ranges and settings that they choose. Level k's rows refer
+       to above[k] and levels, which must outlive the write. */
     const char *names[WR_EXPORT_CHANNELS];
     for (int i = 0; i < WR_EXPORT_CHANNELS; i++) names[i] = job->channel_names[i];
     wr_free(job->map);

@@ -19,6 +19,7 @@ static double power_slope(double x, int n)
     return n > 0 ? n * power(x, n - 1) : 0.0;
 }
 
+/* F += a u^i v^j; F_u += a i u^(i-1) v^j; F_v += a j u^i v^(j-1). Neither is periodic: u and v are reduced to [0,1) first. */
 static void add_poly(const WrAnalyticTerm *term, double u, double v, double sum[3])
 {
     double pu = power(u, term->i), pv = power(v, term->j);
@@ -27,6 +28,8 @@ static void add_poly(const WrAnalyticTerm *term, double u, double v, double sum[
     sum[2] += term->a * (pu * power_slope(v, term->j));
 }
 
+/* F += a cos(2 pi i u + a_u) cos(2 pi j v + a_v), an exactly periodic term since i and j are integers; angles are in turns,
+   so that no multiple of pi is rounded. F_u = -2 pi i a sin() cos(), F_v = -2 pi j a cos() sin(). */
 static void add_fourier(const WrAnalyticTerm *term, double u, double v, double sum[3])
 {
     double sin_u, cos_u, sin_v, cos_v;
@@ -37,6 +40,7 @@ static void add_fourier(const WrAnalyticTerm *term, double u, double v, double s
     sum[2] -= term->a * (2.0 * WR_PI * term->j * (cos_u * sin_v));
 }
 
+/*   F| <= sum |a_k|, since u^i v^j and the products of cosines stay within -1..1 on [0,1)^2. */
 double wr_analytic_amplitude(const WrAnalytic *analytic)
 {
     double sum = 0;

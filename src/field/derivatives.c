@@ -14,11 +14,16 @@
 
 /* A scheme along one axis, in texels, for the taps -2 .. 2 about a centre: value and slope there, and
    the increase of each from half a texel before to half a texel after. `nearest` uses the slopes of
-   `central` at the centres, and so its second derivatives too. */
+   `central` at the centres, and so its second derivatives too. A stencil of F is the product of two of these: F_u = slope
+   along u x value along v. Tables of second derivatives use the difference of the slopes half a texel to either side, since
+   bilinear and central slopes have no derivative at the centres. */
 typedef struct Stencil {
     double value[TAPS], slope[TAPS], value_grows[TAPS], slope_grows[TAPS];
 } Stencil;
 
+/* Each row was derived by evaluating the scheme's basis at 0 (value, slope) and at +-1/2 (the increases). Example, the
+   uniform cubic B-spline: values 1/6 4/6 1/6, slopes -1/2 0 1/2; values at 1/2: 1/48 23/48 23/48 1/48 of taps -1..2, so the
+   increase is the difference of that row and its mirror image. */
 static const Stencil central = {
     { 0, 0, 1, 0, 0 }, { 0, -0.5, 0, 0.5, 0 }, { 0, -0.5, 0, 0.5, 0 }, { 0.25, 0, -0.5, 0, 0.25 }
 };
@@ -71,6 +76,8 @@ void wr_derivatives_row_free(WrDerivativesRow *row)
     *row = (WrDerivativesRow){ 0 };
 }
 
+/* wr_field_read extrapolates beyond clamped edges by a quadratic; maps instead repeat the edge texel, so a margin adds no
+   height that the table does not contain. */
 static int held(int at, int n, WrWrap wrap)
 {
     if (wrap == WR_WRAP_PERIODIC) return at;
@@ -93,6 +100,8 @@ void wr_derivatives_read_held(const WrField *field, int i, int j, int count, flo
     for (float *x = inner + (last - from) + 1; x < out + count; x++) *x = x[-1];
 }
 
+/* Taps are converted to double once. A fitted scheme reads its B-spline coefficients in double, since slopes are differences
+   of nearly equal taps (NUMERICS.md HC48). */
 static void read_taps(WrDerivativesBand *band)
 {
     const WrField *field = band->ground.field;
@@ -173,6 +182,7 @@ static void strip_of_table(const WrDerivatives *g, const double *at, ptrdiff_t d
                            const WrDerivativesRow *out)
 {
     const Stencil *st = stencil_of(g->scheme);
+    /* Scene units per texel: slopes are height * dF/dtexel / unit. The sign of q: rows run down, v up. */
     const double x = g->cell_w / wr_field_width(g->field);
     const double y = g->cell_h / wr_field_height(g->field);
     double line[STRIP + 2 * APRON];
@@ -192,6 +202,7 @@ static void strip_of_table(const WrDerivatives *g, const double *at, ptrdiff_t d
 /* Processes strips that fit the first-level cache. */
 static void row_of_table(const WrDerivativesBand *band, int j, const WrDerivativesRow *out)
 {
+    /* at[] is the tap of the row's first texel; at[k] and at[k * down] with k = -APRON..APRON are inside the band's apron. */
     const ptrdiff_t down = (ptrdiff_t)band->pitch;
     const double *at = band->taps + (j + APRON) * down + APRON;
     for (int x = 0; x < band->w; x += STRIP) {
@@ -238,6 +249,9 @@ void wr_derivatives_row(const WrDerivativesBand *band, int j, const WrDerivative
     else row_of_table(band, j, out);
 }
 
+/* Mean curvature of the graph z(x,y) with p = z_x, q = z_y, r = z_xx, s = z_xy, t = z_yy (Monge's notation):
+     H = ((1 + q^2) r - 2 p q s + (1 + p^2) t) / (2 (1 + p^2 + q^2)^(3/2)),
+   negated, so that ridges (r, t < 0) are positive. */
 double wr_derivatives_convexity(double p, double q, double r, double s, double t)
 {
     const double n2 = 1 + p * p + q * q;

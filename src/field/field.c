@@ -44,6 +44,7 @@ struct WrField {
     float level;
     int depth;     /* levels of nodes above the tiles, 1..3 */
     Counted *root; /* NULL: every texel is `level` */
+    /* Changes with each write; shares keep it, so that equal keys mean equal texels. */
     uint64_t key;
 };
 
@@ -82,7 +83,8 @@ static void release(Counted *thing, int depth)
     wr_free(thing);
 }
 
-/* Acquire: reads by a former sharer happen before our writes. */
+/* Acquire: reads by a former sharer happen before our writes. A count of 1 cannot rise meanwhile: only holders of a reference
+   can share, and this table's writer is the only holder. */
 static bool is_ours(Counted *thing)
 {
     return thing && atomic_load_explicit(&thing->refs, memory_order_acquire) == 1;
@@ -135,7 +137,8 @@ static Tile *own_tile(Counted **slot, float level)
     return tile;
 }
 
-/* Index of tile (tx, ty) in a node that has `below` levels of nodes under it. */
+/* Index of tile (tx, ty) in a node that has `below` levels of nodes under it. 3 bits of tx and ty select the child on each
+   level, the highest bits at the root. */
 static int child_of(int tx, int ty, int below)
 {
     int shift = FAN_BITS * below, mask = FAN - 1;
@@ -241,6 +244,7 @@ float *wr_field_tile_write(WrField *field, int tx, int ty)
     return own_tile(own_slot(field, tx, ty), field->level)->texels;
 }
 
+/* Like wr_field_tile_write, but the caller overwrites every texel: a shared tile is not copied first. */
 float *wr_field_tile_fresh(WrField *field, int tx, int ty)
 {
     Counted **slot = own_slot(field, tx, ty);
@@ -366,7 +370,9 @@ void wr_field_tile_share(WrField *to, const WrField *from, int tx, int ty)
     *slot = shared;
 }
 
-/* The hash covers only the used texels: their common height, or their bytes. */
+/* The hash covers only the used texels: their common height, or their bytes. A flat tile and an absent one of the same level
+   have equal hashes, so that the hash depends on heights, not on the history of edits. Texels beyond the table's edge in the
+   last tiles are undefined and stay out. */
 static WrHash hash_tile(const float *texels, int count_i, int count_j)
 {
     bool flat = true;
@@ -381,6 +387,8 @@ static WrHash hash_tile(const float *texels, int count_i, int count_j)
     return wr_hash_bytes(packed, sizeof *packed * (size_t)(count_i * count_j), (WrHash){ 2, 0 });
 }
 
+/* Two-level: a hash for each tile, and a chain over rows of tiles from the top. Journals and tests compare the result between
+   runs and machines: neither order nor seeds may change. */
 WrHash wr_field_hash(const WrField *field)
 {
     int32_t head[4] = { field->width, field->height, (int32_t)field->wrap_u,
@@ -443,6 +451,7 @@ void wr_field_range(const WrField *field, float *low, float *high)
 {
     Survey s = { .field = field, .low = FLT_MAX, .high = -FLT_MAX, .heights = true };
     survey(&s, field->root, field->depth, 0, 0);
+    /* The walk visits existing tiles only; if one is absent, the level is a height of the table, too. */
     if (s.tiles < (int64_t)wr_field_tiles_u(field) * wr_field_tiles_v(field)) {
         s.low = field->level < s.low ? field->level : s.low;
         s.high = field->level > s.high ? field->level : s.high;
@@ -537,7 +546,8 @@ static float beyond(float t0, float t1, float t2, double x)
 }
 
 /* Position of index i outside a clamped axis of n texels, as a coordinate that runs inwards from the
- * nearer end: -1 is the first missing texel. *end is that end's index, *step points inwards. */
+   * nearer end: -1 is the first missing texel. *end is that end's index, *step points inwards. step 0: tables narrower than 3
+   have no quadratic, so all three taps are the edge texel and the extension is constant. */
 static double outside(int64_t i, int n, int *end, int *step)
 {
     *end = i < 0 ? 0 : n - 1;

@@ -60,7 +60,9 @@ ALWAYS void put(Vec sum, const float *from, bool adds, float *out)
     store(out, adds ? load(from) + sum : sum);
 }
 
-/* One vector of one element. */
+/* One vector of one element. A symmetric filter in difference form, out = c + sum over k of w[k] (c[-k] + c[k] - 2 c): a flat
+   run changes by exactly 0, however the weights are rounded, and small heights on a large offset keep their digits
+   (NUMERICS.md HC47, HC48). */
 ALWAYS void one(const float *weight, int reach, const float *c, ptrdiff_t step, bool adds,
                 float *out)
 {
@@ -97,6 +99,8 @@ ALWAYS void four(const float *weight, int reach, const float *c, ptrdiff_t step,
     put(s3, c + 3 * step, adds, out + 3 * to);
 }
 
+/* WR_TAPS_LANES independent lines lie side by side: element j of line i is at c[j * step + i]. c has `reach` elements of
+   margin on both sides. */
 ALWAYS void filter(const float *weight, int reach, const float *c, ptrdiff_t step, int count,
                    bool adds, float *out, ptrdiff_t to)
 {
@@ -163,6 +167,9 @@ static void turn(const float *in, ptrdiff_t pitch, float *out, ptrdiff_t out_pit
 #define ROUNDER 0x1.8p52
 #define SIDE_BY_SIDE WR_BOX_LANES
 
+/* A running box sum of width 2 r + 1 plus two end taps of weight `end` (0..1), divided by their total: a box of fractional
+   width, Gwosdz and others 2011 (extended box filter). Heights are integer steps in doubles, so that adding the entering and
+   removing the leaving element is exact: the running sum has no drift, and the result does not depend on the starting point. */
 static void box(const WrBox *b, const double *restrict in, int count, double *restrict out)
 {
     double sum[SIDE_BY_SIDE] = { 0 }, end = b->end, inverse = b->inverse;

@@ -53,6 +53,8 @@ static void derive_piece(int index, int worker, void *ctx)
     Making *m = ctx;
     const WrMapPart *part = m->part;
     const int y = index * ROWS, rows = part->h - y < ROWS ? part->h - y : ROWS;
+    /* One band of rows with its apron is read per piece: neighbouring pieces read overlapping texels instead of sharing them,
+       which needs no locks. Each result depends on its own stencil only, so any number of threads makes the same bytes. */
     int64_t replaced = 0;
     WrDerivativesRow row = wr_derivatives_row_new(part->w, m->bends);
     WrDerivativesBand *band =
@@ -87,6 +89,7 @@ static void curvature(const WrMapJob *job, const WrDerivativesRow *row, int coun
         out[i] = wr_derivatives_convexity(row->p[i], row->q[i], row->r[i], row->s[i], row->t[i]);
 }
 
+/* Angle between the normal and the vertical: atan |grad F|, in degrees. */
 static void slope(const WrMapJob *job, const WrDerivativesRow *row, int count, double *out)
 {
     (void)job;
@@ -96,7 +99,7 @@ static void slope(const WrMapJob *job, const WrDerivativesRow *row, int count, d
     }
 }
 
-/* 360 degrees wraps to 0, also if only rounding to float produced it. */
+/* 360 degrees wraps to 0, also if only rounding to float produced it. Downhill is -grad F, hence atan2(-q, -p). */
 static void direction(const WrMapJob *job, const WrDerivativesRow *row, int count, double *out)
 {
     (void)job;
@@ -168,6 +171,8 @@ static WrOcclusion occlusion_of(const WrMapJob *job)
                           job->reach };
 }
 
+/* Occlusion is relative to each texel's own tilted hemisphere: the slopes p, q are made first, [part->h][part->pitch] as the
+   map. */
 static bool make_occlusion(const WrMapJob *job, const WrMapPart *part, WrPool *pool, float *out,
                            int64_t *replaced, WrError *err)
 {
@@ -199,6 +204,7 @@ static WrField *cut_out(const WrField *field, const WrMapPart *part, int more, W
     return cut;
 }
 
+/* Margin of the Gaussian: the tails beyond 4 sigma hold erfc(4 / sqrt 2) = 6e-5 of its mass. */
 static int blurred(const WrMapJob *job)
 {
     return (int)ceil(4 * job->sigma) + 2;
@@ -260,6 +266,9 @@ static void sum_row(const WrDerivativesRow *row, int box, int count, const Sums 
     }
 }
 
+/* Beckmann roughness of the slopes in a box. The variance of p is E[p^2] - E[p]^2, clamped at 0 against cancellation (HC93), and
+   so is that of q. Beckmann's alpha^2 is twice the variance of the slope along one axis, here var p + var q, and variances of
+   independent slopes add (LEAN): alpha = sqrt(base^2 + var p + var q). The map stores its root, the roughness of glTF. */
 static double rough_of(const WrMapJob *job, const Sums *sums, int i, int j)
 {
     const double n = (double)job->box * job->box;
@@ -324,7 +333,8 @@ static bool make_roughness(const WrMapJob *job, const WrMapPart *part, WrPool *p
 
 /* ---- the table of maps --------------------------------------------------------------------------- */
 
-/* Support of the slopes, including their spline coefficients. */
+/* Support of the slopes, including their spline coefficients. Functions of_NAME return the margin in texels that a map reads
+   beyond a part, -1: the whole table. A partial update after an edit enlarges the edited rectangle by it. */
 static int of_slopes(const WrMapJob *job)
 {
     return 1 + (wr_schemes[job->ground.scheme].taps == WR_TAPS_FITTED ? WR_PREFILTER_REACH : 0);

@@ -4,6 +4,10 @@
 
 #include <math.h>
 
+/* Monotone cubic interpolation of Fritsch and Carlson (1980). Between points i and i+1, with h = x[i+1] - x[i], s = x - x[i],
+   chord d = (y[i+1] - y[i]) / h and end slopes m0, m1, the cubic is
+     y[i] + m0 s + (3 d - 2 m0 - m1) s^2 / h + (m0 + m1 - 2 d) s^3 / h^2
+   With a = m0 / d and b = m1 / d it is monotone on the interval if a, b >= 0 and a^2 + b^2 <= 9. */
 static double chord(const WrCurve *c, int i)
 {
     return (c->y[i + 1] - c->y[i]) / (c->x[i + 1] - c->x[i]);
@@ -18,6 +22,7 @@ static bool check(const double *points, int count, WrError *err)
         if (!(p[2] > p[0]))
             return wr_fail(err, "point %d at %g stands after one at %g: they must rise", i + 1,
                            p[2], p[0]);
+        /* Two points an ulp apart with distant heights would make an infinite chord, and NaN in all products with it. */
         if (!isfinite((p[3] - p[1]) / (p[2] - p[0])))
             return wr_fail(err, "points %d and %d are too steep", i, i + 1);
     }
@@ -32,13 +37,19 @@ bool wr_curve_make(const double *points, int count, WrCurve *curve, WrError *err
         curve->x[i] = points[2 * i];
         curve->y[i] = points[2 * i + 1];
     }
+    /* Outer slopes are the outer chords, so a curve of two points is the straight line through them, and extrapolation
+       continues it. */
     curve->slope[0] = chord(curve, 0);
     curve->slope[count - 1] = chord(curve, count - 2);
+    /* Inner slopes start as the mean of both chords; at a local extremum the slope must be 0, or the curve would overshoot
+       the point. Halving each chord first avoids an overflow of the sum. */
     for (int i = 1; i < count - 1; i++) {
         const double left = chord(curve, i - 1), right = chord(curve, i);
         const bool turns = !((left > 0.0 && right > 0.0) || (left < 0.0 && right < 0.0));
         curve->slope[i] = turns ? 0.0 : 0.5 * left + 0.5 * right;
     }
+    /* One pass suffices: intervals are scaled onto the circle a^2 + b^2 = 9 from left to right. Shrinking the shared slope
+       i+1 for the next interval also shrinks b of this one, which therefore stays inside the circle. */
     for (int i = 0; i < count - 1; i++) {
         const double d = chord(curve, i);
         if (d == 0.0) {
@@ -63,6 +74,7 @@ double wr_curve_at(const WrCurve *c, double x)
     while (x >= c->x[i + 1]) i++;
     const double h = c->x[i + 1] - c->x[i], s = x - c->x[i], d = chord(c, i);
     const double m0 = c->slope[i], m1 = c->slope[i + 1];
+    /* Horner's form in s about the left point, so that a point's own height is returned exactly. */
     return c->y[i] +
            s * (m0 + s * ((3.0 * d - 2.0 * m0 - m1) / h + s * (m0 + m1 - 2.0 * d) / (h * h)));
 }

@@ -13,7 +13,8 @@
 
 /* ---- values as text ---- */
 
-/* Number of values of parameter k, which start at value[k]. */
+/* Number of values of parameter k, which start at value[k]. param[] of a filter is a flat list of doubles in the order of the
+   row's parameters. A list of points is always the last one: its count, then x y x y ... */
 static int numbers_of(const WrOpInfo *op, int k, const double *value)
 {
     return op->params[k].points ? 1 + 2 * (int)value[k] : 1;
@@ -91,6 +92,8 @@ bool wr_filter_check(const WrFilter *filter, WrError *err)
     if (op->reshapes)
         return wr_fail(err, "%s changes the table's size or edges: it cannot be a filter layer",
                        op->name);
+    /* The operation runs on a table of one texel: checks of parameters together (a curve's points must rise) are in the
+       operations, and this reaches them without repeating them. */
     WrField *texel = wr_field_new(1, 1, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.0f, err);
     WrField *made = texel ? wr_op_run(op, texel, filter->param, NULL, err) : NULL;
     wr_field_free(texel);
@@ -511,6 +514,7 @@ WrField *wr_op_run(const WrOpInfo *op, const WrField *in, const double *param,
     return op->run(&job, param);
 }
 
+/* Selections are tables of 0..1: an operation that overshoots (lanczos, sharpen) is clamped afterwards. */
 WrField *wr_op_run_unit(const WrOpInfo *op, const WrField *in, const double *param,
                         const WrOpOptions *options, WrError *err)
 {

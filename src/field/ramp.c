@@ -62,6 +62,10 @@ static double mirrored(const Axis *axis, double e)
     return e < -0.25 * axis->size ? -0.5 * axis->size - e : e;
 }
 
+/* Projection on the direction d = to - from: t = e . d / |d|^2, with e the texel's position relative to `from`. On a periodic
+   axis the image of the texel nearest to the middle of the path is used, so the jump lies opposite to the path. Folded, each
+   axis rises and falls by itself: t = (a d_u^2 + b d_v^2) / |d|^2 with round trips a, b in 0..1. On the path a = e_u / d_u
+   and b = e_v / d_v, hence the same t; unlike the projection it is continuous and periodic on each axis. */
 static double linear(const Ramping *r, double ex, double ey)
 {
     const Axis *u = &r->u, *v = &r->v;
@@ -73,6 +77,7 @@ static double linear(const Ramping *r, double ex, double ey)
     return unit((ex * u->way + ey * v->way) / r->length2);
 }
 
+/* t = |e| / |d|; folded, 2 - t beyond the end point, so that the cone returns to `low` at twice its radius. */
 static double radial(const Ramping *r, double ex, double ey)
 {
     ex = nearest(&r->u, ex, 0.0);
@@ -81,6 +86,8 @@ static double radial(const Ramping *r, double ex, double ey)
     return unit(r->ramp.fold && t > 1.0 ? 2.0 - t : t);
 }
 
+/* t = angle from d to e in turns, from atan2(d x e, d . e). Folded, both half turns rise, so there is no jump along d;
+   mirroring at a quarter of the table removes the kink of the direction field at the seam. */
 static double cone(const Ramping *r, double ex, double ey)
 {
     const Axis *u = &r->u, *v = &r->v;
@@ -102,6 +109,7 @@ static float height_at(const Ramping *r, double ex, double ey)
     case WR_RAMP_RADIAL: t = radial(r, ex, ey); break;
     default: t = cone(r, ex, ey); break;
     }
+    /* low + 1 (high - low) can differ from high by rounding; the end of a ramp must be exact. */
     return (float)(t >= 1.0 ? high : low + t * (high - low));
 }
 
@@ -110,6 +118,7 @@ static bool make_rows(void *ctx, int worker, int j, int rows, float *out)
     const Ramping *r = ctx;
     (void)worker;
     for (int y = 0; y < rows; y++) {
+        /* Rows run down from the top, v upwards: texel centres are at v = 1 - (row + 0.5) / height. */
         double ey = (r->v.size - (j + y + 0.5)) - r->v.from;
         for (int i = 0; i < r->width; i++)
             out[(size_t)y * (size_t)r->width + (size_t)i] = height_at(r, (i + 0.5) - r->u.from, ey);

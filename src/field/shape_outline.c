@@ -98,11 +98,14 @@ bool wr_shape_outline_rectangle(const WrField *like, WrSelectPoint a, WrSelectPo
     double width = wr_field_width(like), height = wr_field_height(like);
     double x = 0.5 * width * fabs(b.u - a.u), y = 0.5 * height * fabs(b.v - a.v);
     Turn turn = turn_about(like, 0.5 * width * (a.u + b.u), 0.5 * height * (a.v + b.v), turn_deg);
+    /* A corner radius above half of a side is limited to it: the two quarter circles then meet. */
     double r = corner < x ? corner : x;
     if (r > y) r = y;
     int steps = (circle_steps(r, tolerance) + 3) / 4;
     Points points = { 0 };
     static const int sign[4][2] = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } };
+    /* Corners counter-clockwise from the lower left; quarter k of the circle starts at (k + 2) / 4 turns there, so that the
+       arc leaves one side and joins the next. */
     for (int k = 0; k < 4; k++) {
         double cx = sign[k][0] * (x - r), cy = sign[k][1] * (y - r);
         if (r > 0.0) add_quarter(&points, &turn, cx, cy, r, (k + 2) % 4, steps);
@@ -190,6 +193,9 @@ bool wr_shape_outline_path(const WrField *like, const WrSelectPoint *points, int
     wr_array_push(&made, points[0]);
     for (int k = 0; k + 3 < count; k += 3) {
         const WrSelectPoint *p = points + k;
+        /* B''(t) = 6 ((1 - t) D0 + t D1) with second differences D0, D1 of the control points, hence |B''| <= 6 max(|D0|,
+           |D1|). A chord over an interval h deviates by at most |B''| h^2 / 8, so n steps with n^2 >= 6 max / (8 tolerance)
+           are within tolerance. */
         double a = second_difference(like, p), b = second_difference(like, p + 1);
         double steps = ceil(sqrt(6.0 * (a > b ? a : b) / (8.0 * tolerance)));
         if (steps < 1.0) steps = 1.0;
@@ -197,6 +203,7 @@ bool wr_shape_outline_path(const WrField *like, const WrSelectPoint *points, int
             wr_array_free(&made);
             return wr_fail(err, "a path of more than %d pieces", WR_SHAPE_OUTLINE_POINTS);
         }
+        /* The end point is copied, not evaluated: consecutive pieces share it bit for bit. */
         for (int i = 1; i < steps; i++) wr_array_push(&made, on_curve(p, i / steps));
         wr_array_push(&made, p[3]);
     }

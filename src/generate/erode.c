@@ -17,6 +17,13 @@ static bool erode_end(WrSheet *sheet, const WrGenerateJob *job, bool good, WrRel
 /* Reads the table of a job into a sheet; at lower resolution for a coarse preview. */
 static bool erode_begin(WrSheet *sheet, const WrGenerateJob *job, WrError *err);
 
+/* Drops that follow the slope, after Beyer 2015 (Implementation of a method for hydraulic erosion). Each step of one texel:
+     d' = unit(inertia d - (1 - inertia) grad z)      direction
+     can = max(fall, LEAST_SLOPE) speed water capacity   load that it can carry
+     load > can: deposits deposition (load - can); else erodes erosion (can - load), at most the fall
+     speed' = sqrt(speed^2 + GRAVITY fall), water' = (1 - evaporation) water
+   A drop runs RUN texels of a grid at most: valleys longer than that are cut on coarser grids first, whose change is added
+   here. */
 /* ---- water ---- */
 
 #define RADIUS_MAX 16
@@ -65,6 +72,7 @@ typedef struct Drop {
     double speed, water, load; /* load: table units of one texel */
 } Drop;
 
+/* Weights fall linearly from the middle to radius + 1/2 and sum to 1, so that the mass taken equals the mass loaded. */
 static void make_brush(Brush *brush, int radius)
 {
     double sum = 0.0;
@@ -178,6 +186,7 @@ static bool bring_back(double *x, int n, WrWrap wrap)
 static inline bool turn(const Weather *w, const Corners *c, Drop *d)
 {
     double p = *c->at[0], q = *c->at[1], r = *c->at[2], t = *c->at[3];
+    /* The gradient of the bilinear interpolation: differences along one axis, interpolated along the other. */
     double zx = (q - p) * (1.0 - c->b) + (t - r) * c->b;
     double zy = (r - p) * (1.0 - c->a) + (t - q) * c->a;
     double inertia = w->rain->inertia;
@@ -230,6 +239,7 @@ static inline bool step(const Weather *w, Drop *d, double fade)
     return d->speed > 0.0 && d->water > 0.01;
 }
 
+/* A hash of tile, number and level, not a generator with a state: a drop does not depend on the drops before it. */
 static double chance(const Weather *w, uint32_t tile, uint32_t drop, uint32_t use)
 {
     uint32_t place = wr_mix32(tile * 64U + (uint32_t)w->level) ^ (drop * 2U + use);
@@ -331,7 +341,8 @@ static void set_weather(Weather *w, WrSheet *sheet, const WrRain *rain, int leve
     make_brush(&w->brush, rain->radius);
 }
 
-/* Adds the difference of `small` and `before` to sheet; the sum of heights is preserved. */
+/* Adds the difference of `small` and `before` to sheet; the sum of heights is preserved. Only the change is enlarged: details
+   of the fine grid remain, and an interpolated change has no steps. */
 static bool add_change(WrSheet *sheet, WrSheet *small, const WrSheet *before,
                        const WrGenerateJob *job, WrError *err)
 {
@@ -446,6 +457,8 @@ static int64_t neighbour(const WrSheet *s, int i, int j, int k)
     return x == i && y == j ? -1 : (int64_t)y * s->width + x;
 }
 
+/* Musgrave's thermal erosion: material above the angle of rest, d = z - z_k - hold_k > 0, flows to the lower neighbours in
+   proportion to d; the total is rate max(d) / 2, since moving half of the excess levels it. */
 static void weigh_rows(const void *ctx, int first, int end)
 {
     const Round *r = ctx;
@@ -464,7 +477,8 @@ static void weigh_rows(const void *ctx, int first, int end)
         }
 }
 
-/* Both ends of a flow compute it from the same numbers. */
+/* Both ends of a flow compute it from the same numbers. So mass is preserved, and texels can be processed in parallel: `from`
+   is read, `to` written, no texel is written twice. */
 static void flow_rows(const void *ctx, int first, int end)
 {
     const Round *r = ctx;

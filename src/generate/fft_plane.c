@@ -148,7 +148,10 @@ bool wr_plane_turned_slope(const WrPlane *plane, int axis, WrSlopes slopes, WrEr
     return wr_plane_lines(plane, axis, turn_slope, &turned, err);
 }
 
-/* D^T D for the function of frequency k. Exactly 0 where the slope is 0. */
+/* D^T D for the function of frequency k. Exactly 0 where the slope is 0.
+     smooth   w^2
+     central  sin^2(2 pi k / n)
+     step     4 sin^2(pi k / n) on a ring, 4 sin^2(pi k / 2 n) for free ends, where the transform is a cosine transform */
 static double stiffness(WrSlopes slopes, WrEnds ends, int k, int n)
 {
     double sine, cosine, turns = ends == WR_ENDS_RING ? (double)k / n : 0.5 * k / n;
@@ -183,6 +186,8 @@ static bool unseen(WrSlopes slopes, const double *stiffness, int k, double other
     return slopes == WR_SLOPES_SMOOTH || other < stiffness[1];
 }
 
+/* Both operators are diagonal in the transform of each axis: z(k,l) = rhs(k,l) / (s_u(k) + s_v(l)). The mean (k = l = 0) is
+   not determined by slopes and becomes 0. */
 bool wr_plane_solve(const WrPlane *plane, const WrSlopes slopes[2], WrError *err)
 {
     double *u = stiffnesses(plane, 0, slopes[0], err), *v = stiffnesses(plane, 1, slopes[1], err);

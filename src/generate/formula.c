@@ -40,6 +40,7 @@ static const WrParam fourier_params[] = {
     WR_P_END
 };
 
+/* Formulas are sampled at texel centres, u = (i + 1/2) / W and v = 1 - (j + 1/2) / H with rows from the top. */
 static void fill(const void *ctx, const WrGenerateBlock *b, int worker, float *heights,
                  float *cover)
 {

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <string.h>
 
+/* Order of menus and help. `beyond`: the heights continue outside the selection, since the generator uses it as its shape. */
 const WrFamily wr_families[] = {
     { .name = "pattern",
       .label = "Patterns",

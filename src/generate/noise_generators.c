@@ -105,7 +105,8 @@ static Described describe(const WrGenerator *row, const WrParamValue *values)
     return d;
 }
 
-/* Number of cells across and up; in depth as across. */
+/* Number of cells across and up; in depth as across. Lattice counts are whole numbers, so that every octave tiles; rows = 0
+   makes cells as square as that permits. */
 static void count_cells(const Described *d, const char *name, int width, int height,
                         double cells[WR_NOISE_AXES])
 {
@@ -142,6 +143,8 @@ static WrOctaves octaves_of(const Described *d, int width, int height)
     return o;
 }
 
+/* Domain warp: f(x + warp w(x)) with one independent noise w per axis, in units of the first octave's cells. Two octaves are
+   enough for a displacement, and both tile, so the sum does. */
 static bool plan_warp(const Described *d, WrOctaves octaves, const int *texels, int width,
                       int height, WrNoiseMaker *maker, WrError *err)
 {

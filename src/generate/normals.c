@@ -231,6 +231,8 @@ bool wr_picture_normals(const WrParamValue *values, const WrGenerateJob *job, Wr
 
 /* ---- decoding ---- */
 
+/* Integer codes: (2 k - last) / last with the code k recovered exactly, so that the two codes next to the middle, 127 and 128
+   of 255, both mean 0: a flat 8-bit map is level instead of tilted by 0.32 degrees (NUMERICS.md L3). */
 static double axis_of(double c, double most, bool as_is)
 {
     if (as_is) return c;
@@ -252,6 +254,7 @@ static void decode_texel(const WrImage *image, const float *pixel, bool as_is, s
     double most = wr_pixel_last(image->type), z;
     double x = axis_of((double)pixel[0], most, as_is), y = axis_of((double)pixel[1], most, as_is);
     if (image->channels == 2) {
+        /* Two channels hold x and y of a unit vector; z is the positive root (BC5 and similar formats). */
         double rest = 1.0 - x * x - y * y;
         z = rest > 0.0 ? sqrt(rest) : 0.0;
     } else {
@@ -262,6 +265,7 @@ static void decode_texel(const WrImage *image, const float *pixel, bool as_is, s
         return;
     }
     bool steep = false;
+    /* n is parallel to (-F_x, -F_y, 1). p is the slope to the right, q the slope downwards along rows, hence the sign of y. */
     out->p[k] = limited(-x / z, &steep);
     out->q[k] = limited(y / z, &steep);
     out->steep += steep;
@@ -329,6 +333,8 @@ void wr_normals_fini(WrNormals *normals)
     *normals = (WrNormals){ .p = NULL };
 }
 
+/* Slopes of a height field have equal mixed derivatives, p_y = q_x. The correlation of the two over the map is near +1 if the
+   sign of green is right and near -1 if it is reversed. */
 double wr_normals_upward(const WrNormals *n)
 {
     double both = 0.0, along = 0.0, across = 0.0;
@@ -355,7 +361,9 @@ void wr_normals_flip(WrNormals *n)
 /* ---- integration ---- */
 
 /* Converts slopes at texels to steps between them: the integral of the cubic through four texels, or of
- * the parabola through the last three. */
+   * the parabola through the last three. Open axes have no periodic differentiation by FFT: the step F(i+1) - F(i) is the
+   integral of the interpolated slope over one texel, (-p(i-1) + 13 p(i) + 13 p(i+1) - p(i+2)) / 24 for the cubic, (5 p(i) + 8
+   p(i+1) - p(i+2)) / 12 at an end. */
 static void steps_of_line(const void *ctx, const WrFft *fft, double *a, double *b, double *scratch)
 {
     (void)fft;
@@ -494,6 +502,9 @@ static void add_row(Work *w, int j, size_t k, size_t end)
     for (; k < end; k++) w->plane.z[k] = w->have[0][k] + w->have[1][k];
 }
 
+/* Least squares: the heights z that minimise |Du z - p|^2 + |Dv z - q|^2 satisfy (Du^T Du + Dv^T Dv) z = Du^T p + Dv^T q
+   (Frankot and Chellappa 1988, with the operators D of the slope definition at hand). The transposes are applied here; the
+   sum is solved by FFT along each axis in wr_plane_solve. */
 static bool solve(Work *w, double *z, WrError *err)
 {
     for (int a = 0; a < 2; a++) {
@@ -506,6 +517,7 @@ static bool solve(Work *w, double *z, WrError *err)
     return each_row(w, add_row, err) && wr_plane_solve(&w->plane, w->slopes, err);
 }
 
+/* On a ring the mean slope is not the gradient of any periodic height: it is reported as the tilt that was left out. */
 static bool compare(Work *w, const double *z, WrIntegral *how, WrError *err)
 {
     for (int a = 0; a < 2; a++) {

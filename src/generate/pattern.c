@@ -21,7 +21,9 @@ static double wrapped(double x, double size)
     return x < 0.0 ? x + size : x >= size ? x - size : x;
 }
 
-/* The mean over one texel, summed in a fixed order. */
+/* The mean over one texel, summed in a fixed order. Samples lie at (a + 1/2) / n - 1/2 texels from the centre: an n x n box
+   filter for patterns with edges that have no closed-form filter. wr_edge already filters straight edges, so most patterns
+   take one sample. */
 static double texel(const Drawing *d, double x, double y)
 {
     int n = d->samples;
@@ -94,6 +96,7 @@ WrCells wr_cells_along(const WrParams *params, const WrField *like)
     return turned;
 }
 
+/* 24 bits of an integer hash: the quotient is exact in float and double, so all builds agree (HC66). */
 double wr_chance(uint32_t seed, int i, int j, int use)
 {
     const uint32_t c[3] = { (uint32_t)i, (uint32_t)j, (uint32_t)use };
@@ -158,6 +161,9 @@ double wr_piece_roughness(const WrNoise grain[2], const WrPieces *pieces, double
     return sum;
 }
 
+/* Height of one piece at the point (px, py), -1..1 within it, d texels inside its edge:
+     edge(d) (1 - uneven c0 + tilt (c1 px + c2 py) - pillow (px^2 + py^2) / 2 + rough n / 2)
+   with random c of the piece (i, j) and noise n. At least 0.05 remains, so that joints are the lowest places. */
 double wr_piece(const WrPieces *p, double d, double px, double py, int i, int j, double x, double y)
 {
     double e = wr_edge(&p->edge, d);

@@ -131,7 +131,9 @@ typedef struct Nearest {
     int i, j, second_i, second_j; /* their cells, not reduced */
 } Nearest;
 
-/* A point two cells away can be the nearest one, but none farther. */
+/* Each cell holds one point. Points outside of the 5 x 5 cells about the sample's are at least 2 cells away. In all three
+   metrics the point of the sample's own cell is at most 2 away, and so is that of the adjacent cell on its nearer side: the
+   nearest and the second nearest are found. */
 static Nearest find_nearest(const Points *p, Metric metric, double u, double v)
 {
     Nearest n = { .first = INFINITY, .second = INFINITY };

@@ -45,6 +45,7 @@ static bool warp_on_top(Draft draft, int i, int j)
     case PLAIN: return wr_modulo(i + j, 2) == 0;
     case TWILL: return wr_modulo(i + j, 4) < 2;
     case BASKET: return wr_modulo(i >> 1, 2) == wr_modulo(j >> 1, 2);
+    /* A 5-end satin moves by 2 threads per row: no two binding points touch, unlike in a twill, which moves by 1. */
     case SATIN: return wr_modulo(i + 2 * j, 5) == 0;
     }
     return false;

@@ -18,7 +18,9 @@ static double circle_area(double s)
     return 0.5 * (s * sqrt(1.0 - s * s) + wr_asin(s));
 }
 
-/* The integral of the profile from the edge to t bevels inside, t in 0..1, in bevels. */
+/* The integral of the profile from the edge to t bevels inside, t in 0..1, in bevels.
+     round    sqrt(1 - (1 - t)^2)      smooth   3 t^2 - 2 t^3
+     chamfer  t                        cove     1 - sqrt(1 - t^2) */
 static double profile_area(WrProfile profile, double t)
 {
     switch (profile) {
@@ -38,6 +40,8 @@ static double area(const WrEdge *edge, double d)
     return edge->bevel * profile_area(edge->profile, d / edge->bevel);
 }
 
+/* Profile h(d) of the distance d inside the edge, filtered by a box of one texel: the integral of h from d - 1/2 to d + 1/2,
+   as a difference of antiderivatives. Exact for straight edges along an axis, and free of steps for all others. */
 double wr_edge(const WrEdge *edge, double d)
 {
     if (d <= -0.5) return 0.0;
@@ -50,6 +54,8 @@ double wr_inside_box(double dx, double dy, double half_x, double half_y, double 
     double least = half_x < half_y ? half_x : half_y;
     double r = corner < least ? corner : least > 0.0 ? least : 0.0;
     double qx = fabs(dx) - half_x + r, qy = fabs(dy) - half_y + r;
+    /* Signed distance to the border of a rounded box, positive inside: outside of the corner's quadrant the nearer side
+       counts, in it the circle about (half_x - r, half_y - r). */
     if (qx <= 0.0 || qy <= 0.0) return r - (qx > qy ? qx : qy);
     return r - sqrt(qx * qx + qy * qy);
 }

@@ -110,6 +110,7 @@ static bool read_direction(const WrParams *params, const char *name, Lines *l,
     return true;
 }
 
+/* a and b whole: the phase changes by whole numbers across the table, so that stripes in this direction close. */
 static double phase_at(const Lines *l, double x, double y)
 {
     return l->a * (x / l->cells.width) + l->b * (y / l->cells.height);
@@ -208,6 +209,8 @@ bool wr_pattern_waves(const WrParamValue *values, const WrGenerateJob *job, WrRe
                 .swings = wr_param_whole(&params, "swings"),
                 .sway = wr_param_number(&params, "sway") };
     if (!read_direction(&params, "waves", &w.lines, job, err)) return false;
+    /* The direction along the crests is perpendicular in (a, b): (-b, a) / gcd are the smallest whole numbers, so that the
+       swings close, too. */
     int divisor = common_divisor((int)w.lines.a, (int)w.lines.b);
     w.along_u = -w.lines.b / divisor;
     w.along_v = w.lines.a / divisor;
@@ -236,6 +239,8 @@ static double knurl_at(const void *ctx, double x, double y)
     double p = k->lines.a * (x / k->lines.cells.width),
            q = k->lines.b * (y / k->lines.cells.height);
     double one = 2.0 * to_whole(p + q), two = 2.0 * to_whole(p - q);
+    /* The minimum of two triangle waves is a field of pyramids; their tops are cut off at `top`, their valleys filled up to
+       `low`. */
     double h = one < two ? one : two, top = 1.0 - k->flat;
     double low = k->valley * top;
     if (h >= top) return 1.0;

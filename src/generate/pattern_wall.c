@@ -47,7 +47,8 @@ typedef struct Bricks {
     WrNoise stray_x[2], stray_y[2];
 } Bricks;
 
-/* One brick of a row: its start and length, in whole bricks, including the joint. */
+/* One brick of a row: its start and length, in whole bricks, including the joint. English bond: rows of stretchers and of
+   headers (half bricks) in turn. Flemish: stretchers of 2/3 and headers of 1/3 in each row. */
 static void find_brick(const Bricks *b, int row, double place, double *begin, double *length)
 {
     double cell = floor(place), part = place - cell;
@@ -63,6 +64,7 @@ static void find_brick(const Bricks *b, int row, double place, double *begin, do
     }
 }
 
+/* Shift of a row in whole bricks. The pattern closes at the upper edge if the number of rows is a multiple of closes[bond]. */
 static double row_shift(Bond bond, int row)
 {
     switch (bond) {
@@ -168,6 +170,8 @@ static double tile_at(const void *ctx, double x, double y)
     if (t->cut < 1.0) {
         double per_u = 1.0 / c->cell_width, per_v = 1.0 / c->cell_height;
         double steep = sqrt(per_u * per_u + per_v * per_v);
+        /* The oblique side is |dx| + |dy| = cut. Its gradient is `steep` per texel: dividing by it makes the excess a
+           distance. */
         double past = (fabs(dx) + fabs(dy) - t->cut) / steep; /* texels beyond the cut */
         if (past > 0.0) {                                     /* the tile about the cell's corner */
             int ci = wr_modulo(i + (dx > 0.0), c->across), cj = wr_modulo(j + (dy > 0.0), c->rows);
@@ -234,6 +238,9 @@ static void nearest_hexagon(const WrCells *c, double x, double y, double *dx, do
     }
 }
 
+/* The hexagon is the Voronoi cell of the lattice of centres: the distance to its border is the least of half the distance to
+   a neighbour minus the projection on its direction; four directions and their opposites contain all neighbours, also of
+   stretched ones. */
 static double hexagon_at(const void *ctx, double x, double y)
 {
     const Hexagons *h = ctx;
@@ -317,6 +324,8 @@ static double wood(const Planks *p, double u, double v, double py, int i, int j)
     const double bend_at[2] = { u * n[0] + du, v * n[1] + dv };
     const double fibre_at[2] = { u * m[0] + du, v * m[1] + dv };
     double sine, cosine, bend = wr_noise_at(&p->bend, bend_at, NULL);
+    /* Rings are circles about the heart of the trunk cut by the plank: the phase grows with the square of the distance from
+       the heart, bent by noise. */
     double heart = 2.0 * wr_chance(p->pieces.seed, i, j, 7) - 1.0;
     wr_sincos_turns(0.5 * p->rings * (py - heart) * (py - heart) + 1.6 * bend, &sine, &cosine);
     double ring = 0.5 + 0.5 * sine;

@@ -147,6 +147,8 @@ static bool solve_steps(WrPlane *plane, WrError *err)
     return wr_plane_solve(plane, steps, err);
 }
 
+/* Poisson blending: the Laplacian of the result equals that of the picture, without the jump across the edges. Only the jump
+   is solved for, and its solution subtracted, so that a picture that tiles already stays bit for bit. */
 bool wr_picture_blend(WrSheet *sheet, const WrGenerateJob *job, WrError *err)
 {
     size_t w = (size_t)sheet->width, h = (size_t)sheet->height;
@@ -238,7 +240,10 @@ static double mismatch(const Cutting *c, int along, int line)
     return d * d;
 }
 
-/* The path of least sum, from `start` (0: any) at line 0; on a ring it must return beside it. */
+/* The path of least sum, from `start` (0: any) at line 0; on a ring it must return beside it. Minimum error boundary cut by
+   dynamic programming (Efros and Freeman 2001, image quilting): sum[line][a] = mismatch(a) + the least of sum[line - 1][a - 1
+   .. a + 1]. A closed cut on a ring fixes its start to the best open cut's and requires that it ends beside it; this is not
+   always the optimum, but needs two passes instead of one for each start. */
 static void find_way(Cutting *c, int start)
 {
     int o = c->overlap, last = c->lines - 1, best = 0;
@@ -285,6 +290,8 @@ static double choose(const Cutting *c, const double *g, int along, int line, boo
     return a && b ? far : 0.5 * (near + far);
 }
 
+/* Steps, not heights, are copied from either side, and even_out integrates them: a difference in brightness between both
+   sides would remain visible along the cut. */
 static void join_line(const Cutting *c, int line, Steps *to)
 {
     const Steps *from = c->from;
@@ -441,6 +448,7 @@ const char *const wr_picture_labels[] = { WR_PICTURE_LABELS(WR_WORD) NULL };
 
 #define FLAT (1.0 / 255) /* of the heights: less than a step of 8 bits */
 
+/* IEC 61966-2-1 (sRGB), decoded in double. */
 static double picture_light(double code)
 {
     return code <= 0.04045 ? code / 12.92 : wr_pow((code + 0.055) / 1.055, 2.4);
@@ -495,7 +503,8 @@ static bool is_light(const WrParams *p, const WrImage *image, const WrGenerateJo
     return false;
 }
 
-/* Value of each code of a picture of 8 or 16 bits; NULL for floats. Caller frees. */
+/* Value of each code of a picture of 8 or 16 bits; NULL for floats. Caller frees. A table of at most 65536 entries replaces a
+   power per texel. */
 static double *light_of_codes(const WrImage *image, bool linear, double *most)
 {
     *most = image->type == WR_PIXEL_U8 ? 255.0 : image->type == WR_PIXEL_U16 ? 65535.0 : 0.0;
@@ -534,7 +543,8 @@ static void read_light(const WrImage *image, int channel, bool linear, WrSheet *
     wr_free(light);
 }
 
-/* Subtracts a Gaussian blur of that width; preserves the mean. */
+/* Subtracts a Gaussian blur of that width; preserves the mean. Uneven lighting of a photo varies slowly: subtracting a wide
+   Gaussian blur leaves the texture. */
 static bool high_pass(WrSheet *sheet, double sigma, const WrGenerateJob *job, WrError *err)
 {
     const WrOpOptions options = { .pool = job->pool };

@@ -78,7 +78,8 @@ static int compare(int64_t a, int64_t b)
     return (a > b) - (a < b);
 }
 
-/* Orders by row, then column, then content. */
+/* Orders by row, then column, then content. Outlines come in an arbitrary order; sorting by content makes the sums of
+   distances independent of it. */
 static int compare_pieces(const void *a, const void *b)
 {
     const WrTextPiece *p = a, *q = b;
@@ -90,6 +91,8 @@ static int compare_pieces(const void *a, const void *b)
     return by ? by : compare(p->x1, q->x1);
 }
 
+/* Pieces of the edge lie in strips of WR_TILE rows: row j of a strip is pieces[first[j]] to pieces[first[j + 1] - 1]. A tile
+   searches only the strips within its reach. */
 static bool sort_rims(Rim *rim, WrError *err)
 {
     WrTextShape *s = &rim->pieces;
@@ -145,6 +148,7 @@ static float height_at(const Rim *rim, double d, float *cover)
     WR_ROWS_END(profiles, RIM_OUTLINE);
     const double half = 0.5 * rim->width;
     if (rim->kind == RIM_OUTLINE) {
+        /* Cord of circular section: h sqrt(1 - (d / half)^2). */
         double across = unit(fabs(d) / half);
         *cover = (float)unit(half - fabs(d) + 0.5);
         return (float)(rim->height * sqrt(1.0 - across * across));

@@ -292,7 +292,9 @@ static void measure(const WrShape *shape, Measure *m)
 }
 
 /* Number of cells along u and v. The error of a cell of (a, b) is (a^2 |Puu| + 2 a b |Puv| + b^2 |Pvv|)
- * / 8 at most; each term gets a third of the error, measured in surface units. */
+   * / 8 at most; each term gets a third of the error, measured in surface units. So a^2 |Puu| / 8 <= error / 3 gives the
+   number u = 1/a >= sqrt(Puu / (8/3 error)); the mixed term a b |Puv| / 4 <= error / 3 bounds the product u v. Both numbers
+   grow by one factor, so the shape of the cells remains. */
 static void choose_cells(const Measure *m, double error, int faces, int cells[2])
 {
     double u = sqrt(m->uu / (8.0 / 3.0 * error)), v = sqrt(m->vv / (8.0 / 3.0 * error));
@@ -322,6 +324,8 @@ typedef struct Net {
     int64_t point_count, count;
 } Net;
 
+/* Points row by row, (cells[0] + 1) x (cells[1] + 1) per face; faces do not share points, since the Z-buffer needs no
+   connectivity. */
 static void fill_face(const WrShape *shape, int face, const int cells[2], const double middle[3],
                       double scale, Net *net)
 {
@@ -478,7 +482,8 @@ static bool outline_of(const WrParams *params, const WrGenerateJob *job, WrFontO
     return good;
 }
 
-/* Lowest and highest corner of the posed box, relative to its origin. */
+/* Lowest and highest corner of the posed box, relative to its origin. pose[6..8] is the row of the rotation that makes z: the
+   extreme of a linear function over a box is reached at a corner, axis by axis. */
 static void box_range(const WrZSolid *solid, double range[2])
 {
     double low[3], high[3];
@@ -577,6 +582,7 @@ static double chance(const Lattice *l, int i, int j, int use)
     return 2.0 * wr_chance(l->seed, i, j, use) - 1.0;
 }
 
+/* The row's rotation is loosened by random angles about all axes, applied after it: R = L B, matrices row by row. */
 static void turn_place(const Lattice *l, int i, int j, double out[9])
 {
     const double *base = (i + j) % 2 ? l->other : l->base;
@@ -592,7 +598,8 @@ static void turn_place(const Lattice *l, int i, int j, double out[9])
     }
 }
 
-/* (0, 0) is the first of the lowest row; the lattice's middle is at `at`. */
+/* (0, 0) is the first of the lowest row; the lattice's middle is at `at`. wr_z_place rounds to a fixed fraction of a texel,
+   so that a copy that is moved by whole periods of the table has the same bits: the relief tiles exactly. */
 static WrSolidPlace place(const Lattice *l, int i, int j)
 {
     double jitter = wr_param_number(l->params, "jitter"), dx = i - 0.5 * (l->across - 1);
@@ -687,6 +694,7 @@ static void put_copy(const Copies *c, const WrSolidPlace *p, double low, WrZTria
             const double *q = c->turned[c->net->corners[i][k]];
             out[i].x[k] = p->at[0] + q[0];
             out[i].y[k] = p->at[1] + q[1];
+            /* Each copy stands with its lowest point on the ground, lowered by `sink`. */
             out[i].z[k] = p->at[2] + (q[2] - low);
         }
 }
@@ -716,6 +724,8 @@ static bool solid_draw_net(const WrParams *params, const WrSolidNet *net, const 
         double range[2] = { 0.0, 0.0 };
         turn_points(&c, &places[i], range);
         put_copy(&c, &places[i], range[0], triangles + i * net->count);
+        /* `height` is the rise of the first copy at scale 1: all heights of the scene are multiplied by height / rise
+           (wr_solid_draw). */
         if (i == 0) rise = (range[1] - range[0]) / places[0].scale;
         good = !wr_progress_stopped() || wr_fail(err, "cancelled");
     }

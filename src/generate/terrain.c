@@ -64,7 +64,8 @@ const WrParam wr_params_elevation[] = {
     WR_P_END
 };
 
-/* Values of the file. */
+/* Values of the file. They pass through three meanings: codes of the file (0..most, or least..most of signed integers),
+   numbers of floats, and heights in table units after bring_to_heights. Missing ones are NaN between reading and filling. */
 typedef struct Elevation {
     WrSheet sheet;
     double most; /* the largest code; 0: floats */
@@ -248,7 +249,9 @@ static double bound(const Terraces *t, double k)
     return k + t->uneven * 0.8 * (mixed / 4294967296.0 - 0.5);
 }
 
-/* x: in steps from the lowest; shifted by `bend` before the quantization and back after it. */
+/* x: in steps from the lowest; shifted by `bend` before the quantization and back after it. The riser occupies the upper part
+   `riser` of a step: s = 0 on the tread and a smoothstep 3 s^2 - 2 s^3 on the riser, so that the slope is 0 at both of its
+   ends. bound() displaces the ends of steps by up to 0.4 steps, so the floor of x can be off by one step in either direction. */
 static double cut(const Terraces *t, double x, double bend)
 {
     double at = x + bend, k = floor(at);
@@ -270,6 +273,8 @@ static void cut_rows(const void *ctx, int first, int end)
     for (int j = first; j < end; j++) {
         WrNoiseGrid grid = { width, height, 0, j, width, 1 };
         wr_octaves_grid(&t->noise, &grid, n, NULL, NULL, (size_t)width);
+        /* Moving by `origin`: whole texels are rolled, so the same heights reappear bit for bit elsewhere; only the rest
+           below a texel moves the noise itself (plan). */
         int to = height - 1 - (height - 1 - j + t->up.shift) % height;
         double *row = t->sheet->z + (size_t)to * (size_t)width;
         for (int i = 0; i < width; i++) {
@@ -287,6 +292,7 @@ static bool plan(Terraces *t, const WrParams *p, WrError *err)
     o.count = 4;
     o.seed = t->seed;
     o.cells[0] = wr_param_number(p, "cells");
+    /* Cells of the noise are as square as whole numbers allow: only whole cells per table tile (NUMERICS.md a.6). */
     o.cells[1] = floor(o.cells[0] * texels[1] / texels[0] + 0.5);
     if (o.cells[1] < 1.0) o.cells[1] = 1.0;
     if (!wr_octaves_plan(&o, texels, &t->noise, err)) return false;
@@ -388,6 +394,8 @@ typedef struct Sum {
     double v, m, du, dv;
 } Sum;
 
+/* One octave of the sum above; du, dv collect the slopes of the plain noise, not of the weighted one, so that the weights of
+   all octaves at a texel depend on the same terrain. */
 static void add_octave(const Fractal *f, int k, double amplitude, double n, double nu, double nv,
                        Sum *sum)
 {
@@ -433,6 +441,7 @@ static bool plan_fractal(Fractal *f, const WrParams *p, const WrGenerateJob *job
     if (all.used == 0)
         wr_generate_note(job, "nothing is left: cells=%g is finer than two texels a cell",
                          o.cells[0]);
+    /* A coarse preview with warp cannot use the grid kernels, so it stops after four octaves. */
     f->octaves = job->coarse && f->warp != 0.0 && all.used > 4 ? 4 : all.used;
     for (int k = 0; k < all.used; k++) {
         f->octave[k] = all;
@@ -512,6 +521,8 @@ static void bend_row(const Fractal *f, const WrNoiseGrid *grid, double *place, f
     }
 }
 
+/* Octaves are outside, texels inside: a row of noise is computed by the grid kernel, and the state of every texel's sum waits
+   in `sums`. scratch n: noise and its two slopes, [3][width]. */
 static void fill_rows(const void *ctx, int first, int end)
 {
     const Fractal *f = ctx;
@@ -682,7 +693,8 @@ WrField *wr_sheet_field(const WrSheet *sheet, WrError *err)
     return NULL;
 }
 
-/* One axis after the other, since the filter depends on the axis. */
+/* One axis after the other, since the filter depends on the axis. Fewer texels need the mean over each new texel; more need
+   an interpolation without blocks. */
 static WrField *resized(const WrField *field, int width, int height, const WrGenerateJob *job,
                         WrError *err)
 {

@@ -37,6 +37,8 @@ static bool parse_size(const char *size, WrRaw *raw)
     return true;
 }
 
+/* Raw files have no header. Without size= they must be square; SRTM tiles (1201 or 3601 a side) and most terrain tools' files
+   are. */
 bool wr_raw_size(const char *size, size_t length, WrRaw *raw, WrError *err)
 {
     size_t each = wr_raw_bytes(raw->kind), count = length / each;
@@ -74,6 +76,7 @@ static uint32_t number_at(const unsigned char *bytes, size_t each, bool big)
     return value;
 }
 
+/* Rows from the top, no padding: 16-bit integers, unsigned or two's complement, or IEEE floats, in either byte order. */
 void wr_raw_decode(const WrRaw *raw, const void *bytes, double *z)
 {
     size_t each = wr_raw_bytes(raw->kind), count = (size_t)raw->width * (size_t)raw->height;

@@ -100,7 +100,8 @@ static bool try_lender(Fonts *fonts, char *path, WrFontText *text)
     return true;
 }
 
-/* Adds fonts until nothing is missing or none helps. */
+/* Adds fonts until nothing is missing or none helps. Automatic choices are passed to `chose` so that the journal holds
+   explicit font names: a repetition on another machine fails loudly instead of using another font. */
 static bool borrow(Fonts *fonts, const char *kind, WrFontText *text, WrError *err)
 {
     while (text->missing_count > 0 && fonts->lent_count < WR_FONT_OTHERS) {

@@ -62,7 +62,8 @@ static void path_add(Path *path, double x, double y)
     wr_array_push(&path->length, so_far);
 }
 
-/* Catmull-Rom between b and c. */
+/* Catmull-Rom between b and c.
+     p(t) = b + t (c - a) / 2 + t^2 (2 a - 5 b + 4 c - d) / 2 + t^3 (3 b - 3 c + d - a) / 2 */
 static double smooth(double a, double b, double c, double d, double t)
 {
     return b +
@@ -94,6 +95,7 @@ static double path_length(const Path *path)
     return path->length.data[path->length.count - 1];
 }
 
+/* Binary search for the straight piece; before the first and after the last one the line continues. */
 static Stand path_at(const Path *path, double s)
 {
     int low = 0, high = path->length.count - 2;
@@ -237,6 +239,7 @@ static bool lay_round(Lay *lay, int32_t index, const Stand *stand, double length
                   : fit < 1.0            ? 1
                   : fit > 4096.0         ? 4096
                                          : (int)fit;
+    /* The rest of the circumference is shared by all gaps: letters keep their shapes, and the text closes exactly. */
     double more = (length / repeats - width) / gaps;
     wr_generate_note(lay->job, "around: %d time%s, letter spacing %+.3g texels", repeats,
                      repeats == 1 ? "" : "s", more);
@@ -370,6 +373,8 @@ static bool fail_many(WrError *err)
                    (long long)WR_TEXT_PIECES_MAX);
 }
 
+/* Coordinates are integers of 1/UNIT texel, relative to the texel. All corners of outlines are odd multiples, all borders of
+   texels even ones: no corner lies on a border, and no rule for ties is needed. */
 static bool add_piece(WrTextShape *shape, Point a, Point b, int64_t column, int64_t row,
                       WrError *err)
 {
@@ -403,7 +408,8 @@ static bool cut_columns(WrTextShape *shape, Point a, Point b, int64_t row, WrErr
     return add_piece(shape, from, b, column, row, err);
 }
 
-/* Records a side that crosses the upper border of `row` at x. */
+/* Records a side that crosses the upper border of `row` at x. base[row] is the winding number at the left border of the table
+   at the upper border of the row; make_row adds the crossings of pieces from there to the right. */
 static void cross(WrTextShape *shape, int64_t row, int64_t x, int sign)
 {
     if (shape->wraps_v) row -= floor_div(row, shape->height) * shape->height;
@@ -561,6 +567,8 @@ static void make_row(const Work *work, int j, float *row, struct WrTextRim *rim)
     int from = 0;
     if (count > 1) qsort(p, (size_t)count, sizeof *p, compare_pieces);
     for (int64_t k = 0; k < count;) {
+        /* Pieces of one texel are adjacent after sorting. Between two texels with pieces the winding number w is constant:
+           these texels are entirely inside (w != 0, the nonzero rule) or outside. */
         int64_t end = k, crossing = 0;
         for (; end < count && p[end].i == p[k].i; end++)
             crossing += (p[end].y0 == 0) - (p[end].y1 == 0);
@@ -568,6 +576,7 @@ static void make_row(const Work *work, int j, float *row, struct WrTextRim *rim)
         int many = end - k < 1 << 30 ? (int)(end - k) : 1 << 30;
         fill(row, from, p[k].i, w);
         double part = wr_text_texel(p + k, many, w, &centre, rim);
+        /* The sign holds whether the centre is inside: coverage alone cannot decide the sign of the distance. */
         row[p[k].i] = (float)(centre ? part : -part);
         from = p[k].i + 1;
         w += crossing;

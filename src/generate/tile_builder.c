@@ -49,7 +49,8 @@ static void mend(float *texels)
     }
 }
 
-/* True if all are +0. */
+/* True if all are +0. One pass without branches for the usual case: OR of all bits, and of all-ones exponents (infinity and
+   NaN). */
 static bool keep_finite(float *texels)
 {
     uint32_t bits = 0, beyond = 0;
@@ -80,7 +81,8 @@ static void make_tile(int index, int worker, void *ctx)
         build->made[k].empty[index] = keep_finite(build->made[k].tile[index]);
 }
 
-/* Tiles are computed in their final memory; those that are +0 throughout are freed. */
+/* Tiles are computed in their final memory; those that are +0 throughout are freed. A tile's memory is allocated before the
+   threads start, since writing the field's tree is for one thread only; each thread then fills tiles of its own. */
 static bool run_batch(Build *build, WrPool *pool, int count)
 {
     int u = build->tiles_u;

@@ -29,6 +29,8 @@ static void turn(double degrees, double *cosine, double *sine)
     wr_sincos_turns(degrees / 360.0, sine, cosine);
 }
 
+/* Source (x, y) to table: at + A (x - from) with A = R diag(scale) and R a rotation; negative scales mirror. The inverse is
+   diag(1/scale) R^T. */
 static void set_maps(Placed *p, const WrPlacing *placing)
 {
     double c, s;
@@ -88,6 +90,7 @@ static double source_at(const WrField *field, int i, int j)
     return (double)wr_field_get(field, i, j);
 }
 
+/* Tent, or Catmull-Rom with a = -1/2. Stretched by 1 / scale where the piece shrinks, so that all source texels contribute. */
 static double filter_value(WrPlaceFilter filter, double x)
 {
     double a = fabs(x);

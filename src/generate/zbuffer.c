@@ -28,6 +28,7 @@ static bool is_level(const WrZSolid *s)
     return upright && (s->shape == WR_Z_BOX || s->shape == WR_Z_CYLINDER);
 }
 
+/* Bounds must hold for rounded heights: a bound that is too low by an ulp would hide a visible solid. */
 static double with_margin(double z)
 {
     return z + MARGIN * (1.0 + fabs(z));
@@ -175,7 +176,9 @@ static void unit_box(const WrZSolid *s, double low[3], double high[3])
 }
 
 /* Upper bound of that box over the rectangle; -INFINITY: not there. A tilted solid is much lower on one
-   side than on the other. A vertical line is a + b z there, and a depends only on x and y. */
+   side than on the other. A vertical line is a + b z there, and a depends only on x and y. So a + b z lies within low..high
+   on all three axes for z between the largest of the lower and the smallest of the upper ends (the slab method), with a
+   replaced by its extremes over the rectangle. */
 static double box_top(const WrZSolid *s, const WrZRect *r)
 {
     double low[3], high[3], top = INFINITY, bottom = -INFINITY;
@@ -392,7 +395,9 @@ static int floor_of(double x)
     return i - ((double)i > x);
 }
 
-/* The edge from p to q, inside on the side of the third corner; x right, y down. */
+/* The edge from p to q, inside on the side of the third corner; x right, y down. Edge function in exact integers, a x + b y +
+   c with a = p_y - q_y, b = q_x - p_x: 64 bits hold products of coordinates up to 2^20 texels in 1/1024. Of two triangles
+   with a common side exactly one covers a point on it: c is lowered by 1 on all but top and left sides. */
 static Edge edge_of(const int64_t p[2], const int64_t q[2])
 {
     Edge e = { .a = p[1] - q[1], .b = q[0] - p[0] };
@@ -428,6 +433,7 @@ static void set_plane(Facet *f, const WrZTriangle *t, double left, double top)
 {
     double x1 = t->x[1] - t->x[0], y1 = t->y[1] - t->y[0], z1 = t->z[1] - t->z[0];
     double x2 = t->x[2] - t->x[0], y2 = t->y[2] - t->y[0], z2 = t->z[2] - t->z[0];
+    /* Cramer's rule for z_x, z_y from z1 = z_x x1 + z_y y1 and z2 = z_x x2 + z_y y2. */
     double det = x1 * y2 - x2 * y1;
     f->x = t->x[0] + left;
     f->y = t->y[0] + top;
@@ -480,7 +486,8 @@ static unsigned wide_samples(const Facet *f, const int64_t e[3])
 }
 
 /* wide_samples in 32 bits: an edge farther than its margin is on one side of all samples, so its value
- * may be clamped to the margin. */
+   * may be clamped to the margin. The 16 samples lie at multiples of 1/16 texel, one in each row and column of a 16 x 16
+   grid, so that near-vertical and near-horizontal edges are resolved in 16 steps. */
 static unsigned facet_samples(const Facet *f, const int64_t e[3])
 {
     static const int32_t across[WR_Z_SAMPLES] = { 1,  -1, -3, 4,  -5, 2, 5, 3,
@@ -840,7 +847,8 @@ static bool keeps_on(Many *m)
 }
 
 /* Items of the part (x, y), `side` texels wide: those of `from` that are visible there. Returns their
- * number. */
+   * number. The part's `least` is the highest lower bound of all solids that cover it; a solid whose upper bound is not above
+   it is hidden everywhere in the part and in all of its quarters. The owner of the bound itself is kept. */
 static int64_t sift(Many *m, int x, int y, int side, const Item *from, int64_t count, Item *to)
 {
     const WrZSheet *sheet = m->sheet;
@@ -874,7 +882,8 @@ static int level_of(double bound, const double range[2])
     return level < LEVELS ? level : LEVELS - 1;
 }
 
-/* Sorts roughly by their bounds, the highest first. */
+/* Sorts roughly by their bounds, the highest first. Counting sort into LEVELS classes: an exact order is not needed, since
+   each texel keeps the maximum. */
 static void sort(const Item *items, int64_t count, int32_t *order)
 {
     double range[2] = { INFINITY, -INFINITY };
@@ -1102,7 +1111,8 @@ static int tile_of(double x, int tiles)
     return t < 0.0 ? 0 : t > tiles - 1 ? tiles - 1 : (int)t;
 }
 
-/* Counts an image's tiles, or adds it to their lists. */
+/* Counts an image's tiles, or adds it to their lists. A texel about the box is added on each side: a texel extends half a
+   texel beyond its centre, and boxes are rounded. */
 static void put_image(Drawing *d, int64_t index, const Box *box, double dx, double dy)
 {
     int x0 = tile_of(box->x0 + dx - 1.0, d->tiles_u), x1 = tile_of(box->x1 + dx + 1.0, d->tiles_u);
@@ -1148,6 +1158,8 @@ static bool put_all(Drawing *d, WrError *err)
     return true;
 }
 
+/* Two passes over all primitives: counts per tile, prefix sums, then entries; one array without gaps instead of a list per
+   tile. */
 static bool fill_bins(Drawing *d, WrError *err)
 {
     size_t tiles = (size_t)d->tiles_u * (size_t)d->tiles_v;
@@ -1339,6 +1351,8 @@ static void draw_tile(int index, int worker, void *ctx)
     sheet->wide = d->width - sheet->x < WR_TILE ? d->width - sheet->x : WR_TILE;
     sheet->high = d->height - sheet->y < WR_TILE ? d->height - sheet->y : WR_TILE;
     sheet->floor = d->scene->floor;
+    /* -infinity: nothing here. A texel's final height is depth (the highest at its centre), else edge (the highest at a
+       sample where only part of the texel is covered), or the mean over samples if the rims of several solids cross it. */
     for (int i = 0; i < TEXELS; i++) sheet->depth[i] = sheet->edge[i] = sheet->whole[i] = -INFINITY;
     if (d->scene->hidden) draw_few(d, busy, &d->bins[tile], sheet);
     else draw_bin(d, busy, &d->bins[tile], sheet);

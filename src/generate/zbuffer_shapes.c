@@ -63,7 +63,9 @@ static bool bowl_top(const double *c, const double *slope, double low, double hi
     return true;
 }
 
-/* The largest t in [-1, 1] where a quartic that rises at both ends is not positive. */
+/* The largest t in [-1, 1] where a quartic that rises at both ends is not positive. The second derivative 12 c4 t^2 + 6 c3 t
+   + 2 c2 has real roots if 9 c3^2 > 24 c4 c2: these are the inflection points left and right. Beyond them the curve is
+   convex, where Newton's method is safe. */
 static bool quartic_top(const double c[5], double *t)
 {
     const double slope[4] = { c[1], 2.0 * c[2], 3.0 * c[3], 4.0 * c[4] };
@@ -173,6 +175,7 @@ static WrZSpan cone_span(const double a[3], const double b[3])
     double qa = b[0] * b[0] + b[1] * b[1] - c1 * c1, qb = a[0] * b[0] + a[1] * b[1] - c0 * c1;
     double qc = a[0] * a[0] + a[1] * a[1] - c0 * c0;
     if (qa > 0.0) return wr_zspan_meet(s, inside(qa, qb, qc));
+    /* The line is parallel to the cone's side: the quadratic is linear. */
     if (qa == 0.0) {
         if (qb == 0.0) return qc <= 0.0 ? s : nothing;
         double root = -qc / (2.0 * qb);
@@ -207,6 +210,8 @@ static void ray(const WrZSolid *solid, double x, double y, double a[3], double b
     }
 }
 
+/* d0..d5 are of set_dome. Near the outline the root's argument is a small difference; it decides the hit, so all callers
+   share this code. */
 static inline double dome_top(const WrZSolid *solid, double x, double y)
 {
     const double *d = solid->dome;
@@ -411,7 +416,10 @@ static double dot(const double a[3], const double b[3])
 }
 
 /* An ellipsoid's projection is (x, y) S^-1 (x, y) <= 1, S = P P^T with P the pose's first two rows p,
- * q; det S = |p x q|^2 and similar forms keep thin ones exact. r is the third row. */
+   * q; det S = |p x q|^2 and similar forms keep thin ones exact. r is the third row. With the outline's quadratic form
+   completed to squares, the upper half is
+     z = d0 x + d1 y + d2 sqrt(1 - d3 x^2 - d4 (y - d5 x)^2),
+   a plane through the outline plus a half ellipsoid over it. */
 static void set_dome(WrZSolid *solid)
 {
     const double *p = solid->pose, *q = p + 3, *r = p + 6;
@@ -508,6 +516,8 @@ static bool add_edges(WrZLetters *l, const WrZContour *c, WrError *err)
     return true;
 }
 
+/* Cells are at least half a bevel wide: a cell's list then holds all edges within the bevel, and distances up to `near` are
+   exact. Farther points only need to be known as farther. */
 static void lay_grid(WrZLetters *l)
 {
     double wide = l->high[0] - l->low[0], high = l->high[1] - l->low[1];
@@ -688,7 +698,10 @@ double wr_zletters_distance(const WrZLetters *l, double p, double q)
     return is_inside(l, p, q) ? sqrt(least) : -sqrt(least);
 }
 
-/* A bound of the distance to the body, negative inside. */
+/* A bound of the distance to the body, negative inside. A signed distance bound to the body: intersection of the slab
+   0..depth with the extruded outline is their maximum; at the bevel the quarter circle sqrt(s^2 + e^2) - bevel or the chamfer
+   (s + e - bevel) / sqrt 2. It never exceeds the true distance, so a step of its length cannot pass the surface (sphere
+   tracing, Hart 1996). */
 static double gap(const WrZLetters *l, double p, double q, double w)
 {
     double top = w - l->depth, under = -w;

@@ -131,6 +131,7 @@ static bool read_bit(FILE *file, uint32_t *code)
 static bool read_text(WrPlain *p, bool bits, int64_t length, WrError *err)
 {
     const size_t count = (size_t)p->width * (size_t)p->height * (size_t)p->channels;
+    /* A pixel of P1 has at least one byte, one of P2 and P3 two, a digit and a blank. */
     if ((uint64_t)length < (bits ? (uint64_t)count : 2 * (uint64_t)count - 1))
         return truncated(err); /* before memory is allocated */
     p->codes = wr_try_alloc(count, sizeof *p->codes, "a picture", err);
@@ -184,6 +185,7 @@ static bool open_pat(WrPlain *p, const unsigned char *bytes, WrError *err)
 
 static bool open_hgt(WrPlain *p, int64_t length, WrError *err)
 {
+    /* SRTM tiles cover one degree with a sample on both borders: 3 or 1 arc seconds apart. */
     static const int sides[] = { 1201, 3601 };
     for (int k = 0; k < 2; k++)
         if (length == (int64_t)2 * sides[k] * sides[k]) p->width = p->height = sides[k];

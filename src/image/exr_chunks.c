@@ -13,6 +13,10 @@
 #define TILE_NUMBERS 4 /* before a tile's length: its position and its level */
 #define NAME_MAX_BYTES 255
 
+/* An EXR file: magic 20000630 (76 2f 31 01), version and flags; headers (attributes: name, type, int32 size, value; a NUL
+   ends a header, another the list of a multi-part file); a table of 8-byte offsets, one per chunk; the chunks. This program
+   writes chunks in file order without gaps, so each chunk must begin where the previous one ends, and the last end must be
+   the file's: OpenEXR itself accepts truncated files and missing chunks in some cases. */
 typedef struct Walk {
     int fd;
     int64_t at, size;

@@ -48,6 +48,7 @@ static const Place places[] = {
 };
 WR_ROWS_END(places, WR_FONT_FAMILY_COUNT);
 
+/* Bitmap fonts scale by whole numbers only: the largest strike that divides the size, else the largest below it. */
 static int terminus_dots(double size)
 {
     static const int dots[] = { 32, 28, 24, 22, 20, 18, 16, 14, 12 };
@@ -163,7 +164,8 @@ static bool append_file(Files *files, const char *name, int fd, WrError *err)
     return good || wr_fail(err, "%s: no memory to read it from", name);
 }
 
-/* Concatenates all files into one memory file. */
+/* Concatenates all files into one memory file. The reader process receives one descriptor: a single font is passed as it is,
+   several are concatenated and described by their lengths. */
 static bool gather(Files *files, int fd, const WrFontRequest *ask, WrError *err)
 {
     files->fd = wr_fd_memory("wrinkle fonts");
@@ -261,7 +263,8 @@ static const char *usable(FcPattern *font)
     return (const char *)file;
 }
 
-/* The first font with the most wanted characters; removes these from the wanted set. */
+/* The first font with the most wanted characters; removes these from the wanted set. A greedy set cover: few fonts for all
+   missing characters, and fontconfig's order decides between equals. */
 static const char *take_best(const FcFontSet *set, FcCharSet **wanted)
 {
     FcCharSet *has = NULL, *best_has = NULL;

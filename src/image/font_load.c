@@ -34,6 +34,8 @@ typedef struct Free {
 
 /* ---- glyphs ---- */
 
+/* Points are int32 in half font units: a TrueType curve's implied point between two control points has a half coordinate.
+   Verbs and points are two parallel arrays; a move or line has one point, a conic two, a cubic three. */
 static int add_point(Free *f, WrFontVerb verb, int count, const FT_Vector *const *points)
 {
     WrFontMaking *m = f->making;
@@ -123,6 +125,7 @@ static bool add_dots(Free *f, uint32_t id, WrFontGlyph *g)
         for (int x = 0; x < g->width; x += 8) {
             unsigned byte = 0;
             for (int k = 0; k < 8 && x + k < g->width; k++) {
+                /* Bits of a packed row run from the highest to the lowest; each row begins at a byte. */
                 bool on = mono ? row[x / 8] & (0x80 >> k) : row[x + k] >= 128;
                 if (on) byte |= 0x80U >> k;
             }
@@ -145,6 +148,7 @@ static int32_t take(Free *f, uint32_t id)
         add_outline(f, id, &g);
     }
     wr_array_push(&m->glyphs, g);
+    /* known[id] is 1 + the glyph's index in the text, 0: not used yet; each glyph is converted once. */
     f->own->known.data[id] = m->glyphs.count;
     return m->glyphs.count - 1;
 }
@@ -217,6 +221,7 @@ static bool keep_shaped(Free *f, const WrFontChars *chars, WrError *err)
                                 .dx = bounded(at[i].x_offset, ADVANCE_MAX),
                                 .dy = bounded(at[i].y_offset, ADVANCE_MAX),
                                 .cluster = chars->byte[character] };
+        /* Letter spacing is added once after each cluster, not between a base and its marks. */
         placed.spaced = i + 1 == count || info[i + 1].cluster != info[i].cluster;
         wr_array_push(&f->making->placed, placed);
     }
@@ -234,6 +239,8 @@ static bool shape(WrFontFace *face, const WrFontChars *chars, int from, int coun
         font_shape_plain(face, chars, from, count, leftwards, map_character);
     } else {
         hb_buffer_clear_contents(f->buffer);
+        /* The whole line is passed with the part's range: the neighbours beyond it determine joining forms at its ends
+           (Arabic). */
         hb_buffer_add_codepoints(f->buffer, chars->code, chars->count, (unsigned)from, count);
         hb_buffer_set_direction(f->buffer, leftwards ? HB_DIRECTION_RTL : HB_DIRECTION_LTR);
         hb_buffer_set_script(f->buffer, (hb_script_t)script);
@@ -437,6 +444,8 @@ bool wr_font_gunzip(const uint8_t *bytes, size_t length, size_t limit, uint8_t *
    libraqm would do this and shape too, but through FreeType's scaled font; here HarfBuzz shapes in font units
    (FreeType, above), and fonts without a shaper use the same parts. */
 
+/* UTF-8: the lead byte determines the length (0xc0, 0xc1 and 0xf5.. never occur); overlong forms, surrogates and values above
+   U+10FFFF are invalid. An invalid byte counts as one U+FFFD, and reading continues with the next byte. */
 uint32_t wr_font_character(const char *text, size_t length, size_t *at)
 {
     const uint8_t *p = (const uint8_t *)text + *at;
@@ -720,6 +729,8 @@ static void add(WrText *out, const void *data, int count, size_t size)
     if (count > 0) wr_text_add_n(out, data, (size_t)count * size);
 }
 
+/* The block crosses the boundary of the sandboxed reader process: WrFontHead with the counts, then the arrays in this order
+   without padding. The receiver treats every number in it as hostile (wr_font_unpack). */
 void wr_font_pack(const WrFontMaking *making, WrText *out)
 {
     WrFontHead head = making->head;

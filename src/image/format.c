@@ -6,8 +6,11 @@
 
 #include <string.h>
 
+/* Bit 0 of a row's mask: any number of channels; bit k: k channels. */
 #define CHANNELS(a, b, c, d) ((a) << 1 | (b) << 2 | (c) << 3 | (d) << 4)
 
+/* Columns: file extensions, library name, label, pixel types that it holds (8, 16 bits, float), remedy for others, channel
+   counts, pictures only (values lose precision), exact (reading back returns the written bits). */
 static const WrImageFormat formats[] = {
     { { "png" },
       "png",
@@ -135,6 +138,8 @@ bool wr_image_deepest(const char *path, WrPixelType *type, WrError *err)
     return true;
 }
 
+/* Signatures, longest first where one begins another. TIFF in both byte orders, 42 and 43 (BigTIFF). Contents decide, not the
+   extension: renamed files are common. */
 const char *wr_image_sniff(const unsigned char *bytes, size_t count)
 {
     static const struct {

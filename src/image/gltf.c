@@ -52,7 +52,8 @@ static bool gltf_decode_name(const char *uri, WrText *name)
     return name->length > 0;
 }
 
-/* True if a path stays in its folder: no root, no "..", no scheme, no drive. */
+/* True if a path stays in its folder: no root, no "..", no scheme, no drive. A file from the net must not read files
+   elsewhere, such as ../../.ssh/id: only names below its own folder are opened. */
 static bool gltf_stays_within(const char *name)
 {
     if (*name == '/' || strpbrk(name, "\\:")) return false;
@@ -128,6 +129,8 @@ static bool take_all(const char *path, json_object *buffers, int *parts, WrError
     return true;
 }
 
+/* The sandboxed reader opens one descriptor and no paths, so the parts are put into the JSON as data: URIs before the file is
+   passed to it. */
 bool wr_gltf_pack(const char *path, WrText *out, bool *packed, WrError *err)
 {
     char ending[16], *text;

@@ -246,6 +246,9 @@ static bool find_view(Gltf *file, int64_t index, Bytes *out, int64_t *stride, Wr
 
 /* ---- accessors ---- */
 
+/* An accessor addresses numbers in three steps: accessor (type, count, offset) -> bufferView (offset, length, stride) ->
+   buffer. Offsets and lengths of an untrusted file are compared with the remaining bytes before each step; sums are formed in
+   64 bits. */
 static const struct {
     int type, bytes;
     double most; /* code that is normalised to 1; 0: floats */
@@ -293,6 +296,7 @@ static bool read_source(Gltf *file, Source source, double *out, WrError *err)
             const double x = component_at(bytes.at + source.offset + stride * i +
                                               (int64_t)components[kind].bytes * k,
                                           source.type);
+            /* Normalised integers (3.6.2.2): c / most, signed ones max(c / most, -1), so that -128 and -127 both mean -1. */
             *out++ = !(most > 0) ? x : x < -most ? -1 : x / most;
         }
     return true;
@@ -376,7 +380,8 @@ static void multiply(const double a[12], const double b[12], double out[12])
         }
 }
 
-/* The cofactors transform normals; the sign of the determinant is negative for mirroring. */
+/* The cofactors transform normals; the sign of the determinant is negative for mirroring. n' = C n with the cofactor matrix C
+   = det(M) M^-T: defined for singular M, too. For a mirroring M it flips normals, which the caller undoes. */
 static double cofactors(const double m[12], double c[9])
 {
     for (int row = 0; row < 3; row++)
@@ -398,7 +403,8 @@ static void take_array(json_object *node, const char *name, int count, double *o
     }
 }
 
-/* A matrix by columns, or a translation, a rotation quaternion and a scale. */
+/* A matrix by columns, or a translation, a rotation quaternion and a scale. The rotation matrix of the unit quaternion (x, y,
+   z, w): R = I + 2 w [v]x + 2 [v]x^2. */
 static void own_matrix(json_object *node, double out[12])
 {
     double m[16] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
@@ -509,6 +515,7 @@ static bool read_pose(Gltf *file, json_object *skin, Body *body, WrError *err)
         const int64_t node =
             json_object_is_type(item, json_type_int) ? json_object_get_int64(item) : -1;
         double m[12] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0 };
+        /* File matrices are stored by columns, ours by rows without the last one. */
         for (int k = 0; inverse.at && k < 12; k++) m[k] = inverse.at[16 * i + k % 4 * 4 + k / 4];
         if (node < 0 || node >= file->nodes)
             good = wr_fail(err, "is damaged: a skin names node %lld, which is not there",
@@ -519,7 +526,8 @@ static bool read_pose(Gltf *file, json_object *skin, Body *body, WrError *err)
     return good;
 }
 
-/* The matrix of point i; a point without weights is not moved. */
+/* The matrix of point i; a point without weights is not moved. Weights of a point should sum to 1; dividing by their sum
+   repairs files that were quantised or edited. */
 static bool skin_point(const Body *body, int64_t i, double out[12], WrError *err)
 {
     double sum = 0, m[12] = { 0 };
@@ -561,6 +569,7 @@ static bool read_body(Gltf *file, json_object *primitive, json_object *skin, Bod
 
 static void move_uv(const double m[6], const double *uv, float out[2])
 {
+    /* glTF's v points down, the program's up. */
     out[0] = (float)(m[0] * uv[0] + m[1] * uv[1] + m[2]);
     out[1] = (float)(1 - (m[3] * uv[0] + m[4] * uv[1] + m[5]));
 }
@@ -569,6 +578,8 @@ static void move_uv(const double m[6], const double *uv, float out[2])
 static bool add_points(WrMeshBuild *build, const Body *body, const double own[12],
                        const double uv_m[6], bool *mirrored, WrError *err)
 {
+    /* A skinned point has a matrix of its own, which replaces the node's (glTF 2.0, 3.7.3.3: the node's transform is
+       ignored). */
     double m[12], c[9];
     memcpy(m, own, sizeof m);
     if (!wr_mesh_build_reserve(build, body->points.count, 0, err)) return false;
@@ -594,7 +605,8 @@ static bool add_points(WrMeshBuild *build, const Body *body, const double own[12
     return true;
 }
 
-/* The corners of triangle i of a list, a strip or a fan, of mode 4, 5, 6. */
+/* The corners of triangle i of a list, a strip or a fan, of mode 4, 5, 6. Every second triangle of a strip is listed in
+   reverse, so that all have the same orientation. */
 static void corners_of(int64_t mode, int64_t i, int64_t out[3])
 {
     const int64_t odd = i % 2;
@@ -661,6 +673,7 @@ static bool add_body(Gltf *file, json_object *mesh, json_object *primitive, json
 
 /* ---- nodes ---- */
 
+/* The scene's nodes are visited with an explicit stack: a hostile file's nesting would overflow the call stack. */
 typedef struct Visit {
     int64_t node;
     double to[12];

@@ -64,6 +64,7 @@ float wr_srgb_decode(float code)
     return (float)(x <= 0.04045 ? x / 12.92 : wr_pow((x + 0.055) / 1.055, 2.4));
 }
 
+/* Rec. 709 weights, on linear values or on codes, as the picture holds them. */
 float wr_image_luma(const float *pixel, int channels)
 {
     if (channels < 3) return pixel[0];
@@ -311,6 +312,7 @@ bool wr_image_apply_range(WrImage *image)
     for (size_t k = 0; k < count; k++)
         for (int c = 0; c < heights; c++) {
             float *value = &image->data[k * (size_t)channels + (size_t)c];
+            /* Values are k / last rounded to float: rint restores k exactly, and low + step (k - zero) then has one rounding. */
             const double code = rint((double)*value * last);
             *value = (float)(label->low + label->step * (code - label->zero));
         }

@@ -14,6 +14,8 @@
 
 /* ---- the mesh under construction ---- */
 
+/* A mesh under construction: points[i] with normals[i], uv[i], and next[i], a chain of points at the same place: 1 + the next
+   one's number, 0 at the end. Arrays grow by doubling, limited by the maximum of readable meshes. */
 #define ALIKE 32            /* wedges of one place that are compared; further ones are not merged */
 #define WORK_MAX 2000000000 /* steps: a few seconds */
 /* A mesh whose distance from the origin is this many times its size loses at least 2 of 24 bits; a

@@ -92,6 +92,8 @@ static bool scan_number(WrScan *scan, double *out)
     if (whole + places == 0 || whole + places > DIGITS ||
         (scan->at < scan->end && !is_space(*scan->at)))
         return odd_number(scan, from, out);
+    /* Up to 18 digits fit 64 bits, and powers of ten up to 10^22 are exact in double: one rounding on conversion, one on
+       division. strtod would be exact, but depends on the locale and is several times slower on files of millions of numbers. */
     const double value = (double)digits / tens[places];
     *out = minus ? -value : value;
     return true;
@@ -272,6 +274,8 @@ static bool take_corner(const Obj *obj, WrScan *line, Corner *out)
     return true;
 }
 
+/* An OBJ corner is a triple of indices; a mesh point is a place with one normal and one (u,v). Each place keeps a chain of
+   its wedges (points with this place), and a corner reuses the one with the same normal and (u,v). */
 static bool read_face(Obj *obj, WrScan *line)
 {
     Corner c;
@@ -385,6 +389,8 @@ static bool has_decimal_comma(WrScan line)
     return numbers && memchr(line.at, ',', (size_t)(line.end - line.at));
 }
 
+/* This reader accepts the common subset of OBJ and fails on anything else; the caller then tries the slower library (assimp),
+   so no rare file is lost. Two passes: counts, then elements. */
 bool wr_obj_read(const char *bytes, size_t length, WrMeshBuild *build, const char **wrong)
 {
     Obj obj = { .build = build, .object = "defaultobject" };
@@ -409,6 +415,9 @@ bool wr_obj_read(const char *bytes, size_t length, WrMeshBuild *build, const cha
 
 /* ---- types and roles ---- */
 
+/* PLY: a text header names elements in file order, each with a count and a list of properties; the body holds all entries of
+   the first element, then the second, without separators in binary files. A list is its length, then its values. Unknown
+   elements and properties are read and dropped, since their sizes must be skipped. */
 typedef enum Type { CHAR, UCHAR, SHORT, USHORT, INT, UINT, FLOAT, DOUBLE, TYPES } Type;
 
 static const struct {
@@ -612,6 +621,8 @@ static bool fail_end(const Ply *ply, WrError *err)
                    (long long)ply->entry, (long long)ply->element->count);
 }
 
+/* Bytes are assembled most significant first, so that the host's byte order does not matter; the shift of `bits` sign-extends
+   by the conversion to a signed type of its size. */
 static double binary_value(const Ply *ply, Type type)
 {
     unsigned char b[8];
@@ -650,7 +661,8 @@ static bool take_value(Ply *ply, Type type, double *out, WrError *err)
     return true;
 }
 
-/* Reads a list's length; the remaining bytes must be able to contain the list. */
+/* Reads a list's length; the remaining bytes must be able to contain the list. Otherwise a header of a few bytes could
+   request gigabytes (untrusted file). */
 static bool take_length(Ply *ply, const Property *property, size_t *out, WrError *err)
 {
     double count = 0;
@@ -771,6 +783,7 @@ static bool add_face(Ply *ply, WrError *err)
     return wr_mesh_build_polygon(ply->build, ply->polygon, (int32_t)count, err);
 }
 
+/* Strips are lists separated by -1. */
 static bool add_strips(Ply *ply, WrError *err)
 {
     const size_t count = ply->corners.count;

@@ -23,6 +23,8 @@ typedef struct Crc {
     uint32_t now;
 } Crc;
 
+/* CRC-32 of ISO 3309 with the reflected polynomial 0xedb88320, table-driven by bytes: crc = table[(crc ^ byte) & 255] ^ crc
+   >> 8, start and end complemented (PNG specification, annex D). */
 static void crc_init(Crc *crc)
 {
     for (uint32_t n = 0; n < 256; n++) {
@@ -73,6 +75,8 @@ static bool check_chunk(FILE *file, Crc *crc, char name[5], WrError *err)
     return true;
 }
 
+/* libpng reports damage only when it reaches it, after rows were delivered; checking all chunks first costs one pass over the
+   compressed bytes. 8: the signature. */
 bool wr_png_check(FILE *file, WrError *err)
 {
     Crc crc;
@@ -149,6 +153,7 @@ typedef struct Text {
     char *name, *text; /* owned */
 } Text;
 
+/* libpng pulls bytes from `take` and delivers rows in order; codes hold one row, or all rows of an interlaced picture. */
 struct WrCodecReader {
     int fd;
     int64_t at; /* bytes of the file read into the block so far */
@@ -216,7 +221,8 @@ static unsigned number(const uint8_t *bytes, int count, bool big)
     return value;
 }
 
-/* The orientation of an Exif block: a TIFF header and its first directory. 0: none. */
+/* The orientation of an Exif block: a TIFF header and its first directory. 0: none. TIFF: "MM" or "II", 42, offset of the
+   directory; a directory is a 16-bit count, then entries of 12 bytes: tag, type, count, value. */
 static unsigned orientation_of(const uint8_t *exif, size_t length)
 {
     if (length < 8 || exif[0] != exif[1] || (exif[0] != 'M' && exif[0] != 'I')) return 0;
@@ -282,7 +288,8 @@ static void end(WrCodecReader *reader)
     reader->codes = NULL;
 }
 
-/* Reads up to the first row; libpng reports errors by longjmp. */
+/* Reads up to the first row; libpng reports errors by longjmp. Functions NAME_or_jump hold setjmp: no variable of theirs is
+   changed after it, since such values are undefined after a jump. */
 static bool begin_or_jump(WrCodecReader *reader, char *reason)
 {
     if (setjmp(png_jmpbuf(reader->png)))
@@ -425,6 +432,7 @@ static bool png_read(WrCodecReader *reader, int part, int y, int rows, int chann
                      char *reason)
 {
     (void)part;
+    /* Rows come in order; a request for an earlier one decodes the file again from the start. */
     if (!reader->interlaced && y < reader->next && !begin(reader, reason)) return false;
     return make_codes(reader, reason) && read_or_jump(reader, y, rows, channels, out, reason);
 }

@@ -495,6 +495,8 @@ static bool need_gathering(const WrImageRows *rows)
 /* Number of rows read at once. */
 static int band_rows(const WrImageRows *rows)
 {
+    /* A band is a multiple of WR_IMAGE_STRIP rows, the unit that formats compress together, within about 16 MB; very wide
+       pictures with many channels get fewer rows. */
     const size_t row = (size_t)rows->is.width * (size_t)rows->first;
     size_t most = BAND_BYTES / (row * sizeof(float)) / WR_IMAGE_STRIP * WR_IMAGE_STRIP;
     if (most < WR_IMAGE_STRIP) most = WR_IMAGE_STRIP;
@@ -542,7 +544,7 @@ static bool read_bands(WrImageRows *rows, WrImage *image, WrError *err)
 /* ---- orientation ---- */
 
 /* Index in the file's image, w x h, of pixel (x, y) of the image rotated by TIFF and EXIF orientation
- * 2..8. */
+   * 2..8. Orientations 5 to 8 transpose; of the values, 2, 3, 7, 8 reverse columns of the file and 3, 4, 6, 7 its rows. */
 static size_t place(int turned, int x, int y, int w, int h)
 {
     const bool across = turned == 2 || turned == 3 || turned == 7 || turned == 8;

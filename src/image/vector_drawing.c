@@ -144,6 +144,9 @@ static const short advances[95] = {
     222, 833, 556, 556, 556, 556, 333, 500, 278, 556, 500, 722, 500, 500,  500, 334, 260, 334, 584
 };
 
+/* Objects of the file, numbered in their order: catalog -> pages -> page -> font and content stream; the stream's length is
+   an object after it, since it is unknown when the stream begins. The xref table has lines of exactly 20 bytes: a 10-digit
+   offset, a generation, n or f. */
 enum { CATALOG = 1, PAGES, PAGE, FONT, DRAWING, LENGTH, OBJECTS };
 
 /* Objects are written in the order of their numbers; their offsets are found at the end. */
@@ -155,6 +158,7 @@ static void begin_object(WrVectorDrawing *drawing, int number)
 static void head_pdf(WrVectorDrawing *drawing)
 {
     WrText *text = &drawing->text;
+    /* The four bytes above 127 in a comment mark the file as binary for transfer programs (ISO 32000, 7.5.2). */
     wr_text_add(text, "%PDF-1.4\n%\xe2\xe3\xcf\xd3\n");
     begin_object(drawing, CATALOG);
     wr_text_addf(text, "<< /Type /Catalog /Pages %d 0 R >>\nendobj\n", PAGES);

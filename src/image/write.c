@@ -230,7 +230,8 @@ static void digest_strip(const Writing *to, WrPixelType type, const void *pixels
     wr_digest_strip(digest, values, count);
 }
 
-/* Maximum number of rows that a format compresses together. */
+/* Maximum number of rows that a format compresses together. Pieces smaller than this would be compressed separately and make
+   larger files. */
 static int packed_rows(const char *format)
 {
     return strcmp(format, "png") == 0 ? 1 : strcmp(format, "tiff") == 0 ? 32 : 16;
@@ -265,6 +266,8 @@ static bool write_strip(Writing *to, int y, int rows, const void *pixels, size_t
     return to->spool.fd < 0 || spooled(to, wr_spool_move(&to->spool, &to->sink), err);
 }
 
+/* While a strip is written its digest is updated; after the file is complete it is read back by the reader process, and the
+   digests are compared: a full second copy in memory is not needed. */
 static bool write_part(Writing *to, const WrImageOut *part, WrHash *digest, WrError *err)
 {
     size_t row = (size_t)part->width * (size_t)part->channels;

@@ -62,7 +62,9 @@ WrBrush wr_preset_browser_own(const WrApp *app)
 
 /* ---- choice ---- */
 
-/* Use a preset (NULL: none) with its changed settings; ownership of both passes. Running strokes keep their own. */
+/* Use a preset (NULL: none) with its changed settings; ownership of both passes. Running strokes keep their own. `preset` is
+   the file's, `tuned` a copy with the user's changed settings (the text brush_files->set), or the same preset shared; the
+   brush points to `tuned`. */
 static void install(WrApp *app, WrPreset *preset, WrPreset *tuned)
 {
     WrPresetBrowser *shelf = app->shelf;

@@ -42,7 +42,8 @@ static void strokes_head(const WrApp *app, const WrBrush *brush, WrText *line)
     wr_brush_line(line, brush, &base, &names);
 }
 
-/* An integer below 1e9, which is short in a line; different for each stroke. */
+/* An integer below 1e9, which is short in a line; different for each stroke. A multiplicative hash spreads consecutive clock
+   values over the whole range. */
 static uint64_t new_seed(WrApp *app)
 {
     uint64_t x = (uint64_t)(wr_clock_seconds() * 1e6) + 0x9e3779b97f4a7c15u * ++app->brush->seeds;
@@ -69,6 +70,9 @@ WrBrush wr_strokes_brush(WrApp *app, const WrPointer *at)
     return brush;
 }
 
+/* jobs[0] is the stroke that the session draws (`opened`); later ones wait, each with its own brush line and samples. Samples
+   leave a job when they are pushed into the session, whose journal then holds them. The session draws all samples of a stroke
+   only after further calls (`unfinished`), a few milliseconds per frame. */
 /* ---- queued strokes ---- */
 
 static void drop_job(WrBrushState *hand, int index)

@@ -175,7 +175,8 @@ void wr_brush_press(WrApp *app, const WrPointer *at)
     }
 }
 
-/* True at a border between copies that the tiling shifts: the table position jumps, so another stroke begins. */
+/* True at a border between copies that the tiling shifts: the table position jumps, so another stroke begins. Brick tilings
+   shift every second row, half-drop ones every second column: only crossing an odd number of them jumps. */
 static bool crosses(const WrApp *app, const WrPointer *at)
 {
     const WrPointer *before = &app->hand->at;

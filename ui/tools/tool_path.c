@@ -79,6 +79,7 @@ static void add_point(WrText *line, const WrApp *app, double x, double y, WrSele
     wr_text_add_number(line, wr_line_round(p.v + home.v, 7));
 }
 
+/* A cubic Bezier piece needs out-handle, in-handle and end; its start is the end of the piece before. */
 static void add_piece(WrText *line, const WrApp *app, const WrAnchor *a, const WrAnchor *b,
                       WrSelectPoint home)
 {
@@ -87,6 +88,8 @@ static void add_piece(WrText *line, const WrApp *app, const WrAnchor *a, const W
     add_point(line, app, b->x, b->y, home);
 }
 
+/* Anchors may lie on any copy of the cell; `home` shifts all of them by whole cells, so that the first one is in the cell and
+   the shape keeps its connection across the edges. */
 static void write_line(const WrApp *app, WrText *line)
 {
     const WrDrawState *draw = app->draw;
@@ -176,6 +179,7 @@ static void drag(WrApp *app, const WrPointer *at)
         *a = (WrAnchor){ x, y, a->in_x + dx, a->in_y + dy, a->out_x + dx, a->out_y + dy };
     } else {
         bool both = !(at->mods & WR_MOD_ALT); /* Alt moves one handle independently */
+        /* The opposite handle mirrored at the anchor: both tangents are parallel and equal, the curve is C1 there. */
         double ox = 2.0 * a->x - x, oy = 2.0 * a->y - y;
         bool out = draw->part == PART_OUT;
         if (out || both) {

@@ -75,7 +75,8 @@ static void put_ellipse(WrApp *app, double x0, double y0, double x1, double y1)
     }
 }
 
-/* The sides of a dragged rectangle, on texel borders. */
+/* The sides of a dragged rectangle, on texel borders. Sides on whole texels: the selection is then exactly 0 or 1 at every
+   texel, without a soft edge. */
 static void corners(const WrApp *app, const WrPointer *at, double box[4])
 {
     double x, y;

@@ -31,6 +31,8 @@
 #define SNAP_DEGREES 2.0 /* snap angle to quarter turns */
 #define NEARLY_ALL 0.9   /* fraction of an axis that counts as filled */
 
+/* A drag changes `now` only; the line of the command is written from it and tried on a snapshot by a worker thread
+   (wr_app_try). Applying runs the same line, so the preview and the step have the same bits. */
 static const WrTransformValues still = { .scale = { 1.0, 1.0 } };
 
 /* ---- transformed piece ---- */
@@ -75,7 +77,9 @@ static bool is_still(const WrTransformState *hand)
            v->scale[1] == 1.0;
 }
 
-/* A position in the piece, 0..1 along its axes from the left and the top, in texels. */
+/* A position in the piece, 0..1 along its axes from the left and the top, in texels.
+     x' = cx + mx + cos t sx x + sin t sy y,   y' = cy - my - sin t sx x + cos t sy y
+   with rows down and the angle t anticlockwise as seen. */
 static void place_of(const WrTransformState *hand, const WrTransformValues *v, double along,
                      double down, double out[2])
 {
@@ -121,6 +125,8 @@ static void write_line(const WrApp *app, WrText *line)
     if (hand->all) wr_text_add(line, " layers=all");
 }
 
+/* Values are rounded to the digits of the line before they are used: otherwise the applied step would differ from the
+   preview. */
 static double near_one(double x)
 {
     double size = fmin(fmax(fabs(x), 1.0 / 64.0), 64.0);
@@ -219,7 +225,8 @@ static bool find_handle(const WrApp *app, const double at[2], int side[2])
     return false;
 }
 
-/* Components along the piece's own axes. */
+/* Components along the piece's own axes. The inverse rotation: the handles' test and scaling happen in the piece's unrotated
+   frame. */
 static void to_own(const WrTransformValues *v, const double at[2], double out[2])
 {
     double c = cos(v->turn * WR_RAD_PER_DEG), s = sin(v->turn * WR_RAD_PER_DEG);
@@ -255,6 +262,8 @@ static double snapped(const WrApp *app, int axis, double move, double from, doub
     const double cell = axis ? app->view->table_h : app->view->table_w;
     double grid = wr_grid_step(app, axis), step = grid > 0.0 ? grid : 0.5 * cell;
     double best = move, least = texels(app, SNAP_UNITS);
+    /* The piece's near edge, centre and far edge (k = 0, 1, 2) are compared with multiples of the step; the nearest within
+       reach wins. */
     for (int k = 0; k < 3; k++) {
         double at = from + 0.5 * k * count + move, way = step * rint(at / step) - at;
         if (fabs(way) >= least) continue;

@@ -532,7 +532,7 @@ static void clipped(const WrView *view, const WrClipVertex corner[3], const floa
 }
 
 /* Clips against the near plane and the guard band, before any division (HC82, HC83), and rasterises. */
-static void wr_raster_clipped(const WrView *view, const WrClipVertex corner[3], WrDepthTile *tile)
+static void raster_clipping(const WrView *view, const WrClipVertex corner[3], WrDepthTile *tile)
 {
     clipped(view, corner, NULL, tile);
 }
@@ -834,7 +834,7 @@ static void raster_clipped(const WrViewMesh *mesh, const WrView *view, const int
         corner[k] = raster_camera_vertex(view, (WrVec3){ mesh->x[at], mesh->y[at], mesh->z[at] },
                                          (double)ij[k][0] / mesh->mu, (double)mesh->v[ij[k][1]]);
     }
-    wr_raster_clipped(view, corner, tile);
+    raster_clipping(view, corner, tile);
 }
 
 /* A block of cells while a tile of samples is drawn. */
