@@ -83,19 +83,19 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
                                            .fallback = { 0.3 }, .planned = true, .sparse = true,
                                            .label = "Roughness",
                                            .help = "0: smooth, 1: facets stand any way; of "
-                                                   "oren-nayar their spread in radians",
+                                                   "matt facets their spread in radians",
                                            SLIDER(0, 1, 3) },
     [WR_ROW(WR_SCENE_PARAM_METALNESS)] = { "material", NULL, "metalness",
                                            IN_SCENE(material.metalness), .components = 1, .high = 1,
                                            .planned = true, .sparse = true, .label = "Metalness",
-                                           .help = "of ggx: 1: no diffuse light, and the highlight "
+                                           .help = "1: no diffuse light, and the highlight "
                                                    "has the material's colour",
                                            SLIDER(0, 1, 3) },
     [WR_ROW(WR_SCENE_PARAM_IOR)] = { "material", NULL, "ior", IN_SCENE(material.ior),
                                      .components = 1, .low = 0.01, .high = 1e4, .fallback = { 1.5 },
                                      .planned = true, .sparse = true, .label = "Index",
-                                     .help = "index of refraction, of torrance-sparrow and ggx: "
-                                             "how much facets reflect",
+                                     .help = "index of refraction: how much small mirrors "
+                                             "reflect",
                                      SLIDER(1, 4, 3) },
     [WR_ROW(WR_SCENE_PARAM_TINT)] = { "material", NULL, "tint", IN_SCENE(material.tint),
                                       .components = 1, .high = 1, .planned = true, .sparse = true,

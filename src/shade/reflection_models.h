@@ -16,7 +16,7 @@
    title      in lists of the window
    help       one line: the tip, and the plan's reason
 
-   The order is that of lists. A new row is added at the end, because hard cases draw models by number. */
+   The order is that of lists. A new row is added at the end: hard cases draw models in this order. */
 #pragma once
 #include "shade/reflection.h"
 

@@ -7,7 +7,7 @@ set -uo pipefail
 cd "$1/src/command" || exit 1
 bad=0 seen=0
 for file in *_command.c *_commands.c; do
-    rows=$(grep -ohE '\.name = "[^"]+"|\b[A-Z_]+\("[^"]+"' "$file" brush_args.[ch] args.h |
+    rows=$(grep -ohE '\.name = "[^"]+"|\b[A-Z_]+\("[^"]+"' "$file" args.h |
         sed -E 's/.*"([^"]+)".*/\1/'; grep -ohE '"[a-z]+", ("[a-z]+"|NULL), "[^"]+"' ../scene/param.c |
         sed -E 's/.*"([^"]+)"$/\1/')
     while read -r name; do

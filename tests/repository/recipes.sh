@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # The recipes of src/README.md, followed in a copy with a dummy row: step by step either the compiler stops at the file that the
-# recipe names next, or everything compiles. Compiles single files, and only up to their meaning.
+# recipe names next, or everything compiles. Compiles single files, and only up to their meaning; the panel's are linked too.
 #   recipes.sh SOURCE BUILD FOLDER
 set -uo pipefail
-source=$(cd "$1" && pwd)
+source=$(cd "$1" && pwd) build=$(cd "$2" && pwd)
 # shellcheck source=tests/repository/compile_help.sh
 source "$source/tests/repository/compile_help.sh"
 scratch_tree "$source" "$2" "$3" || { echo "recipes: $2/compile_commands.json has no commands"; exit 1; }
@@ -44,6 +44,29 @@ compile() {
         if [[ -s $said ]]; then wrong "$what: $file: $(grep -m 2 error "$said")"
         else printf '%s: %s compiles\n' "$what" "$file"; fi
     done
+}
+
+# like OLD NEW: a file of the copy that no list has yet is compiled as another is.
+like() {
+    sed -n "\\|^$1\t|{s|$1|$2|gp;q}" "$folder/commands" >"$folder/like" && cat "$folder/like" >>"$folder/commands"
+}
+# links WHAT MESSAGE FILE...: the program with these files of the copy in place of its own: does not link, with that message, or
+# links where the message is empty.
+links() {
+    local what=$1 message=$2 file command objects=() said=$folder/link
+    shift 2
+    for file in "$@"; do
+        command=$(awk -F '\t' -v f="$file" '$1 == f { print $2; exit }' "$folder/commands")
+        objects+=("$folder/${file//\//_}.o")
+        CCACHE_DISABLE=1 bash -c "${command/-fsyntax-only/-o ${objects[-1]}}" || wrong "$what: $file"
+    done
+    command=$(ninja -C "$build" -t commands wrinkle | tail -1)
+    (cd "$build" && LC_ALL=C timeout 120 bash -c "${command/-o wrinkle/${objects[*]} -o $folder/program}") >"$said" 2>&1
+    case $?:$message in
+    0:) printf '%s: links\n' "$what" ;;
+    124:* | 0:* | *:) wrong "$what: $(tail -1 "$said")" ;;
+    *) if grep -qE "$message" "$said"; then printf '%s: does not link\n' "$what"; else wrong "$what: $(tail -1 "$said")"; fi ;;
+    esac
 }
 
 # ---- a reflection model ----
@@ -150,7 +173,11 @@ roster=ui/app/roster_list.c panels=ui/panels/panels.h
 edit "$roster" 's/(\{ "History", )/{ "Dummy", wr_panel_dummy, NULL, false, false },\n$1/'
 stops 'panel with its row alone' 'wr_panel_dummy' "$roster"
 edit "$panels" 's/(void wr_panel_history\()/void wr_panel_dummy(WrApp *app);\n$1/'
-sed 's/wr_panel_history/wr_panel_dummy/' "$source/ui/panels/panel_history.c" >"$tree/ui/panels/panel_history.c"
-compile 'panel' "$roster" ui/panels/panel_history.c
-pristine "$panels" "$roster" ui/panels/panel_history.c
+sed 's/wr_panel_history/wr_panel_dummy/' "$source/ui/panels/panel_history.c" >"$tree/ui/panels/panel_dummy.c"
+like ui/panels/panel_history.c ui/panels/panel_dummy.c
+compile 'panel' "$roster" ui/panels/panel_dummy.c
+links 'panel whose file is in no list' 'undefined.*wr_panel_dummy' "$roster"
+links 'panel' '' "$roster" ui/panels/panel_dummy.c
+rm "$tree/ui/panels/panel_dummy.c"
+pristine "$panels" "$roster"
 exit $bad

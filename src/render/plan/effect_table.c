@@ -172,8 +172,8 @@ static WrVerdict decide_half(const WrPlan *plan, const WrPlanRequest *ask, const
 WR_ROWS(wr_effects);
 const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_DIFFUSE)] = { "E1", "diffuse", WR_PROOF_IDENTICAL, NULL,
-                                    "no light shines, diffuse is 0, the colour is black, or ggx's "
-                                    "metalness is 1; of "
+                                    "no light shines, diffuse is 0, the colour is black, or the "
+                                    "material is all metal; of "
                                     "several lights those that do not shine",
                                     STAGE(DIFFUSE), .spared = WR_RUN_DARK,
                                     .decide = wr_decide_diffuse },
@@ -184,19 +184,20 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                      .decide = wr_decide_specular },
     [WR_ROW(WR_EFFECT_MODEL)] = { "E36", "reflection model", WR_PROOF_BOUNDED,
                                   "rounding of the light",
-                                  "the material is Blinn-Phong's, its highlight white; without a "
+                                  "the model is that of new scenes, its highlight white; without a "
                                   "highlight, or of matt facets of roughness 0, it is Lambert's",
                                   0, .only_way = true, .spared = WR_RUN_DARK,
                                   .decide = wr_decide_model, .settle = wr_settle_model },
     [WR_ROW(WR_EFFECT_KEPT)] = { "E44", "kept diffuse light", WR_PROOF_IDENTICAL, NULL,
-                                 "the material is not ggx's, or its energy is as published; there "
+                                 "highlights leave the model's diffuse light as it is, or its "
+                                 "energy is as published; there "
                                  "is no diffuse light, as of metal, that could be too much beside "
                                  "the highlight",
                                  0, .spared = WR_RUN_DARK, .decide = wr_decide_kept,
                                  .settle = wr_settle_kept },
     [WR_ROW(WR_EFFECT_SURROUND)] = { "E41", "surroundings", WR_PROOF_IDENTICAL, NULL,
                                      "there are none, or no light comes from them; diffuse is 0, "
-                                     "the colour is black, or ggx's metalness is 1",
+                                     "the colour is black, or the material is all metal",
                                      STAGE(SURROUND), .decide = wr_decide_surround },
     [WR_ROW(WR_EFFECT_HARMONICS)] = { "E42", "harmonics", WR_PROOF_IDENTICAL, NULL,
                                       "no diffuse light comes from surroundings, or they are of "
@@ -390,7 +391,7 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                     0, .only_way = true, .manner = true,
                                     .decide = wr_decide_widened },
     [WR_ROW(WR_EFFECT_FACED)] = { "E40", "normals bent into view", WR_PROOF_IDENTICAL, NULL,
-                                  "facets of torrance-sparrow and ggx alone are bent. Of those, "
+                                  "only facets that are small mirrors are bent. Of those, "
                                   "runs of samples whose normals all face the viewer",
                                   0, .only_way = true, .manner = true, .decide = wr_decide_faced },
     [WR_ROW(WR_EFFECT_FAINT)] = { "E37", "faint highlights", WR_PROOF_BOUNDED,
