@@ -223,7 +223,7 @@ static bool ora_agrees(const WrDocument *document, int lowest, const WrOraRange 
 #define PIXELS_MAX ((int64_t)16 << 28) /* total of all layers: 16 of the largest size */
 
 /* OpenRaster: a zip archive whose first entry, "mimetype", is stored uncompressed, so that the type is found at a fixed
-   offset; stack.xml with the layers, topmost first; data/*.png; Thumbnails/thumbnail.png; mergedimage.png. The program's own
+   offset; stack.xml with the layers, topmost first; data/NAME.png; Thumbnails/thumbnail.png; mergedimage.png. The program's own
    float tables are additional EXR entries, named by attributes of stack.xml that other programs keep or drop. */
 static const char media_type[] = "image/openraster";
 
