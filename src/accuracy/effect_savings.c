@@ -1,7 +1,6 @@
 #include "accuracy/effect_savings.h"
 
 #include "accuracy/ladder_internal.h"
-#include "accuracy/tolerance_internal.h"
 #include "base/progress.h"
 #include "render/frame/frame.h"
 
@@ -29,15 +28,8 @@ static bool render(const Measure *m, Side *side, WrError *err)
     WrFrameRequest request = *m->request->frame;
     WrFrame frame;
     request.force = side->force;
-    if (m->request->choice) {
-        side->plan = (WrPlan){ 0 };
-        if (!wr_choice_frame_plan(side->renderer, &request, m->request->choice, &side->plan, &frame,
-                                  err))
-            return false;
-    } else {
-        if (!wr_renderer_frame(side->renderer, &request, &frame, err)) return false;
-        side->plan = *frame.plan;
-    }
+    if (!wr_renderer_frame(side->renderer, &request, &frame, err)) return false;
+    side->plan = *frame.plan;
     side->seconds = frame.times.total;
     return true;
 }

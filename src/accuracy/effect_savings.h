@@ -8,7 +8,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-typedef struct WrChoice WrChoice;
 typedef struct WrError WrError;
 typedef struct WrFrameRequest WrFrameRequest;
 typedef struct WrPool WrPool;
@@ -17,7 +16,6 @@ typedef struct WrSavingRequest {
     WrPool *pool;    /* borrowed; NULL: one thread */
     const char *isa; /* as in wr_renderer_new */
     const WrFrameRequest *frame;
-    const WrChoice *choice; /* dials chosen by a tolerance for that frame; NULL: the frame's own */
 } WrSavingRequest;
 
 typedef struct WrSaving {

@@ -1,5 +1,5 @@
 #include "accuracy/effect_savings.h"
-#include "accuracy/tolerance_search.h"
+#include "accuracy/tolerance.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
@@ -72,35 +72,19 @@ static void map_legend_json(const WrHeatmapCounts *counts, WrText *text)
     }
 }
 
-/* Print {"blocks":n,"share":0.12,"where":"edges","bump":"mode=...","dials":"aa=..."} */
-static void add_json_part(WrText *text, const WrChoicePart *part, int64_t all)
+/* Print {"bump":"mode=...","dials":"aa=..."} */
+static void add_json_dials(WrText *text, const WrScene *scene)
 {
     WrText bump = { 0 }, dials = { 0 };
-    wr_dials_print(part->scene, "bump", true, &bump);
-    wr_dials_print(part->scene, "dials", false, &dials);
-    wr_text_addf(text, "{\"blocks\":%lld,\"share\":", (long long)part->blocks);
-    wr_text_add_json_number(text, (double)part->blocks / (double)all);
-    wr_text_add(text, ",\"where\":");
-    wr_text_add_json_string(text, part->where);
-    wr_text_add(text, ",\"bump\":");
+    wr_dials_print(scene, "bump", true, &bump);
+    wr_dials_print(scene, "dials", false, &dials);
+    wr_text_add(text, "{\"bump\":");
     wr_text_add_json_string(text, wr_text_get(&bump));
     wr_text_add(text, ",\"dials\":");
     wr_text_add_json_string(text, wr_text_get(&dials));
     wr_text_add(text, "}");
     wr_text_fini(&bump);
     wr_text_fini(&dials);
-}
-
-static void add_json_parts(WrText *text, const WrChoice *choice)
-{
-    int64_t all = 0;
-    int shown = 0;
-    for (int i = 0; i < choice->count; i++) all += choice->parts[i].blocks;
-    for (int i = 0; i < choice->count; i++) {
-        if (choice->parts[i].blocks == 0) continue;
-        if (shown++ > 0) wr_text_add(text, ",");
-        add_json_part(text, &choice->parts[i], all);
-    }
 }
 
 static void add_json_choice(WrText *text, const WrChoice *choice)
@@ -111,14 +95,12 @@ static void add_json_choice(WrText *text, const WrChoice *choice)
     wr_text_add_json_number(text, choice->max);
     wr_text_add(text, ",\"seconds\":");
     wr_text_add_json_number(text, choice->seconds);
-    wr_text_add(text, ",\"top_seconds\":");
-    wr_text_add_json_number(text, choice->top_seconds);
     wr_text_add(text, ",\"choosing_seconds\":");
     wr_text_add_json_number(text, choice->spent);
     wr_text_add(text, ",\"reason\":");
     wr_text_add_json_string(text, choice->reason);
     wr_text_add(text, ",\"chosen\":[");
-    add_json_parts(text, choice);
+    add_json_dials(text, choice->dials);
     wr_text_add(text, "]}");
 }
 
@@ -207,7 +189,7 @@ static void add_json(WrText *text, const Explanation *explanation)
     wr_text_addf(text, ",\"width\":%d,\"height\":%d,\"covered\":%lld,\"samples\":%lld,\"seconds\":",
                  frame->width, frame->height, (long long)frame->covered, (long long)frame->shaded);
     wr_text_add_json_number(text, frame->times.total);
-    if (explanation->choice->count > 0) add_json_choice(text, explanation->choice);
+    if (explanation->choice->dials) add_json_choice(text, explanation->choice);
     if (explanation->map) {
         wr_text_add(text, ",\"map\":[");
         map_legend_json(explanation->map, text);
@@ -276,7 +258,7 @@ static void add_table(WrText *text, const Explanation *explanation)
     }
     add_costs(text, plan);
     if (explanation->savings) add_savings(text, explanation);
-    if (choice->count > 0) {
+    if (choice->dials) {
         wr_text_addf(text, "\n%s\n", choice->reason);
         wr_choice_print(choice, text);
     }

@@ -195,9 +195,8 @@ static const WrArgSpec args_tolerance[] = {
       .type = WR_ARG_TEXT,
       .shape = "dials as save writes them",
       .check = check_chosen,
-      .help =
-          "what was chosen for the last picture, block by block: used again for the same table, "
-          "scene, size and turn" },
+      .help = "what was chosen for the last picture: used again for the same table, scene, size "
+              "and turn" },
     { 0 }
 };
 
@@ -251,9 +250,10 @@ const WrCommand wr_command_tolerance = {
     .print = print_tolerance,
     .print_end = true,
     .help = "the cheapest dials that keep to an error",
-    .details = "One of the four. Each picture measures a sample of itself and takes, for each "
-               "kind of block that it has, the cheapest slopes, normals and samples that meet "
-               "the tolerance; `wrinkle explain` prints the choice, and whether it holds. save "
+    .details = "One of the four. Each picture is rendered with the cheapest slopes, normal and "
+               "samples that should meet the tolerance, checked on some of its pixels, and "
+               "corrected once if it missed; `wrinkle explain` prints the choice, and whether it "
+               "was met. save "
                "keeps the last picture's choice in chosen=.",
     .example = "tolerance rms=0.004"
 };

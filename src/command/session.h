@@ -7,7 +7,7 @@
    read snapshots of it. */
 #pragma once
 #include "accuracy/effect_savings.h"
-#include "accuracy/tolerance_search.h"
+#include "accuracy/tolerance.h"
 #include "base/file.h"
 
 #include <stdbool.h>
@@ -205,7 +205,7 @@ bool wr_session_savings(WrSession *session, int width, int height, double turn_d
    show nothing. */
 bool wr_session_map(WrSession *session, int width, int height, double turn_deg, uint8_t *map,
                     WrError *err);
-/* Dials chosen for the last picture under the scene's tolerance; count is 0 if it had none. */
+/* Dials chosen for the last picture under the scene's tolerance; its dials are NULL if it had none. */
 const WrChoice *wr_session_choice(const WrSession *session);
 /* Stored dials of the document for its tolerance (wr_choice_write), or NULL. Valid until they change. */
 const char *wr_session_chosen(const WrSession *session);

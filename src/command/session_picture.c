@@ -74,7 +74,7 @@ static void session_recall_chosen(WrSession *session, const WrFrameRequest *requ
 static void add_of(WrSession *session, const WrFrameRequest *request, WrText *text)
 {
     const WrChoice *choice = &session->choice;
-    const bool fresh = choice->count > 0 && choice->scene == request->scene &&
+    const bool fresh = choice->dials && choice->scene == request->scene &&
                        choice->tables_key == wr_choice_tables_key(request);
     if (!fresh && !session->state.chosen) return;
     const WrChoiceOrigin origin = origin_of(request);
@@ -174,12 +174,15 @@ bool wr_session_savings(WrSession *session, int width, int height, double turn_d
                         WrSaving savings[WR_EFFECT_COUNT], WrError *err)
 {
     WrFrameRequest request;
-    if (!make_request(session, width, height, turn_deg, &request, err)) return false;
-    WrSavingRequest ask = { .pool = session->options.pool,
-                            .isa = session->options.isa,
-                            .frame = &request };
-    return choice_for(session, &request, &ask.choice, err) &&
-           wr_savings_measure(&ask, savings, err);
+    const WrChoice *choice;
+    const WrSavingRequest ask = { .pool = session->options.pool,
+                                  .isa = session->options.isa,
+                                  .frame = &request };
+    if (!make_request(session, width, height, turn_deg, &request, err) ||
+        !choice_for(session, &request, &choice, err))
+        return false;
+    if (choice) request.scene = choice->dials;
+    return wr_savings_measure(&ask, savings, err);
 }
 
 bool wr_session_map(WrSession *session, int width, int height, double turn_deg, uint8_t *map,
@@ -349,7 +352,7 @@ static bool draw_first(Picture *picture, WrError *err)
 static void report_choice(WrSession *session, const char *path)
 {
     if (session->state.document->scene->tolerance.kind == WR_TOLERANCE_NONE ||
-        session->choice.count == 0 || session->choice.met || session->choice.shown)
+        !session->choice.dials || session->choice.met || session->choice.shown)
         return;
     wr_session_note(session, "%s: %s", path, session->choice.reason);
     session->choice.shown = true;

@@ -64,7 +64,7 @@ typedef struct WrMaterial {
     double tint;    /* fraction of the highlight with the surface's colour */
 } WrMaterial;
 
-/* Required accuracy of the picture; matching dials are found by measurement (accuracy/tolerance_search.h). */
+/* Required accuracy of the picture; matching dials are found by measurement (accuracy/tolerance.h). */
 typedef enum WrToleranceKind {
     WR_TOLERANCE_NONE, /* the dials are used as set */
     WR_TOLERANCE_RMS,  /* of linear intensity over the covered pixels, maximum */

@@ -4,7 +4,6 @@
 #include "render/render_scenes.h"
 
 #include "accuracy/effect_savings.h"
-#include "accuracy/tolerance_search.h"
 
 #define SIDE 48
 
@@ -32,12 +31,10 @@ static void strike(Stage *stage)
     wr_pool_free(stage->pool);
 }
 
-static void measure(Stage *stage, const WrChoice *choice)
+static void measure(Stage *stage)
 {
     WrError err = { "" };
-    const WrSavingRequest ask = {
-        .pool = stage->pool, .isa = "auto", .frame = &stage->frame, .choice = choice
-    };
+    const WrSavingRequest ask = { .pool = stage->pool, .isa = "auto", .frame = &stage->frame };
     if (!wr_savings_measure(&ask, stage->savings, &err)) fail_msg("%s", err.text);
 }
 
@@ -88,7 +85,7 @@ static void each_is_measured_where_it_can_be_turned(void **state)
         stage.scene->dials.aa = k < 3 ? WR_AA_MOMENTS : WR_AA_SUPERSAMPLE;
         stage.scene->dials.samples = 2;
         stage.scene->height = k == 0 ? 0 : stage.scene->height;
-        measure(&stage, NULL);
+        measure(&stage);
         const WrPlan planned = plan_of(&stage, WR_EFFECT_AGAIN, WR_FORCE_NONE);
         for (int e = 0; e < WR_EFFECT_COUNT; e++) check_row(&stage, (WrEffect)e, &planned);
         strike(&stage);
@@ -101,7 +98,7 @@ static void an_effect_goes_with_what_it_needs(void **state)
     (void)state;
     set_up(&stage, "sphere");
     stage.scene->bump = WR_BUMP_EXACT;
-    measure(&stage, NULL);
+    measure(&stage);
     const WrSaving *exact = &stage.savings[WR_EFFECT_EXACT];
     assert_null(exact->why_not);
     assert_true(exact->also >> WR_EFFECT_CURVATURE & 1);
@@ -121,29 +118,9 @@ static void an_empty_picture_measures_nothing(void **state)
     stage.scene->camera.orthographic = stage.scene->camera.fit = false;
     stage.scene->camera.eye = (WrVec3){ 0, 0, 10 };
     stage.scene->camera.target = (WrVec3){ 0, 0, 20 };
-    measure(&stage, NULL);
+    measure(&stage);
     assert_non_null(stage.savings[WR_EFFECT_BUMP].why_not);
     assert_non_null(strstr(stage.savings[WR_EFFECT_BUMP].why_not, "no pixel"));
-    strike(&stage);
-}
-
-static void a_tolerance_keeps_its_dials(void **state)
-{
-    Stage stage;
-    WrFrame frame;
-    WrChoice choice = { 0 };
-    (void)state;
-    set_up(&stage, "torus");
-    stage.scene->tolerance = (WrTolerance){ .kind = WR_TOLERANCE_RMS, .value = 0.02 };
-    WrRenderer *renderer = wr_renderer_new(stage.pool, "auto", NULL);
-    assert_true(wr_tolerance_frame(renderer, &stage.frame, &choice, &frame, NULL));
-    const int count = choice.count;
-    measure(&stage, &choice);
-    assert_int_equal(choice.count, count);
-    assert_null(stage.savings[WR_EFFECT_BUMP].why_not);
-    assert_true(stage.savings[WR_EFFECT_BUMP].pixels > 0);
-    wr_choice_fini(&choice);
-    wr_renderer_free(renderer);
     strike(&stage);
 }
 
@@ -153,7 +130,6 @@ int main(void)
         cmocka_unit_test(each_is_measured_where_it_can_be_turned),
         cmocka_unit_test(an_effect_goes_with_what_it_needs),
         cmocka_unit_test(an_empty_picture_measures_nothing),
-        cmocka_unit_test(a_tolerance_keeps_its_dials),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

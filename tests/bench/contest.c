@@ -1,7 +1,7 @@
 /* `wrinkle accuracy --tolerance`: the dials that a tolerance chooses, compared with the best of all settings. */
 #include "accuracy/ladder.h"
 #include "accuracy/ladder_internal.h"
-#include "accuracy/tolerance_search.h"
+#include "accuracy/tolerance.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"

@@ -90,7 +90,7 @@ grep -q '</svg>' a.svg || complain 'the SVG is not whole'
 jq -e '.rows[0].held and (.rows[0] | has("pays_from")) and .rows[0].rms <= 0.05 and .rows[0].best_seconds > 0 and
     (.rows[1].held | not) and (.rows[1].claimed | not)' b.json >/dev/null || complain "$(cat b.json)"
 "$program" explain "$scene" --size 64x64 --do 'tolerance rms=0.05' >c 2>err || complain "explain fails: $(cat err)"
-grep -q '^tolerance rms=0.05: met' c && grep -q ' of the blocks, .*: scheme=' c || complain 'explain does not tell the choice'
+grep -q '^tolerance rms=0.05: met' c && grep -q '^whole picture: scheme=' c || complain 'explain does not tell the choice'
 "$program" explain "$scene" --size 64x64 --do 'tolerance rms=0.05' --json | jq -e '.tolerance.met' >/dev/null ||
     complain 'explain --json does not tell the choice'
 

@@ -3,7 +3,7 @@
 #include "test.h"
 #include "session_help.h"
 
-#include "accuracy/tolerance_search.h"
+#include "accuracy/tolerance.h"
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/text.h"
@@ -242,8 +242,8 @@ static void kept_dials_are_for_the_document_as_it_was_saved(void **state)
 static void expect_damaged(const char *where, const char *bad, const char *what)
 {
 #define HASH "0123456789abcdef0123456789abcdef"
-    static const char good[] = "2 16x16 turn=0 table=" HASH " scene=" HASH
-                               " met=yes rms=0.003 max=0.1 parts=central,exact,1,0,3 blocks=a.a2";
+    static const char good[] = "3 16x16 turn=0 table=" HASH " scene=" HASH
+                               " met=yes rms=0.003 max=0.1 dials=central,exact,4,0";
     char message[40], value[1200], line[1400];
     WrError err = { "" };
     const char *at = strstr(good, where);
@@ -259,82 +259,55 @@ static void expect_damaged(const char *where, const char *bad, const char *what)
 static void damaged_dials_are_refused_with_one_clear_error(void **state)
 {
     (void)state;
-    expect_damaged("2 16x16", "3 16x16", "version");
+    expect_damaged("3 16x16", "4 16x16", "version");
+    expect_damaged("3 16x16", "16x16", "version");
     expect_damaged("16x16", "0x16", "size");
     expect_damaged("16x16", "16x99999999", "size");
     expect_damaged("16x16", "16.5x16", "size");
+    expect_damaged("16x16", "-16x16", "size");
     expect_damaged("turn=0", "turn=nan", "turn");
-    expect_damaged("turn=0", "turn=", "turn");
+    expect_damaged("turn=0", "turn=0x", "turn");
     expect_damaged("table=0", "table=g", "table");
-    expect_damaged("scene=0", "scene=00", "scene");
-    expect_damaged("met=yes", "met=maybe", "met");
+    expect_damaged("table=01", "table=0", "table");
+    expect_damaged("scene=01", "scene=0", "scene");
+    expect_damaged("met=yes", "met=may", "met");
     expect_damaged("rms=0.003", "rms=-1", "rms");
     expect_damaged("max=0.1", "max=inf", "max");
-    expect_damaged("central", "centra", "parts");
-    expect_damaged("exact", "exact2", "parts");
-    expect_damaged(",1,0,3", ",5,0,3", "parts");
-    expect_damaged(",1,0,3", ",1,9,3", "parts");
-    expect_damaged(",1,0,3", ",1,0,256", "parts");
-    expect_damaged(",1,0,3", ",1,0,3,", "parts");
-    expect_damaged(",1,0,3", ",1,0", "parts");
-    expect_damaged("a.a2", "a.b2", "blocks");
-    expect_damaged("a.a2", "a.a3", "blocks");
-    expect_damaged("a.a2", "a.a", "blocks");
-    expect_damaged("a.a2", "a.a0", "blocks");
-    expect_damaged("a.a2", "a99999999999999999999", "blocks");
-    expect_damaged("a.a2", "{.a2", "blocks");
-    expect_damaged(" blocks=a.a2", "", "parts"); /* truncated: the list has no end */
+    expect_damaged("central", "centra", "dials");
+    expect_damaged("exact", "exact2", "dials");
+    expect_damaged(",4,0", ",0,0", "dials");
+    expect_damaged(",4,0", ",17,0", "dials");
+    expect_damaged(",4,0", ",4,9", "dials");
+    expect_damaged(",4,0", ",4,0,", "dials");
+    expect_damaged(",4,0", ",4", "dials");
+    expect_damaged(" dials=central,exact,4,0", "", "dials"); /* truncated */
     WrSession *session = wr_session_new(NULL);
     must_fail(session, "tolerance off chosen=x", "chosen");
     must_fail(session, "tolerance rms=0.1 chosen=\"\"", "chosen");
     wr_session_free(session);
 }
 
-/* Blocks of twice the side, from an earlier version: each stands for four. */
-static void dials_of_wider_blocks_are_read(void **state)
+/* Earlier versions wrote a setting for each block: such a document opens, and its dials are chosen anew. */
+static void dials_of_blocks_from_earlier_versions_are_chosen_anew(void **state)
 {
     (void)state;
-    static const char text[] =
-        "1 40x24 turn=0 table=" HASH " scene=" HASH " met=yes rms=0.003 max=0.1"
-        " parts=central,exact,1,0,3;nearest,blinn,2,0,3 blocks=ab.bab";
-    static const char parts[] = "aabb."
-                                "aabb."
-                                "bbaab";
-    WrError err = { "" };
-    WrChoice choice = { 0 };
-    WrField *field = wr_field_new(8, 8, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
-    WrScene *scene = wr_scene_new();
-    const WrFrameRequest request = { .field = field, .scene = scene, .width = 40, .height = 24 };
-    assert_true(wr_choice_check(text, &err));
-    wr_choice_read(text, &request, &choice);
-    assert_int_equal(choice.count, 2);
-    for (int b = 0; b < 15; b++)
-        assert_int_equal(choice.part_of[b], parts[b] == '.' ? WR_CHOICE_NOTHING : parts[b] - 'a');
-    wr_choice_fini(&choice);
-    wr_scene_free(scene);
-    wr_field_free(field);
-}
-
-/* With very many blocks the settings would exceed the length of a line: then all get the finest. */
-static void what_would_be_too_long_becomes_one_setting(void **state)
-{
-    (void)state;
-    enum { SIDES = 800, WIDE = WR_FRAME_BLOCK * SIDES };
-    WrError err;
-    WrText text = { 0 };
-    WrScene *scene = wr_scene_new();
-    WrChoicePart parts[2] = { { .scene = scene, .level = 1, .price = 9 },
-                              { .scene = scene, .level = 3, .price = 5 } };
-    WrChoice choice = { .count = 2, .parts = parts, .width = WIDE, .height = WIDE };
-    choice.part_of = wr_alloc(SIDES * SIDES, 1);
-    for (int i = 0; i < SIDES * SIDES; i++) choice.part_of[i] = (unsigned char)(i % 2);
-    wr_choice_write(&choice, &(WrChoiceOrigin){ .table = { 1, 2 } }, &text);
-    assert_true(text.length < 1000);
-    assert_non_null(strstr(wr_text_get(&text), ",3,0,0 blocks=a640000"));
-    assert_true(wr_choice_check(wr_text_get(&text), &err));
-    wr_text_fini(&text);
-    wr_free(choice.part_of);
-    wr_scene_free(scene);
+    int studies;
+    char line[400];
+    for (int version = 1; version <= 2; version++) {
+        WrText notes = { 0 };
+        const WrSessionOptions options = { .note = add_note, .note_ctx = &notes };
+        WrSession *session = wr_session_new(&options);
+        snprintf(line, sizeof line,
+                 "tolerance rms=0.02 chosen=\"%d 40x24 turn=0 table=%s scene=%s met=yes rms=0.003 "
+                 "max=0.1 parts=central,exact,1,0,3;nearest,blinn,2,0,3 blocks=ab.bab\"",
+                 version, HASH, HASH);
+        must_run(session, line);
+        picture(session, 40, 24, &studies);
+        assert_int_equal(studies, 1);
+        assert_non_null(strstr(wr_text_get(&notes), "chosen for another program: chosen anew"));
+        wr_text_fini(&notes);
+        wr_session_free(session);
+    }
 }
 
 int main(void)
@@ -346,8 +319,7 @@ int main(void)
         cmocka_unit_test(dials_are_for_what_objects_wear),
         cmocka_unit_test(kept_dials_are_for_the_document_as_it_was_saved),
         cmocka_unit_test(damaged_dials_are_refused_with_one_clear_error),
-        cmocka_unit_test(dials_of_wider_blocks_are_read),
-        cmocka_unit_test(what_would_be_too_long_becomes_one_setting),
+        cmocka_unit_test(dials_of_blocks_from_earlier_versions_are_chosen_anew),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

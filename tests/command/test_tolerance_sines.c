@@ -4,7 +4,7 @@
 #include "session_help.h"
 
 #include "accuracy/metrics.h"
-#include "accuracy/tolerance_search.h"
+#include "accuracy/tolerance.h"
 #include "base/text.h"
 #include "render/frame/frame.h"
 #include "scene/scene.h"

@@ -106,7 +106,7 @@ users_of() {
 }
 
 # ---- a surface ----
-list=src/surface/surface_list.h prices=src/accuracy/tolerance_search.c
+list=src/surface/surface_list.h prices=src/accuracy/tolerance_price.c
 edit "$list" 's/(WR_X\(terrain\)\n)/$1WR_X(dummy)\n/'
 edit "$list" 's/(#include "surface\/terrain_row.h"\n)/$1#include "surface\/dummy.h"\n/'
 stops 'surface with its list alone' 'dummy' src/surface/surface.c "${kernels[@]}"

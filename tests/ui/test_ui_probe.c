@@ -2,7 +2,7 @@
 #include "test.h"
 #include "field/scheme_list.h"
 
-#include "accuracy/tolerance_search.h"
+#include "accuracy/tolerance.h"
 #include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"
@@ -186,34 +186,23 @@ static WrScene *with(WrScheme scheme, WrBumpMode mode, int samples)
     return scene;
 }
 
-static void the_finest_of_each_axis_is_kept_of_kinds_that_are_there(void **state)
+static void the_chosen_dials_are_summarized(void **state)
 {
     (void)state;
-    WrChoice choice = { .count = 3, .met = true, .reason = "because" };
+    WrChoice choice = { .met = true, .studies = 1, .reason = "because" };
     WrChosen chosen;
-    choice.parts = wr_alloc(3, sizeof *choice.parts);
-    choice.parts[0] = (WrChoicePart){ .scene = with(WR_SCHEME_CENTRAL, WR_BUMP_BLINN, 6),
-                                      .blocks = 10,
-                                      .where = "the liveliest relief" };
-    choice.parts[1] = (WrChoicePart){ .scene = with(WR_SCHEME_CATMULL, WR_BUMP_BLINN, 1),
-                                      .blocks = 10,
-                                      .where = "edges" };
-    choice.parts[2] = (WrChoicePart){ .scene = with(WR_SCHEME_BSPLINE_FIT, WR_BUMP_EXACT, 12),
-                                      .blocks = 0,
-                                      .where = "" };
-    wr_choice_summary(&choice, &chosen);
-    assert_true(chosen.any && chosen.met);
-    assert_string_equal(chosen.reason, "because");
-    assert_true(chosen.finest[WR_DIAL_SCHEME] == WR_SCHEME_CATMULL);
-    assert_true(chosen.finest[WR_DIAL_NORMAL] == WR_BUMP_BLINN);
-    assert_true(chosen.finest[WR_DIAL_AA] == WR_AA_SUPERSAMPLE);
-    assert_true(chosen.finest[WR_DIAL_SAMPLES] == 6);
-    assert_string_equal(chosen.lines, "50.0 %: blinn central 6\xc3\x97"
-                                      "6, the liveliest relief\n50.0 %: blinn catmull 1\xc3\x97"
-                                      "1, edges");
-    choice.parts[0].blocks = choice.parts[1].blocks = 0; /* nothing is visible */
-    wr_choice_summary(&choice, &chosen);
+    wr_choice_summary(&choice, &chosen); /* nothing was chosen */
     assert_false(chosen.any);
+    choice.dials = with(WR_SCHEME_CATMULL, WR_BUMP_BLINN, 6);
+    wr_choice_summary(&choice, &chosen);
+    assert_true(chosen.any && chosen.met && !chosen.kept);
+    assert_string_equal(chosen.reason, "because");
+    assert_true(chosen.dials[WR_DIAL_SCHEME] == WR_SCHEME_CATMULL);
+    assert_true(chosen.dials[WR_DIAL_NORMAL] == WR_BUMP_BLINN);
+    assert_true(chosen.dials[WR_DIAL_AA] == WR_AA_SUPERSAMPLE);
+    assert_true(chosen.dials[WR_DIAL_SAMPLES] == 6);
+    assert_string_equal(chosen.line, "blinn catmull 6\xc3\x97"
+                                     "6");
     wr_choice_fini(&choice);
 }
 
@@ -377,7 +366,7 @@ int main(void)
         cmocka_unit_test(of_several_objects_the_nearest_is_told),
         cmocka_unit_test(a_flat_table_turns_nothing_and_drops_nothing),
         cmocka_unit_test(the_text_holds_numbers_that_read_back_whole),
-        cmocka_unit_test(the_finest_of_each_axis_is_kept_of_kinds_that_are_there),
+        cmocka_unit_test(the_chosen_dials_are_summarized),
         cmocka_unit_test(a_cancelled_piece_of_work_is_not_done),
         cmocka_unit_test(the_measured_error_falls_with_the_samples),
         cmocka_unit_test(the_reference_is_kept_while_the_scene_rests),

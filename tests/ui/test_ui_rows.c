@@ -815,8 +815,8 @@ static void notes_of_accuracy_move_no_row(Walk *walk)
     assert_in_place(walk, rows, count, "the error's reason");
     a->full_times.chosen = (WrChosen){ .any = true, .met = true };
     snprintf(a->full_times.chosen.reason, sizeof a->full_times.chosen.reason, "%s", long_reason);
-    snprintf(a->full_times.chosen.lines, sizeof a->full_times.chosen.lines, "%s\n%s", long_reason,
-             long_reason);
+    strcpy(a->full_times.chosen.line, "exact bspline-fit 16\xc3\x97"
+                                      "16");
     rows_now(walk, after);
     assert_in_place(walk, rows, count, "the dials of a tolerance");
 }

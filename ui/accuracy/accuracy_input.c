@@ -519,7 +519,7 @@ void wr_accuracy_swap(WrApp *app)
 void wr_accuracy_keep(WrApp *app)
 {
     const WrChosen *chosen = &app->accuracy->full_times.chosen;
-    if (chosen->any) set_all(app, chosen->finest);
+    if (chosen->any) set_all(app, chosen->dials);
 }
 
 void wr_accuracy_words(const WrApp *app, int side, WrText *text)

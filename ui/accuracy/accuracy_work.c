@@ -5,7 +5,7 @@
 #include "accuracy/illusion.h"
 #include "accuracy/ladder.h"
 #include "accuracy/metrics.h"
-#include "accuracy/tolerance_search.h"
+#include "accuracy/tolerance.h"
 #include "base/array.h"
 #include "base/error.h"
 #include "base/memory.h"

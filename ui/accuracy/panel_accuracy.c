@@ -256,7 +256,7 @@ static void report_chosen(const WrApp *app, const WrChosen *c)
         return;
     }
     wr_gui_text_wrapped(WR_FONT_SMALL, c->met ? WR_COLOUR_TEXT : WR_COLOUR_CELL, c->reason);
-    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, c->lines);
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, c->line);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
                         c->kept ? "Kept with the document for this very view: nothing was chosen."
                                 : "Chosen for this view; saved with the document.");
@@ -272,8 +272,8 @@ static void chosen(WrApp *app)
     wr_gui_disable(!c->any);
     if (wr_gui_button("Keep these dials", false)) wr_accuracy_keep(app);
     wr_gui_disable_end();
-    wr_gui_tip("The finest of the chosen dials become the scene's own setting, for the whole "
-               "picture, and the tolerance is switched off");
+    wr_gui_tip("The chosen dials become the scene's own setting, and the tolerance is switched "
+               "off");
 }
 
 static void panel_accuracy_tolerance(WrApp *app)

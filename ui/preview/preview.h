@@ -5,7 +5,7 @@
 #pragma once
 #include "ui/preview/moving.h"
 
-#include "accuracy/tolerance_search.h"
+#include "accuracy/tolerance.h"
 #include "render/frame/frame.h"
 #include "render/plan/effect_heatmap.h"
 #include "render/plan/plan.h"
@@ -18,12 +18,10 @@
 typedef struct WrChosen {
     bool any; /* a tolerance chose this picture's dials */
     bool met;
-    bool kept;        /* they were stored in the document for this very picture */
-    char reason[480]; /* one or two sentences */
-    char lines[2000]; /* one line per part: share, dials, kinds of blocks */
-    /* One setting for all blocks, as fine as the finest of any block, so that it also meets the tolerance. By
-       WrDialId */
-    double finest[WR_DIAL_COUNT];
+    bool kept;                   /* they were stored in the document for this very picture */
+    char reason[480];            /* one or two sentences */
+    char line[80];               /* the dials that matter most: "exact bspline-fit 4x4" */
+    double dials[WR_DIAL_COUNT]; /* by WrDialId */
 } WrChosen;
 
 void wr_choice_summary(const WrChoice *choice, WrChosen *out);
