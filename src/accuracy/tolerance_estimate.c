@@ -575,8 +575,9 @@ static void choose_mesh(Study *study, const WrTolerance *tolerance)
 
 /* ---- prediction of the change by 2 x 2 ---- */
 
-/* For f with second derivative f'' per pixel the four samples at +-1/4 have the mean f + f''/32 per axis. `rough` = second^2 / (5 first^2) is 1
-   for white noise: a Laplacian has 20 times the variance of a value, two first differences 4 times. */
+/* For f with second derivative f'' per pixel the four samples at +-1/4 have the mean f + f''/32 per axis.
+   `rough` = second^2 / (5 first^2) is 1 for white noise: a Laplacian has 20 times the variance of a value, two
+   first differences 4 times. */
 
 /* The mean of 2 x 2 differs from the pixel's centre by 1/32 of the pixels' second difference if the picture is
    smooth, by 1/4 of it if the pixels are independent; the ratio of the second to the first difference
@@ -1038,9 +1039,9 @@ static void add_probe(const Study *study, const Block *block, const float *fine,
     ratio->count++;
 }
 
-/* Converts shares of estimate and floor to a factor of the estimate: the floors add up to half of the estimates.
-   The ratios' mean plus CAUTION standard errors of that mean; n - 1 in the denominator for the sample's
-   variance. */
+/* Converts shares of estimate and floor to a factor of the estimate: the floors add up to half of the
+   estimates. The ratios' mean plus CAUTION standard errors of that mean; n - 1 in the denominator for the
+   sample's variance. */
 static double study_factor(double shares, double squares, int64_t count)
 {
     const double n = (double)count, mean = shares / n;

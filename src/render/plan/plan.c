@@ -171,8 +171,8 @@ void wr_settle_samples(WrPlan *plan, const WrPlanRequest *ask)
     plan->contrast = dials->contrast;
 }
 
-/* Reason why no bound on the change of intensity over a pixel is known, or NULL if one is.
-   The bound is the Lipschitz constant of the intensity over a pixel (E16), known in closed form for few cases. */
+/* Reason why no bound on the change of intensity over a pixel is known, or NULL if one is. The bound is the
+   Lipschitz constant of the intensity over a pixel (E16), known in closed form for few cases. */
 static const char *no_bound(const WrPlan *plan, const WrPlanRequest *ask)
 {
     if (runs(plan, WR_EFFECT_SHADOW) || runs(plan, WR_EFFECT_CAST))
@@ -342,7 +342,8 @@ const char *wr_proof_letter(WrProof proof)
 
 /* ---- deciding ---- */
 
-/* Rows are decided in the order of the enumeration; a decide function may read only rows above its own, and settle writes the settings that follow from the verdict. */
+/* Rows are decided in the order of the enumeration; a decide function may read only rows above its own, and
+   settle writes the settings that follow from the verdict. */
 
 static void decide(WrPlan *plan, WrEffect effect, const WrPlanRequest *ask)
 {
