@@ -20,6 +20,7 @@
 #define CODE 0.004     /* linear intensity: about one code of 255 at middle grey */
 #define FULL_SCALE 0.1 /* linear intensity of full colour in the map, as in error pictures */
 
+/* Red is the difference of coverage, green of shading, blue of shadow. */
 void wr_illusion_colour(const WrIllusion *illusion, size_t pixel, uint8_t rgb[3])
 {
     for (int c = 0; c < 3; c++) {
@@ -28,6 +29,8 @@ void wr_illusion_colour(const WrIllusion *illusion, size_t pixel, uint8_t rgb[3]
     }
 }
 
+/* To first order displacement on screen is proportional to the height, so SEEN / moved of the present height
+   moves points by half a pixel. */
 void wr_illusion_height(const WrIllusion *illusion, WrText *text)
 {
     const double moved = fmax(illusion->way, illusion->hausdorff); /* fmax ignores NAN */
@@ -81,6 +84,7 @@ void wr_illusion_advice(const WrIllusion *illusion, WrText *text)
     add_inside(illusion, text);
 }
 
+/* NaN, where there is no outline, becomes null in JSON. */
 typedef struct Number {
     const char *name, *words;
     double value;
@@ -161,6 +165,7 @@ static void set_object(WrScene *object, Kind kind)
     object->material.shadow = kind == SHADOWED;
 }
 
+/* All objects are changed alike, because an outline may lie between two of them. */
 static WrScene *objects_of(const WrScene *scene, Kind kind)
 {
     WrScene *made = wr_scene_clone(scene);
@@ -189,6 +194,7 @@ static WrScene *scene_of(const WrIllusionRequest *request, Kind kind)
     return made;
 }
 
+/* The frame's picture belongs to the renderer and is overwritten by the next kind: it is copied. */
 static bool render(Pictures *p, Kind kind, WrError *err)
 {
     const WrIllusionRequest *request = p->request;
@@ -213,6 +219,7 @@ static bool render(Pictures *p, Kind kind, WrError *err)
 
 /* ---- outlines ---- */
 
+/* Outside the picture coverage is 0, so that an object cut by the border has a closed outline. */
 static double cover(const Pictures *p, Kind kind, int x, int y)
 {
     const WrIllusionRequest *r = p->request;
@@ -289,6 +296,7 @@ static double hausdorff(const Pictures *p)
 
 /* ---- measures ---- */
 
+/* Mean over the three channels of the squared difference; `most` is the largest of them. */
 static double squares(const float *a, const float *b, float *most)
 {
     double sum = 0;
@@ -301,6 +309,8 @@ static double squares(const float *a, const float *b, float *most)
     return sum;
 }
 
+/* Colours are compared only where both pictures cover a pixel whole: elsewhere the outline's difference would
+   be counted twice. */
 static void compare(const Pictures *p, WrIllusion *out)
 {
     const size_t count = (size_t)out->width * (size_t)out->height;

@@ -381,6 +381,9 @@ static void settle_times(WrRung *rung, double *times, int count)
 
 /* ---- all rungs ---- */
 
+/* Errors need one frame per rung, times several: errors are measured first, so that a rung that cannot be
+   rendered costs no time. */
+
 static bool tell(const WrLadderRequest *request, double fraction, WrError *err)
 {
     if (wr_progress_step(request->progress, fraction)) return true;
@@ -418,7 +421,8 @@ static bool time_rungs(const WrBench *bench, WrScene **scenes, WrLadder *ladder,
     return good;
 }
 
-/* The error with all axes except one at their best: that axis' own share. */
+/* The error with all axes except one at their best: that axis' own share.
+   Otherwise the error of the coarsest axis would hide all others. */
 static bool share_of(const WrBench *bench, const WrReference *reference, WrAxis axis,
                      const WrSetting *setting, double *rms, WrError *err)
 {
@@ -599,6 +603,7 @@ static void list_rungs(const WrLadderRequest *request, WrLadder *ladder)
     ladder->height = request->height;
 }
 
+/* The reference uses all threads; timing uses one, pinned to a processor, if the request has threads = 1. */
 bool wr_ladder_measure(const WrLadderRequest *request, WrLadder *out, WrError *err)
 {
     WrLadder ladder = { 0 };

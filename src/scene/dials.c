@@ -119,6 +119,7 @@ MEMBER(arithmetic, WrArithmetic, dials.arithmetic)
 /* matters(scene) is false where another value could not change the picture: such rungs are neither measured
    nor shown. */
 
+/* Heights and slopes come from the table only with bump, and not from a formula. */
 static bool with_table(const WrScene *scene)
 {
     return scene->analytic.kind == WR_ANALYTIC_OFF && scene->bump != WR_BUMP_NONE;
@@ -144,6 +145,7 @@ static bool with_adaptive(const WrScene *scene)
     return scene->dials.aa == WR_AA_ADAPTIVE;
 }
 
+/* Closed forms have no mesh and no iteration. */
 static bool with_mesh(const WrScene *scene)
 {
     return wr_surfaces[scene->shape.kind]->inversion == WR_INVERT_MESH;
@@ -171,6 +173,7 @@ static bool with_rays(const WrScene *scene)
     return false;
 }
 
+/* A surface that cannot be displaced is shown by bump, whatever the switch is. */
 static bool with_dice(const WrScene *scene)
 {
     return scene->displaced && !wr_shape_unmoved(&scene->shape);
@@ -188,6 +191,8 @@ static bool with_facets(const WrScene *scene)
 }
 
 /* ---- the table ---- */
+
+/* Rungs of a ladder, from coarse to fine; the present value is measured besides. NAN ends a list. */
 
 static const double sample_rungs[] = { 2, 3, 4, 8, 16, NAN };
 static const double contrast_rungs[] = { 0.05, 0.02, 0.005, 0.002, 0.0005, NAN };

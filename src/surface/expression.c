@@ -10,6 +10,7 @@
    (expression_body.h) runs it on spans of samples, with derivatives. */
 #include <string.h>
 
+/* Operands per operation: an operation replaces them by one value. */
 WR_ROWS(takes);
 static const unsigned char takes[] = {
     [WR_ROW(WR_OP_CONST)] = 0, [WR_ROW(WR_OP_U)] = 0,   [WR_ROW(WR_OP_V)] = 0,
@@ -68,7 +69,8 @@ static bool take(Reader *r, char letter)
 }
 
 /* Folds operations on constants. A division by 0 is left to be reported by the evaluation.
-   Folding halves the work of constants such as 2*pi; it uses double, also for the float kernels. */
+   Folding halves the work of constants such as 2*pi; it uses double, also for the float kernels.
+   0 to a negative power is left to it as well, and so are functions: their errors depend on the point. */
 static bool fold(WrProgram *p, WrOpCode code, double value)
 {
     const int count = takes[code];
@@ -125,6 +127,8 @@ static bool is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
+/* wr_number_parse is independent of the locale; "1e" without digits is the number 1 and the name e, which is
+   then an error. */
 static bool read_number(Reader *r)
 {
     const char *from = r->at, *end = from;
@@ -142,6 +146,7 @@ static bool read_number(Reader *r)
     return emit(r, from, WR_OP_CONST, value);
 }
 
+/* Arguments are pushed in order, so atan2(y, x) has y below x. */
 static bool read_arguments(Reader *r, int wanted)
 {
     if (!take(r, '(')) return wrong(r, r->at, "must be ( after a function's name");
@@ -175,6 +180,7 @@ static bool read_name(Reader *r)
         "is no name: must be u, v, pi, sqrt, sin, cos, exp, log, abs, pow, atan2, min or max");
 }
 
+/* A value begins with a digit, a letter or (: one letter decides, so nothing is read twice. */
 static bool read_value(Reader *r)
 {
     skip_spaces(r);
@@ -202,6 +208,7 @@ static bool read_power(Reader *r, const char *at)
     return emit(r, at, whole ? WR_OP_WHOLE : WR_OP_POWER, exponent);
 }
 
+/* The exponent is read as `signed`, which reads a factor in turn: ^ is right-associative. */
 static bool read_factor(Reader *r)
 {
     if (!read_value(r)) return false;
@@ -226,6 +233,7 @@ static bool read_signed(Reader *r)
     return good;
 }
 
+/* Left-associative: each operation is emitted as soon as its right operand is. */
 static bool read_product(Reader *r)
 {
     if (!read_signed(r)) return false;

@@ -21,6 +21,7 @@ void wr_env_lookup_drop(WrEnvLookup *mirror)
     *mirror = (WrEnvLookup){ 0 };
 }
 
+/* All that the blur depends on: equal settings keep the table, whatever the material's colour or strength is. */
 static bool holds(const WrEnvLookup *mirror, const WrEnvironmentMap *map,
                   const WrEnvironmentBrdf *gloss, double fine)
 {
@@ -71,6 +72,7 @@ static bool fill(WrEnvLookup *mirror, const float *rgb, WrError *err)
     return true;
 }
 
+/* Blurred pictures are small: their width is `fine` texels over the lobe's width. */
 static bool fill_blurred(WrEnvLookup *mirror, const WrEnvironmentBrdf *gloss, WrPool *pool,
                          WrError *err)
 {
@@ -113,6 +115,7 @@ void wr_env_prefilter_drop(WrEnvPrefilter *grades)
     grades->there = false;
 }
 
+/* Roughness and metalness are not compared: the tables cover all values of both. */
 static bool same(const WrReflectance *a, const WrReflectance *b)
 {
     return a->model == b->model && a->energy == b->energy && a->shininess == b->shininess &&
@@ -161,7 +164,8 @@ bool wr_env_prefilter_update(WrEnvPrefilter *grades, const WrScene *scene, const
     return true;
 }
 
-/* Copies the terms of one roughness step and pads them with 0. */
+/* Copies the terms of one roughness step and pads them with 0.
+   Padding to a multiple of four: kernels load four coefficients at once (vary_parts). */
 static void put_terms(const double *terms, double *to, float *single)
 {
     for (int k = 0; k < WR_TEXTURED_REFLECTION_TERMS; k++)
@@ -196,6 +200,8 @@ static void put_shares(const WrTexturedReflection *vary, bool alike, double meta
     }
 }
 
+/* alike: without a picture of metalness one row of each table is enough. rung[i].rgba points past the border,
+   to texel (0, 0). */
 void wr_env_prefilter_fill(const WrEnvPrefilter *grades, const WrScene *scene, WrTileJob *job)
 {
     const WrTexturedReflection *vary = &grades->vary;
@@ -243,7 +249,8 @@ static void narrow_all(const WrKernSurroundd *from, WrKernSurround *to)
     to->kd = (float)from->kd, to->mean = (float)from->mean;
 }
 
-/* Parameters of the mirrored fetch and its reflectance. */
+/* Parameters of the mirrored fetch and its reflectance.
+   even: the one colour of an even environment, for which no table is read. */
 static void fill_mirror(const WrEnvironment *from, const WrEnvironmentBrdf *gloss,
                         const double axes[9], const WrEnvLookup *mirror, WrKernMirrord *out)
 {

@@ -1,7 +1,8 @@
-/* kern_body.h - the bodies of all span kernels. Compiled once for each kernel set (wr_kern of CMakeLists.txt and of
-   render), which defines WR_SET_TABLE and WR_SET_NAME for the table at its end, WR_KERN_FAST for fast arithmetic,
-   WR_KERN_DOUBLE for double precision, and WR_KERN_PLAIN for one sample at a time. Plain loops over structure-of-arrays strips; no branches except ?: on
-   scalars, no library call that does not vectorise. Deliberately without a guard. */
+/* kern_body.h - the bodies of all span kernels. Compiled once for each kernel set (wr_kern of CMakeLists.txt
+   and of render), which defines WR_SET_TABLE and WR_SET_NAME for the table at its end, WR_KERN_FAST for fast
+   arithmetic, WR_KERN_DOUBLE for double precision, and WR_KERN_PLAIN for one sample at a time. Plain loops
+   over structure-of-arrays strips; no branches except ?: on scalars, no library call that does not vectorise.
+   Deliberately without a guard. */
 #include "base/enum_rows.h"
 #include "field/scheme_list.h"
 #include "shade/reflection_models.h"

@@ -17,7 +17,8 @@ ALWAYS REAL grain_mix(REAL a, REAL b, REAL t)
     return a + t * (b - a);
 }
 
-/* 10 x^3 - 15 x^4 + 6 x^5, and its slope. Value, slope and curvature at 0 and 1 agree with the neighbouring cell: noise is C^2 (Perlin 2002). */
+/* 10 x^3 - 15 x^4 + 6 x^5, and its slope. Value, slope and curvature at 0 and 1 agree with the neighbouring
+   cell: noise is C^2 (Perlin 2002). */
 ALWAYS REAL grain_fade(REAL x)
 {
     return x * x * x * (K_(10) + x * (K_(6) * x - K_(15)));

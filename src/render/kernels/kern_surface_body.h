@@ -1,6 +1,8 @@
 /* kern_surface_body.h - points, frames and Newton's method of every surface. Part of kern_body.h. */
 
-/* Reduces to 0..1: wraps a closed parameter, clamps an open one. closed is 0 or 1. */
+/* Reduces to 0..1: wraps a closed parameter, clamps an open one. closed is 0 or 1.
+   An open parameter stays within its surface, so a step across a border ends on it. turn * closed < 1: the
+   period's end is its beginning. */
 ALWAYS REAL settle(REAL t, REAL closed)
 {
     REAL turn = t - closed * r_floor(t);
@@ -35,6 +37,8 @@ ALWAYS VEC point_at(Formula *const formula, const SHAPE *shape, REAL u, REAL v)
     return at.p;
 }
 
+/* Separate rows for u, v, x, y, z: mesh vertices are evaluated in runs by the same formula as samples, so they
+   lie on the same surface to the bit. */
 ALWAYS void points_strip(Formula *const formula, const SHAPE *shape, int count, const REAL *u,
                          const REAL *v, REAL *x, REAL *y, REAL *z)
 {
@@ -56,6 +60,7 @@ ALWAYS void put_frame(Formula *const formula, const SHAPE *shape, int face, STRI
     strip->n_len[i] = at.n_len;
 }
 
+/* P, Pu, Pv, n, |N| at (u, v) of each sample, after the inversion. */
 ALWAYS void geometry_strip(Formula *const formula, const SHAPE *shape, int face, STRIP *strip)
 {
     const int count = strip->count;
@@ -65,6 +70,7 @@ ALWAYS void geometry_strip(Formula *const formula, const SHAPE *shape, int face,
     }
 }
 
+/* n_u and n_v, for the exact normal only. */
 ALWAYS void put_turn(Formula *const formula, const SHAPE *shape, int face, STRIP *strip, int i)
 {
     POINT at;
@@ -98,6 +104,7 @@ ALWAYS Param2 newton_step(VEC c, VEC pu, VEC pv, VEC d, Param2 reach)
     return (Param2){ limit(v_dot(pv, c) * inv, reach.u), limit(-v_dot(pu, c) * inv, reach.v) };
 }
 
+/* A masked store as a selection: lanes that do not move keep their bits. */
 #define KEEP3(strip, name, i, taken, vec)                                                          \
     STORE3(strip, name, i, choose(taken, vec, LOAD3(strip, name, i)))
 
@@ -123,7 +130,9 @@ ALWAYS void put_there(Formula *const formula, const Patch *patch, const bool lat
     strip->n_dot_l[i] = at.n_len;
 }
 
-/* Termination of Newton's method. */
+/* Termination of Newton's method.
+   The remaining error after a step of length h is of order |Puu| h^2: `enough` is in parameters, `last`
+   relative to the tangents. */
 typedef struct Enough {
     REAL u, v;             /* a step shorter than these is the last */
     REAL uu, uv, vv, last; /* as in WrNewton */
@@ -158,7 +167,9 @@ ALWAYS void aim_step(Ray ray, Param2 reach, Closed closed, Enough enough, STRIP 
     strip->f[i] = strip->s[i] > K_(0) ? how : K_(0);
 }
 
-/* Accepts the end of a step into u, v if it is not farther from the ray. Returns whether it did. */
+/* Accepts the end of a step into u, v if it is not farther from the ray. Returns whether it did.
+   (w x d)^2 without division by d.d: both sides have the same ray. A step that increases the distance is the
+   sign of a silhouette or of a fold. */
 ALWAYS bool go(Ray ray, VEC end, bool moves, STRIP *strip, int i)
 {
     VEC c = off_ray(end, ray);
@@ -168,7 +179,9 @@ ALWAYS bool go(Ray ray, VEC end, bool moves, STRIP *strip, int i)
     return taken;
 }
 
-/* A last step: P follows it along the tangents. */
+/* A last step: P follows it along the tangents.
+   The surface is not evaluated again: the error is of second order in a step that turns the tangents by less
+   than `last`. */
 ALWAYS void land(Ray ray, STRIP *strip, int i)
 {
     VEC p = LOAD3(strip, p, i), pu = LOAD3(strip, pu, i), pv = LOAD3(strip, pv, i);
@@ -177,7 +190,8 @@ ALWAYS void land(Ray ray, STRIP *strip, int i)
     KEEP3(strip, p, i, taken, end);
 }
 
-/* Any other step, after the surface was evaluated at its end. s: 1 while the sample moves. */
+/* Any other step, after the surface was evaluated at its end. s: 1 while the sample moves.
+   rx, ry: (u, v) of the last evaluation, whose tangents are in the strip. */
 ALWAYS void arrive(Ray ray, Enough enough, STRIP *strip, int i)
 {
     VEC p = LOAD3(strip, b, i);
@@ -263,7 +277,8 @@ APART FLAT static void arrive_strip(const RAYS *rays, const NEWTON *how, STRIP *
 /* Evaluates a surface at tu, tv of a strip's samples from <= i < to, in whole vectors. */
 typedef void Evaluate(const SHAPE *shape, int from, int to, STRIP *strip);
 
-/* Repeats the last sample up to a whole number of vectors. */
+/* Repeats the last sample up to a whole number of vectors.
+   With the last sample, not with zeros: surplus lanes then do the same steps and never delay the loop. */
 static void fill_lanes(STRIP *strip)
 {
     const int count = strip->count, last = count - 1;
@@ -297,7 +312,8 @@ static bool vector_moves(const STRIP *strip, int from)
     return any > 0;
 }
 
-/* Evaluates the vectors that need it. */
+/* Evaluates the vectors that need it.
+   Whole runs of vectors in one call; vectors whose samples all rest are skipped. */
 static void evaluate_moving(Evaluate *evaluate, const SHAPE *shape, STRIP *strip)
 {
     for (int from = 0, to; from < strip->count; from = to + LANES) {
@@ -306,7 +322,9 @@ static void evaluate_moving(Evaluate *evaluate, const SHAPE *shape, STRIP *strip
     }
 }
 
-/* Newton's method. A step evaluates the surface once: at its end, which is the next step's start. */
+/* Newton's method. A step evaluates the surface once: at its end, which is the next step's start.
+   wx becomes 1 where the method ended by a last step along the tangents: the uv cache stores it as the sign of
+   u, so that `resume` can repeat that step. */
 static void polish_strip(Evaluate *evaluate, const SHAPE *shape, const RAYS *rays,
                          const NEWTON *how, STRIP *strip)
 {
@@ -418,7 +436,8 @@ static void guess_between(Evaluate *evaluate, const SHAPE *shape, const RAYS *ra
 
 #endif
 
-/* Repeats the last step of `polish` from the stored u, v, if wx indicates that there was one. */
+/* Repeats the last step of `polish` from the stored u, v, if wx indicates that there was one.
+   The same functions on the same (u, v): P has the bits of the frame that filled the cache. */
 static void resume_strip(Evaluate *evaluate, const SHAPE *shape, const RAYS *rays,
                          const NEWTON *how, STRIP *strip)
 {
@@ -431,7 +450,8 @@ static void resume_strip(Evaluate *evaluate, const SHAPE *shape, const RAYS *ray
     land_strip(rays, strip);
 }
 
-/* n and |N| of sample i from Pu x Pv; returns 1 if that is so short that the direction of approach decides. */
+/* n and |N| of sample i from Pu x Pv; returns 1 if that is so short that the direction of approach decides.
+   N / |N| loses all digits where Pu x Pv is as small as its rounding, as at a pole of a patch. */
 ALWAYS int put_cross(REAL noise, STRIP *strip, int i)
 {
     const VEC none = { 0, 0, 0 };
@@ -468,7 +488,8 @@ ALWAYS void frame_strip(Formula *const formula, const SHAPE *shape, STRIP *strip
 /* The surface whose formula is a program, evaluated for many samples at a time. */
 #define RUNS(name) (WR_SURFACE_##name == WR_SURFACE_formula)
 
-/* Evaluates up to LANES samples of such a surface, from u, v on; missing ones repeat the last. */
+/* Evaluates up to LANES samples of such a surface, from u, v on; missing ones repeat the last.
+   A formula's program is interpreted once for LANES samples: the cost of its interpretation is shared. */
 static void run_lanes(const SHAPE *shape, int count, const REAL *u, const REAL *v, POINT *at)
 {
     REAL own_u[LANES], own_v[LANES];

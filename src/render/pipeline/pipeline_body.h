@@ -42,7 +42,9 @@ static void did(const Watch *watch, WrEffect effect)
     wr_did(watch->scratch, effect);
 }
 
-/* Samples a side per pixel in the grid of these rays. */
+/* Samples a side per pixel in the grid of these rays.
+   Adaptive sampling renders with several grids of k x k samples; each has its own rays, and their address
+   identifies it. */
 static int grid_of(const WrView *view, const Rays *rays)
 {
     int i = 0;
@@ -84,7 +86,9 @@ static bool lit(const WrSink *sink)
 #include "render/pipeline/stage_parallax_body.h"
 #include "render/pipeline/stage_displaced_body.h"
 
-/* Size of each pixel on the surface, and the change of the normal across it. */
+/* Size of each pixel on the surface, and the change of the normal across it.
+   The bounds of E16: |dP| over a pixel, of the slopes over that part of the table, and of n' as their
+   consequence. */
 static void bound_geometry(const WrTileJob *job, const Rays *rays, int quad, const WrSink *sink,
                            Strip *strip, Watch *watch)
 {
@@ -106,6 +110,7 @@ static const WrEffects normal_effects[] = {
 };
 _Static_assert(sizeof normal_effects / sizeof *normal_effects == WR_BUMP_COUNT, "all formulas");
 
+/* uv [samples][2] by position in the row; strip->index leads there from the compacted strip. */
 static void store_parameters(const WrSink *sink, const Strip *strip)
 {
     for (int i = 0; i < strip->count; i++) {
@@ -125,7 +130,9 @@ static bool bends_at_once(const WrTileJob *job, const WrSink *sink)
            !job->plan->facets_filtered && job->plan->map_frame == WR_FRAME_GRADIENT && !sink->bound;
 }
 
-/* P, n, and the other parts of the surface's frame that the plan needs. */
+/* P, n, and the other parts of the surface's frame that the plan needs.
+   Of round surfaces P comes from the hit, of meshes from Newton's last step; all others evaluate their formula
+   at (u, v). */
 static void surface_strip(const WrTileJob *job, int face, bool level, const WrSink *sink,
                           Strip *strip, Watch *watch)
 {
@@ -144,7 +151,9 @@ static void surface_strip(const WrTileJob *job, int face, bool level, const WrSi
     watch_lap(watch, WR_STAGE_GEOMETRY);
 }
 
-/* n' of the samples, from the table's slopes if it has any. */
+/* n' of the samples, from the table's slopes if it has any.
+   Order: slopes of the table, then those of the normal map are added, then eased towards the horizon, then n'.
+   The solid texture bends n' afterwards, because its slopes are in space and not along Pu, Pv. */
 static void bend_strip(const WrTileJob *job, const Rays *rays, bool level, const WrSink *sink,
                        Strip *strip, WrTileScratch *scratch, Watch *watch)
 {
@@ -257,7 +266,8 @@ static unsigned shade_strip(const WrTileJob *job, const Rays *rays, int quad, co
 
 #include "render/pipeline/stage_store_body.h"
 
-/* Records the visibility effects that ran for the strip, and their precision. */
+/* Records the visibility effects that ran for the strip, and their precision.
+   Effects are noted where they run, not where they are planned: `effects` reports the difference. */
 static void note_view(const WrTileJob *job, const Rays *rays, WrTileScratch *scratch)
 {
     if (rays->perspective) wr_did(scratch, WR_EFFECT_PERSPECTIVE);
@@ -299,6 +309,7 @@ static void put_strip(const WrTileJob *job, const Rays *rays, unsigned spared, c
     if (lit(sink)) scratch->shaded += strip->count;
 }
 
+/* A strip may lose samples in shade_strip (hidden by a nearer object), so the count is tested again. */
 static void finish_strip(const WrTileJob *job, const Rays *rays, int quad, const WrSink *sink,
                          WrTileScratch *scratch, Watch *watch)
 {

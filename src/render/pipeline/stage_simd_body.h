@@ -1,8 +1,8 @@
 /* stage_simd_body.h - dispatch of rows to fused SIMD kernels (simd_kernels.h). Part of pipeline_body.h. */
 
 #ifdef HAS_WIDE
-/* True if the lamp certainly reaches some sample, however far others are bent.
-   First, middle and last sample only: if one is lit, the run is not dark and the dark test is omitted; if none is, that test decides. */
+/* True if the lamp certainly reaches some sample, however far others are bent. First, middle and last sample
+   only: if one is lit, the run is not dark and the dark test is omitted; if none is, that test decides. */
 static bool lit_somewhere(const WrTileJob *job, const Strip *strip)
 {
     const WrKernLight *light = job->view->lights;

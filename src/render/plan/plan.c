@@ -29,7 +29,9 @@ static bool is_forced(const WrPlan *plan, WrEffect effect)
 
 /* ---- flat parts of the table ---- */
 
-/* Reason why bump cannot be skipped in runs whose slopes are 0, or NULL if it can. */
+/* Reason why bump cannot be skipped in runs whose slopes are 0, or NULL if it can.
+   E63 holds if n' depends on Fu, Fv of the tile alone: every case here reads something beyond the tile, or F
+   itself, or the tangents that the skipped stage would have computed. */
 static const char *no_ground(const WrPlan *plan)
 {
     if (is_forced(plan, WR_EFFECT_BUMP)) return "bump is forced: it runs everywhere";
@@ -45,6 +47,7 @@ static const char *no_ground(const WrPlan *plan)
     return NULL;
 }
 
+/* sloped is -1 where no single-precision table is read. */
 WrVerdict wr_decide_ground(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "no table is looked up");
@@ -59,7 +62,9 @@ WrVerdict wr_decide_ground(const WrPlan *plan, const WrPlanRequest *ask, const c
 
 /* ---- the dark side ---- */
 
-/* Reason why the bound on bump's rotation of the normal cannot be used to skip light, or NULL if it can. */
+/* Reason why the bound on bump's rotation of the normal cannot be used to skip light, or NULL if it can.
+   E18: n' stays within the cone of slopes up to the tile's largest. Every case here bends the normal by an
+   amount without such a bound. */
 static const char *no_cone(const WrPlan *plan)
 {
     if (runs(plan, WR_EFFECT_DISPLACED)) return "facets of a displaced surface face anywhere";
@@ -106,6 +111,7 @@ WrVerdict wr_decide_dark(const WrPlan *plan, const WrPlanRequest *ask, const cha
 
 /* ---- beside the object ---- */
 
+/* E30: tiles and rows are cut to the bounding box of the object; pixels outside keep the background. */
 WrVerdict wr_decide_beside(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     (void)plan, (void)ask;
@@ -149,6 +155,7 @@ WrVerdict wr_decide_samples(const WrPlan *plan, const WrPlanRequest *ask, const 
                      "near with fewer");
 }
 
+/* Solid textures need a known number of texels per pixel for the estimate (wr_solid_texture_texels). */
 void wr_settle_samples(WrPlan *plan, const WrPlanRequest *ask)
 {
     const WrDials *dials = ask->dials;
@@ -164,8 +171,8 @@ void wr_settle_samples(WrPlan *plan, const WrPlanRequest *ask)
     plan->contrast = dials->contrast;
 }
 
-/* Reason why no bound on the change of intensity over a pixel is known, or NULL if one is.
-   The bound is the Lipschitz constant of the intensity over a pixel (E16), known in closed form for few cases. */
+/* Reason why no bound on the change of intensity over a pixel is known, or NULL if one is. The bound is the
+   Lipschitz constant of the intensity over a pixel (E16), known in closed form for few cases. */
 static const char *no_bound(const WrPlan *plan, const WrPlanRequest *ask)
 {
     if (runs(plan, WR_EFFECT_SHADOW) || runs(plan, WR_EFFECT_CAST))
@@ -243,6 +250,7 @@ void wr_settle_displaced(WrPlan *plan, const WrPlanRequest *ask)
     if (runs(plan, WR_EFFECT_DISPLACED)) plan->dice = ask->dials->dice;
 }
 
+/* The same rule as displacement: both move the point seen at a pixel by the same amount. */
 WrVerdict wr_decide_parallax(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const WrScene *scene = ask->scene;
@@ -264,6 +272,8 @@ void wr_settle_parallax(WrPlan *plan, const WrPlanRequest *ask)
     if (runs(plan, WR_EFFECT_PARALLAX)) plan->steps = ask->dials->steps;
 }
 
+/* A displaced surface is shown with its own normal, whatever mode the scene has: facets of P + F n under a
+   normal of another surface would not agree with their outline. */
 WrBumpMode wr_plan_normal(const WrPlan *plan, const WrPlanRequest *ask)
 {
     return runs(plan, WR_EFFECT_DISPLACED) ? WR_BUMP_EXACT : ask->scene->bump;
@@ -298,6 +308,8 @@ void wr_settle_exact(WrPlan *plan, const WrPlanRequest *ask)
     if (runs(plan, WR_EFFECT_EXACT)) plan->bump = WR_BUMP_EXACT;
 }
 
+/* n_u, n_v: the exact N' of NUMERICS (Pu + Fu n + F n_u) x (Pv + Fv n + F n_v) is the only formula that reads
+   them. */
 WrVerdict wr_decide_curvature(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (surface_of(ask)->held)
@@ -309,6 +321,7 @@ WrVerdict wr_decide_curvature(const WrPlan *plan, const WrPlanRequest *ask, cons
     return say(WR_VERDICT_SPARED, why, "only the exact normal needs them");
 }
 
+/* `normals` is true if any later stage reads n: otherwise points alone suffice. */
 void wr_settle_curvature(WrPlan *plan, const WrPlanRequest *ask)
 {
     plan->normals = lit(plan, ask) || runs(plan, WR_EFFECT_BUMP) ||
@@ -329,7 +342,8 @@ const char *wr_proof_letter(WrProof proof)
 
 /* ---- deciding ---- */
 
-/* Rows are decided in the order of the enumeration; a decide function may read only rows above its own, and settle writes the settings that follow from the verdict. */
+/* Rows are decided in the order of the enumeration; a decide function may read only rows above its own, and
+   settle writes the settings that follow from the verdict. */
 
 static void decide(WrPlan *plan, WrEffect effect, const WrPlanRequest *ask)
 {

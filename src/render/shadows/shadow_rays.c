@@ -387,8 +387,8 @@ static int steps_of(const Cut *cut, bool along_u, double enough)
     return n < MAX_MOST ? n : MAX_MOST;
 }
 
-/* Chooses the steps in both directions; returns the number along v, cut->off holds their error. Twice the error of one direction is allowed across a cell. The sum of both directions' errors bounds the
-   rest. */
+/* Chooses the steps in both directions; returns the number along v, cut->off holds their error. Twice the
+   error of one direction is allowed across a cell. The sum of both directions' errors bounds the rest. */
 static int choose_steps(Cut *cut, double enough)
 {
     int across = steps_of(cut, true, enough), down = steps_of(cut, false, enough);

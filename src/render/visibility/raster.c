@@ -341,8 +341,8 @@ static void cover(Walk *walk, WrDepthTile *tile)
 
 /* Largest side L of a triangle, 1/256 samples, whose edge values fit in 32 bits over its box, with one vector to
    its right and one row below: 2 L (L + 18 * 256) < 2^31.
-     e| <= 2 L (distance from the box's corner) with both factors at most L plus the overhang: 16 samples of a vector and 2
-   more for rounding to samples. */
+   |e| <= 2 L (distance from the box's corner) with both factors at most L plus the overhang: 16 samples of a
+   vector and 2 more for rounding to samples. */
 #define SMALL_SIDE 30000
 
 static void cover_small(const Walk *walk, WrDepthTile *tile)
