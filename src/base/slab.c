@@ -7,6 +7,10 @@
 #define BLOCK ((size_t)8 << 20) /* bytes: the size from which memory.c requests large pages */
 #define IDLE 10                 /* empty blocks kept for reuse: enough for a table of 4096 x 4096 */
 
+/*     block: | WrSlab, rounded | address | piece | address | piece | ...      pitch = WR_ALIGN + rounded(bytes)
+   A block is in `begun` while it has both used and free pieces, in `idle` while it is empty, and in no list while it is full:
+   a full block is found again through the address before its pieces. Free pieces are linked through their first bytes; pieces
+   never cut need no link, so a new block is not touched page by page. */
 /* Header of a block; the pieces follow. The WR_ALIGN bytes before each piece contain the slab's
  * address. */
 typedef struct WrSlab {
@@ -15,6 +19,8 @@ typedef struct WrSlab {
     size_t used, cut; /* pieces in use; pieces ever cut */
 } WrSlab;
 
+/* Tiles of tables are allocated and freed by the thousand in each stroke, all of one size. malloc would return them to the
+   system above its threshold and fault every page in again. */
 static int64_t taken; /* atomic */
 
 int64_t wr_slab_pieces(void)
@@ -91,7 +97,9 @@ static void *take(WrSlabs *slabs)
     return piece;
 }
 
-/* Called with the lock held. Returns the block to free, or NULL. */
+/* Called with the lock held. Returns the block to free, or NULL. Filling a block in use before an idle one lets blocks become
+   empty, so that memory returns to the system after a large edit. IDLE blocks stay for the next edit. The block is freed by
+   the caller after the lock is released, since freeing 8 MB may take the system some time. */
 static WrSlab *give(WrSlabs *slabs, void *piece)
 {
     WrSlab *slab = *slab_of(piece);
@@ -112,6 +120,7 @@ static void free_slab(WrSlab *slab)
     if (slab) wr_memory_count((int64_t)BLOCK);
 }
 
+/* With the address sanitizer every piece is an allocation of its own: inside a block, a use after free would go unnoticed. */
 #ifdef __SANITIZE_ADDRESS__
 void *wr_slab_take(WrSlabs *slabs)
 {

@@ -7,6 +7,11 @@
 /* texels by which spans are enlarged: more than rounding errors, with negligible cost */
 #define SLACK 1e-3
 
+/* The area that a disc of radius R covers while its centre moves from (x, y) to (x + dx, y + dy). A texel at distance d from
+   the segment, at fraction t of it, has the coverage
+       p(t) * s * s * (3 - 2 s),   s = (R - d) / (R - inner) limited to 0..1,   p(t) = pressure + t growth
+   The reciprocals are stored because the kernels divide by neither. A motion shorter than 1e-6 texels has no usable
+   direction: its squared length would overflow the reciprocal, so it becomes a dab with inverse_length2 = 0. */
 WrCapsule wr_capsule(const WrBrush *brush, double x, double y, double dx, double dy,
                      double pressure_start, double pressure_end)
 {
@@ -58,6 +63,8 @@ static bool dab_span(const WrCapsule *c, double y, double *low, double *high)
     return true;
 }
 
+/* Rows in question satisfy |y - y(t)| <= R for some t in 0..1, an interval of t since y(t) is linear. The span may be too
+   wide (the kernel computes 0 there) but never too narrow, which would leave a visible notch. */
 bool wr_capsule_span(const WrCapsule *c, double y, double *low, double *high)
 {
     if (!(c->inverse_length2 > 0.0)) return dab_span(c, y, low, high);

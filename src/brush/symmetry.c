@@ -36,7 +36,9 @@ bool wr_symmetry_check(const WrSymmetry *s, WrError *err)
     return true;
 }
 
-/* The linear part of a mirror or rotation about the centre (cx, cy), then a shift. */
+/* The linear part of a mirror or rotation about the centre (cx, cy), then a shift.
+       x' = c + A (x - c) = A x + (c - A c),   A = (a b; c d)
+   A is orthogonal, so det A is 1 or -1, and its sign decides whether a dab's picture is mirrored. */
 static WrCopy about(double a, double b, double c, double d, double cx, double cy)
 {
     WrCopy copy = { .a = a, .b = b, .c = c, .d = d, .flips = a * d - b * c < 0.0 };
@@ -72,6 +74,9 @@ static int about_centre(const WrSymmetry *s, double cx, double cy, WrCopy *out)
     return count;
 }
 
+/* Texel centres are integers here, so the centre at u is width u - 1/2, and rows go down while v goes up. Each copy about the
+   centre is shifted by every offset of the lattice. Offsets beyond the cell are not reduced: the table wraps, and an axis
+   that does not wrap clips them. The identity comes first, since m = 0 and k = 0 are visited first. */
 int wr_symmetry_copies(const WrSymmetry *s, const WrField *field, WrCopy *out)
 {
     out[0] = (WrCopy){ .a = 1.0, .d = 1.0 };

@@ -7,6 +7,8 @@
 
 #include <string.h>
 
+/* The coverage is luma times alpha, in 0..1. From 8-bit files it is stored in codes 0..255, and
+   wr_tip_cell_finish smooths the steps of the codes; from other files in 0..1, with `codes` 0 and no smoothing. */
 static WrTip *from_image(const WrImage *image, const char *path, WrError *err)
 {
     int codes = image->type == WR_PIXEL_U8 ? 255 : 0;

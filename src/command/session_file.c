@@ -61,6 +61,8 @@ WrImage *wr_input_image(const char *path, const WrImageRequest *wish, WrError *e
     return image;
 }
 
+/* The checksum of a picture inside a glTF file covers the picture's bytes, that of a packed glTF the file with all its
+   buffers: only so does a change of a .bin beside the .gltf change the checksum. */
 bool wr_input_sha256(const char *path, char hex[65], WrError *err)
 {
     WrText text = { 0 };
@@ -135,7 +137,8 @@ static int next_byte(Lines *lines)
     return lines->left > 0 ? lines->left--, wr_stream_byte(lines->stream) : EOF;
 }
 
-/* The next line without its end (LF or CR LF). */
+/* The next line without its end (LF or CR LF). NUL bytes are rejected because all later code treats lines as C strings: the
+   part after a NUL would be skipped silently. */
 static LineResult read_line(Lines *lines, WrText *line, WrError *err)
 {
     int c, count = 0;

@@ -120,7 +120,8 @@ static WrBlendTile part_level(const Part *part)
                           .mask_level = l->mask ? wr_field_level(l->mask) : 1.0f };
 }
 
-/* True if the part changes no bit below. Decided by levels, so "false" may be wrong. */
+/* True if the part changes no bit below. Decided by levels, so "false" may be wrong. Bits are
+   compared, not values: 0 and -0 are equal but leave different bits. */
 static bool is_idle(const Part *part, const WrBlendTile *tile)
 {
     const WrBlendMode *mode = &wr_blends[part->layer.mode];
@@ -149,7 +150,8 @@ static void blend(const Part *part, const WrBlendTile *tile, size_t count, float
     wr_blend_tile(mode_of(part), part->layer.opacity, part->layer.radius, tile, count, below);
 }
 
-/* Level of the composite where all parts are empty. */
+/* Level of the composite where all parts are empty. A field's absent tile has its level everywhere, so blending one texel of
+   levels through the same code yields the bits that blending such a whole tile would. */
 static float composite_level(const Part *parts, int count)
 {
     float level = 0.0f;

@@ -129,6 +129,10 @@ static size_t own_bytes(const WrScene *scene, const WrScene *other)
     return bytes;
 }
 
+/*     bytes = tiles of fields that differ + pictures and meshes of one state only + layer records
+   Tiles shared by both states cost nothing, as fields are copied on write. Fields are paired by key first; the rest are the
+   edited ones and are paired in order, which is right for an edit that inserts no layer. A wrong pair only makes the estimate
+   larger or smaller; nothing is freed by it. */
 size_t wr_document_difference(const WrDocument *before, const WrDocument *after)
 {
     Fields a = fields_of(before), b = fields_of(after);
@@ -168,6 +172,8 @@ typedef struct Step {
     bool brings_view; /* its two states have different views */
 } Step;
 
+/* State k is the document after k steps; step k leads from state k to state k + 1. States below `oldest` are discarded to
+   stay within `budget`; 0 <= oldest <= position <= count. */
 struct WrHistory {
     WrDocument *start; /* state 0, owned; NULL: discarded */
     uint64_t start_mark;
@@ -202,7 +208,9 @@ static void free_step(Step *step)
     wr_free(step);
 }
 
-/* Step k for modification: no longer shared with a snapshot. */
+/* Step k for modification: no longer shared with a snapshot. Snapshots hold references to the same steps and are read by
+   another thread (saving): a step with refs > 1 is never written. The count can fall to 1 meanwhile, not rise, since only the
+   owner of the history makes snapshots; a step copied needlessly is the worst case. */
 static Step *make_own(WrHistory *history, int k)
 {
     Step *step = history->steps.data[k];

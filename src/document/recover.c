@@ -25,6 +25,9 @@
 
 /* ---- lines of a file, limited to WR_JOURNAL_LINE_MAX ---- */
 
+/* A journal may be torn anywhere, since its program died while it wrote, and it may be forged, since it lies in a folder that
+   others can write to. Hence the limits of line, file and number of commands, and memory that grows with the data read and
+   not with a length in the file. */
 typedef struct Reader {
     int fd;
     char *buffer; /* owned; one byte more than capacity, for a NUL */
@@ -74,7 +77,9 @@ static bool fill(Reader *reader, WrError *err)
     return true;
 }
 
-/* The next whole line, without its end, in place; valid until the next call. *err is set only with NEXT_BAD. */
+/* The next whole line, without its end, in place; valid until the next call. *err is set only with NEXT_BAD. `searched` keeps
+   the search linear: a line of n bytes that arrives in pieces is not searched again from its start. make_room moves the data,
+   therefore it is an offset and no pointer. */
 static Next next_line(Reader *reader, char **line, size_t *length, WrError *err)
 {
     size_t searched = 0;
@@ -106,6 +111,8 @@ typedef struct Command {
     WrJournalLine line;
 } Command;
 
+/* Command lines are concatenated in `texts` because a stroke arrives as a head and many records of samples, which are
+   appended to the last text. Offsets are stored since the buffer moves when it grows. */
 typedef struct Collector {
     char *texts; /* owned; NUL-ended command lines, concatenated */
     size_t used, capacity;

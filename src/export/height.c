@@ -87,6 +87,10 @@ static void find_range(WrExportJob *job)
 
 /* ---- codes ---- */
 
+/* Codes and heights are related linearly, code 0 at code_low and code `last` at code_high. The signed range has an exact code
+   for 0, zero = (last + 1) / 2, and a step of amplitude / (zero - 1):
+       8 bits: zero 128, codes 1 .. 255 for -amplitude .. amplitude;   16 bits: zero 32768, codes 1 .. 65535
+   Code 0 lies one step below -amplitude and is used by no height, so the range is symmetric. */
 void wr_export_height_prepare(WrExportJob *job)
 {
     WrExportReport *report = &job->report;
@@ -134,6 +138,8 @@ typedef struct Strip {
     void *out;
 } Strip;
 
+/* Runs on the pool's threads for disjoint rows of one strip; `out` is the strip's buffer, whose first row is `y` of the
+   strip. Only the counters are shared, and sums of integers do not depend on the order. */
 static void height_piece(WrExportJob *job, int y, int rows, void *ctx)
 {
     const Strip *strip = ctx;

@@ -331,6 +331,8 @@ static void find_rect(int tx, int ty, void *ctx)
     if (r.i0 < r.i1) wr_array_push(&f->rects, r);
 }
 
+/* `changed` is a superset of the texels whose occlusion changes: texels of edited boxes and their neighbours (central
+   differences), and those whose horizon changes, which make_of marks. */
 bool wr_horizon_update(WrHorizon *horizon, const WrField *before, const WrField *now, double sign,
                        unsigned char *changed, WrPool *pool, WrError *err)
 {
@@ -353,6 +355,11 @@ void wr_horizon_drop(WrHorizon *horizon)
 
 /* ---- a sky --------------------------------------------------------------------------------------- */
 
+/* Light of a uniform sky on a surface with normal n: per azimuth phi with horizon h the cosine-weighted integral over the
+   elevation e from h to pi/2, with n . w = n_z sin e + o cos e and o = n_x cos phi + n_y sin phi,
+       integral (n . w) cos e de = n_z cos^2 h / 2 + o ((pi/2 - h) / 2 - sin 2h / 4),
+   summed over D azimuths of width 2 pi / D and divided by pi, the value of an open level surface. The horizon is at least
+   that of the tangent plane, tan e = -o / n_z, below which n . w is negative. */
 double wr_horizon_sky(const double *slope, int directions, const double n[3])
 {
     double sum = 0;
@@ -365,6 +372,9 @@ double wr_horizon_sky(const double *slope, int directions, const double n[3])
     return 2 * sum / directions;
 }
 
+/* Direction k of the table is (x, y) texels; on the surface it is (across x, down y), so its slope per texel is multiplied by
+   |(x, y)| / |(across x, down y)|. Half the angle between the two neighbours, over 2 pi, is the share; the shares add up to
+   1. */
 void wr_occlusion_map_make(WrOcclusionMap *opening, int directions, double across, double down)
 {
     double angle[WR_HORIZON_MAX];
@@ -384,7 +394,10 @@ void wr_occlusion_map_make(WrOcclusionMap *opening, int directions, double acros
     }
 }
 
-/* wr_horizon_sky for one texel; its normal comes from the slopes of F along i and j, heights per texel. */
+/* wr_horizon_sky for one texel; its normal comes from the slopes of F along i and j, heights per texel. With t = tan h the
+   terms become cos^2 h = 1 / (1 + t^2) and sin 2h / 2 = t / (1 + t^2), so no sine is needed. The azimuths are not equally
+   spaced on a surface whose two axes have different scales: share[k] is the fraction of the circle nearest to direction k and
+   replaces 1 / D. */
 static double occlusion_map_sky(const WrOcclusionMap *opening, const float *slope, double along_i,
                                 double along_j)
 {

@@ -96,7 +96,9 @@ static int64_t whole_of(int64_t parts, int q)
     return q == 1 ? parts : q == 2 ? parts >> 1 : parts >> 2;
 }
 
-/* Reads the texels of row `row` of the main axis, lanes from `from` on along the other. */
+/* Reads the texels of row `row` of the main axis, lanes from `from` on along the other. In the upright case lanes are
+   adjacent texels of a row (stride 1), otherwise they are `pitch` apart; rows of the main axis have the other stride. A
+   stripe at a periodic end, or partly beyond a clamped one, is read texel by texel through `place`. */
 static void texels(const Lines *l, int row, int64_t from, int32_t *restrict out)
 {
     const WrSky *sky = l->sky;
@@ -118,7 +120,11 @@ static void texels(const Lines *l, int row, int64_t from, int32_t *restrict out)
 }
 
 /* Samples row s, also beyond the table, for lanes that start at `base` and meet texels in rows of this
- * phase. */
+   * phase. The line leaves row s at the lateral position p (s - phase) / q; the height there is linear between the two texels
+   beside it:
+       q h = (q - part) h[whole] + part h[whole + 1],   part = p (s - phase) mod q
+   All heights of a direction are multiplied by q <= 4, so the interpolation is exact in integers (WR_SKY_BITS + 2 <= 30 bits)
+   and no texel differs from itself by a rounding; `scale` contains 1/q. */
 static void sample(const Lines *l, int64_t s, int64_t base, int phase, int32_t *restrict out)
 {
     const int q = l->course.q;
@@ -141,7 +147,10 @@ static int64_t outside(const Lines *l, int sign, int k)
     return sign > 0 ? l->along + k : -1 - k;
 }
 
-/* Beyond the table only rows matter that are higher, in some lane, than all rows before them. */
+/* Beyond the table only rows matter that are higher, in some lane, than all rows before them. A row that is not higher than a
+   nearer one has at most its slope from every texel below that height. The rows are collected from near to far and then
+   reversed: the sweep goes from the far end backwards and keeps the upper hull of the rows passed, so the hull starts with
+   the farthest row. */
 static int beyond(const Lines *l, int sign, int64_t base, int phase, int32_t *h, int *rows)
 {
     const WrSkyKernels *kernels = l->sky->kernels;
@@ -172,7 +181,9 @@ static int opposite_of(const Lines *l)
     return (l->course.k + directions / 2) % directions;
 }
 
-/* Horizons ahead and behind, for lanes from `base` on. */
+/* Horizons ahead and behind, for lanes from `base` on. `rows` lists indices of `h`, whose first `ahead` rows lie before the
+   table: the slopes of table row i are stored at i + ahead, therefore the pointer passed is moved back by `ahead` rows. It is
+   used only for rows of the table. */
 static void sweep_both(const Lines *l, int64_t base, int phase, const Work *work,
                        const Stripe *stripe)
 {
@@ -197,7 +208,9 @@ typedef struct Batch {
     int count;
 } Batch;
 
-/* Stores the horizon of the one requested direction. */
+/* Stores the horizon of the one requested direction.
+       out = 0 for s <= level,   2 (s - level) up to s = 2 level,   s beyond
+   Continuous, so that roughness at the resolution of the heights causes no steps in the map. */
 static void put_horizon(const Lines *l, const WrSkyRun *run)
 {
     const float level = l->course.share.level;

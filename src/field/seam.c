@@ -53,6 +53,10 @@ static void read_edge(const Axis *a, int k, float t[4])
     }
 }
 
+/* With four texels across the edge, two on each side, before = t1 - t0, step = t2 - t1, after = t3 - t2:
+       STEP   |t2 - t1|                         first difference: a jump of the heights
+       BEND   |after - before|                  = |t3 - t2 - t1 + t0|: a jump of the slope
+       third  |t3 - 3 t2 + 3 t1 - t0|           a jump of the curvature, and the most sensitive to a jump of heights */
 static void add_place(float t0, float t1, float t2, float t3, Line *line)
 {
     const double before = (double)t1 - (double)t0, step = (double)t2 - (double)t1,
@@ -66,7 +70,9 @@ static void add_place(float t0, float t1, float t2, float t3, Line *line)
     }
 }
 
-/* Converts sums over `places` positions to means. */
+/* Converts sums over `places` positions to means. Three means per difference, since a fault may lie along the whole edge or
+   at a few places:
+       ROOTS (mean of sqrt d)^2, least affected by single peaks; SQUARES sqrt(mean of d^2); MAX_MOST the maximum */
 static void finish(Line *line, int places)
 {
     for (int k = 0; k < WR_SEAM_DIFFERENCES; k++) {
@@ -126,7 +132,9 @@ static void enlarge(Line *most, const Line *line)
         for (int m = 0; m < MEANS; m++) most->of[k][m] = fmax(most->of[k][m], line->of[k][m]);
 }
 
-/* The largest means of the lines inside the cell that do not read across its edges. */
+/* The largest means of the lines inside the cell that do not read across its edges. A line that reads four texels starts at 0
+   .. size - 4, so none crosses the cell's edge. `rank` is the fraction of lines inside that bend less than the edge (root
+   mean square). Inside, only WR_SEAM_LOOKS lines and positions are sampled; the edge is read completely. */
 static Line measure_inside(const Axis *a, const Line *edge, double *rank)
 {
     const int count = fewer(a->size - 3);
@@ -168,7 +176,9 @@ static void take_ratio(WrSeamEdge *edge, int k, const Line *seam, const Line *in
 }
 
 /* A step on a steep slope may be smaller than the slope itself. Its second difference reveals it: that
- * is larger than any change of slope inside, and three times the step. */
+   * is larger than any change of slope inside, and three times the step. A step of height S on an otherwise smooth line has
+   third differences 3 S and second differences S: the bound 4 S > bend separates it from a mere change of slope, whose second
+   difference is large with a small first one. */
 static bool hidden_step(const WrSeamEdge *edge, const Line *seam, const Line *inside, double noise)
 {
     for (int m = 0; m < MEANS; m++)

@@ -48,6 +48,9 @@ static int chords(const Pen *pen, double bend)
     return n < 1.0 ? 1 : n > CHORDS_MAX ? CHORDS_MAX : (int)n;
 }
 
+/*     B(t) = (1 - t)^2 a + 2 t (1 - t) b + t^2 c,   B'' = 2 (a - 2 b + c), constant
+   Evaluated by de Casteljau's scheme with t = i / n anew for each point: repeated addition of differences would accumulate
+   rounding, and the outlines must be the same bits on all machines. */
 static void conic(Pen *pen, double bx, double by, double cx, double cy)
 {
     double ax = pen->at_x, ay = pen->at_y;
@@ -61,6 +64,7 @@ static void conic(Pen *pen, double bx, double by, double cx, double cy)
     line(pen, cx, cy);
 }
 
+/* B'' is linear in t, from 6 (a - 2 b + c) to 6 (b - 2 c + d); its length is therefore largest at one of the ends. */
 static void cubic(Pen *pen, double bx, double by, double cx, double cy, double dx, double dy)
 {
     double ax = pen->at_x, ay = pen->at_y;
@@ -79,6 +83,8 @@ static void cubic(Pen *pen, double bx, double by, double cx, double cy, double d
     line(pen, dx, dy);
 }
 
+/* Points of the font are stored in half units (hence 0.5), so that the implied middle between two control points of TrueType
+   is exact. */
 /* Stops beyond WR_FONT_FLAT_MAX points. */
 static void draw_verbs(Pen *pen, const WrFontText *text, const WrFontGlyph *g)
 {
@@ -101,6 +107,7 @@ static void draw_verbs(Pen *pen, const WrFontText *text, const WrFontGlyph *g)
 
 /* ---- dots ---- */
 
+/* Rows from the top, each padded to whole bytes, the highest bit leftmost, as in BDF and PCF files. */
 bool wr_font_dot(const WrFontText *text, const WrFontGlyph *glyph, int column, int row)
 {
     if (column < 0 || row < 0 || column >= glyph->width || row >= glyph->height) return false;
@@ -128,7 +135,9 @@ static bool side_dot(const Trace *t, int x, int row, Way way, bool left)
 }
 
 /* Traces round dots with the set ones on the left. At corners where two set dots touch it turns left,
- * so that they are kept apart. */
+   * so that they are kept apart. The loop ends when corner and direction are those of the start: a corner where two dots
+   touch is passed twice, in different directions. Only corners become points. `done` marks upper sides, which every loop has
+   (at its top), so each loop is traced exactly once; holes are traced as well, in the opposite sense. */
 static void trace_loop(const Trace *t, Pen *pen, int x, int row)
 {
     static const int step_x[] = { 1, 0, -1, 0 }, step_row[] = { 0, -1, 0, 1 };

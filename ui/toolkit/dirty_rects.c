@@ -10,6 +10,8 @@
 /* Pixels drawn unnecessarily that are acceptable for one rectangle less. */
 #define SPARE (8 * SIDE * SIDE)
 
+/* Per square a 64-bit sum of everything drawn in it during this frame and during the frame before. A change is missed only if
+   two different sequences have equal sums, about 2^-64 per changed square. */
 struct WrDirtyRects {
     int width, height, columns, rows;
     uint64_t *now, *before; /* [rows][columns]; owned */
@@ -24,6 +26,8 @@ WrDirtyRects *wr_dirty_rects_new(void)
     return damage;
 }
 
+/* `all` holds from creation, and after wr_dirty_rects_forget, until the end of one frame: there is no valid frame before to
+   compare with. */
 static void free_squares(WrDirtyRects *damage)
 {
     wr_free(damage->now);
@@ -71,6 +75,9 @@ static bool reach(const WrDirtyRects *damage, const SDL_Rect *box, SDL_Point *fi
     return true;
 }
 
+/*     sum <- g((sum ^ what) * m),   g(t) = t ^ t >> 29
+   The map is bijective in `sum` for a fixed `what` and depends on the order: the same operations in another order have
+   another sum, as their pixels may differ. */
 void wr_dirty_rects_add(WrDirtyRects *damage, const SDL_Rect *box, uint64_t what)
 {
     SDL_Point first, last;
@@ -127,7 +134,9 @@ static void collect(SDL_Rect rects[WR_DIRTY_RECTS_MAX], int *count, const SDL_Re
     else rects[best] = join(&rects[best], more);
 }
 
-/* Merge overlapping rectangles until none overlap. */
+/* Merge overlapping rectangles until none overlap. Overlaps would be drawn twice: correct, since each
+   drawing starts with the clear, but slow. Each join reduces the count by one, so the
+   loop ends after at most WR_DIRTY_RECTS_MAX joins. */
 static void part(SDL_Rect rects[WR_DIRTY_RECTS_MAX], int *count)
 {
     for (int i = 0; i < *count; i++)
@@ -156,6 +165,8 @@ static bool take_whole(SDL_Rect *rects, int count, const SDL_Rect *box)
     return false;
 }
 
+/* Runs of dirty squares in one row of squares are offered as one rectangle; `collect` joins runs of adjacent rows, since such
+   a union wastes little. */
 static void find(const WrDirtyRects *damage, SDL_Rect rects[WR_DIRTY_RECTS_MAX], int *count)
 {
     for (int y = 0; y < damage->rows; y++)
@@ -172,6 +183,9 @@ static void find(const WrDirtyRects *damage, SDL_Rect rects[WR_DIRTY_RECTS_MAX],
         }
 }
 
+/* Alternates between growing rectangles to whole boxes and joining overlaps until neither applies. Both only enlarge the
+   covered area within the window, so it ends. The buffers of sums are swapped, not copied; wr_dirty_rects_begin clears the
+   new `now`. */
 int wr_dirty_rects_end(WrDirtyRects *damage, const SDL_Rect *whole, int count,
                        SDL_Rect rects[WR_DIRTY_RECTS_MAX])
 {

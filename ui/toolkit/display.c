@@ -26,6 +26,9 @@ WrDisplayEnv wr_display_env(void)
                            getenv("XDG_SESSION_TYPE") };
 }
 
+/* A list of SDL drivers in the order in which they are tried; NULL leaves the choice to SDL. On Wayland, XWayland comes
+   first, since pens act as mice on SDL's own
+   Wayland. An explicit SDL_VIDEODRIVER always wins. */
 const char *wr_display_driver(const WrDisplayEnv *env)
 {
     if (said(env->driver) || !is_wayland(env)) return NULL;
@@ -70,6 +73,8 @@ static bool has_direct(const char *driver)
                       strcmp(driver, "offscreen") == 0);
 }
 
+/* The ways in the order in which they are tried; the last one always exists. A graphics card comes first
+   only by request or where `gpu` holds. */
 int wr_screen_ways(const char *driver, bool gpu, const char *wanted,
                    WrScreenWay ways[WR_SCREEN_WAYS])
 {
@@ -102,6 +107,7 @@ const char *wr_screen_words(WrScreenWay way)
 #define SETTING "Xft/DPI"
 #define RESOURCE "Xft.dpi:"
 
+/* 96 dpi is scale 1, so the bounds are scales of 0.5 and 8; values outside are faults of the desktop and count as absent (0). */
 static double meant(double dpi)
 {
     return dpi >= LEAST_DPI && dpi <= MAX_DPI ? dpi : 0;
@@ -110,6 +116,8 @@ static double meant(double dpi)
 /* ---- XSETTINGS: byte order, 3 bytes, serial, count; each setting: type, a byte, length of the name, the name up to
    a multiple of 4, serial, value (https://specifications.freedesktop.org/xsettings-spec/) ---- */
 
+/* A bounded reader: after the first read beyond the end `good` is false for ever, and all further reads return 0 without
+   moving. The bytes come from another process and are not trusted. */
 typedef struct Reading {
     const unsigned char *at;
     size_t left;
@@ -152,6 +160,12 @@ static uint32_t value_of(Reading *r, unsigned type)
     return 0;
 }
 
+/*     byte 0      byte order: 0 low byte first, 1 high byte first     bytes 1 - 3  unused
+       bytes 4 - 7 serial                                              bytes 8 - 11 number of settings
+       setting:    type (1), unused (1), length of the name (2), name, padded to 4 bytes, serial (4), value
+       value:      integer 4 bytes; string: length (4), text padded to 4 bytes; colour: 4 x 2 bytes
+   Xft/DPI is an integer in 1024ths of dots per inch. A length near 2^32 wraps in none of the sums here: size_t has 64 bits,
+   and `take` compares with the bytes that are left. */
 double wr_desktop_dpi_of_settings(const unsigned char *bytes, size_t count)
 {
     Reading r = { bytes, count, .good = true };

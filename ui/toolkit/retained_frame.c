@@ -10,6 +10,11 @@
 
 typedef enum Kind { FILL, COPY, POINTS, PIECE } Kind;
 
+/* A frame is recorded first and drawn at its end. Each operation is hashed together with its place; the squares of the window
+   (dirty_rects.c) accumulate the hashes of all operations that touch them, in order. A square whose sum equals that of the
+   frame before has the same pixels, so only the other squares are drawn again and presented. This pays off only for SDL's
+   software renderer, whose buffer keeps its pixels from frame to frame; with a graphics card the back buffer is undefined
+   after presenting, so `damage` is NULL and every frame is drawn completely. */
 /* A recorded operation. */
 typedef struct Item {
     Kind kind;
@@ -34,7 +39,9 @@ struct WrRetainedFrame {
     WrGuiPen pen;
 };
 
-/* Events after which the system, or SDL, has lost the window's pixels. */
+/* Events after which the system, or SDL, has lost the window's pixels. SDL calls watchers on the thread that produces the
+   event, hence the atomic flag. The flag is set for all window events except those that are known to leave the pixels alone:
+   a frame drawn too often is slow, a frame drawn too seldom is wrong. */
 static int SDLCALL watch(void *ctx, SDL_Event *event)
 {
     WrRetainedFrame *kept = ctx;
@@ -86,6 +93,8 @@ SDL_Renderer *wr_retained_frame_renderer(const WrRetainedFrame *kept)
 
 /* ---- recording ---- */
 
+/* The words that are hashed for one operation; padding never enters, because only fields are copied. The longest entry is a
+   textured triangle: kind, box (4), texture and revision (4) and three vertices. */
 typedef struct Words {
     uint32_t word[32];
     int count;
@@ -102,6 +111,8 @@ static void print_rect(Words *words, const SDL_Rect *rect)
     words->count += 4;
 }
 
+/* The address alone is no identity: a texture can be freed and another created at the same address, or be written to. The
+   revision (wr_gui_sdl_revision) changes with each of these. */
 static void print_texture(Words *words, const SDL_Texture *texture, uintptr_t revision)
 {
     const uint64_t both[2] = { (uint64_t)(uintptr_t)texture, revision };
@@ -147,6 +158,10 @@ void wr_retained_frame_fill(WrRetainedFrame *kept, const SDL_Rect *place, uint32
     note(kept, &item, &words);
 }
 
+/* Tracked textures have revision 0 here: their owner reports the changed part with wr_retained_frame_changed, so a stroke on
+   the canvas does not redraw the whole canvas. A scaled copy is different: clipping it to a part may shift the sampling
+   positions by a rounding, so that seams would appear at the borders of the parts. Its box is in `whole`, and rectangles that
+   touch it grow until they contain it. */
 static void note_copy(WrRetainedFrame *kept, SDL_Texture *texture, const SDL_Rect *of,
                       const SDL_Rect *to, bool notifies)
 {
@@ -187,6 +202,8 @@ void wr_retained_frame_changed(WrRetainedFrame *kept, const SDL_Rect *place)
     if (kept->damage) wr_dirty_rects_touch(kept->damage, place);
 }
 
+/* Every point is hashed into its own square, not the enclosing box: an outline of moving dashes across the canvas would
+   otherwise make the whole box dirty in each frame. */
 void wr_retained_frame_points(WrRetainedFrame *kept, const SDL_Point *points, int count,
                               uint32_t argb)
 {
@@ -263,7 +280,9 @@ static void draw_item(WrRetainedFrame *kept, const Item *item)
     }
 }
 
-/* Draw all operations that touch a rectangle, clipped to it. */
+/* Draw all operations that touch a rectangle, clipped to it. The order of recording is the order of drawing, also for pieces
+   that are only partly inside: blended pieces depend on it. The pen collects adjacent pieces of one state, so it must be
+   flushed before each change of the clip rectangle and before operations that bypass it. */
 static void draw_within(WrRetainedFrame *kept, const SDL_Rect *room)
 {
     SDL_Rect clip = *room;

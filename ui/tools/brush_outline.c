@@ -55,6 +55,9 @@ WrBrushMark wr_brush_mark(const WrApp *app)
     return mark;
 }
 
+/*     ellipse: (r cos a, r sin a / aspect) rotated by `turn`,   a = 2 pi i / n
+       picture: corners at a = pi/4 + i pi/2 of the circle of radius sqrt(2) r, hence of the square of half side r
+   In texels relative to the centre, y down. */
 int wr_brush_mark_points(const WrBrushMark *mark, double points[][2])
 {
     double c = cos(mark->turn), s = sin(mark->turn);
@@ -73,7 +76,9 @@ int wr_brush_mark_points(const WrBrushMark *mark, double points[][2])
     return count;
 }
 
-/* One outline about (x, y) in pixels; `copy` rotates or mirrors it (NULL: unchanged). */
+/* One outline about (x, y) in pixels; `copy` rotates or mirrors it (NULL: unchanged). Every line is drawn twice, dark and
+   wide below light and thin, so it is visible on any height. The offsets are transformed as vectors (wr_view_step), which
+   includes zoom, rotation and the mirror of the view. */
 static void outline(const WrBrushMark *mark, const WrCanvasView *view, double x, double y,
                     const WrCopy *copy, WrColour dark, WrColour light)
 {
@@ -136,7 +141,9 @@ static void outline_in_cell(const WrApp *app, const WrBrushMark *mark, double x,
     wr_gui_draw_unclip();
 }
 
-/* Faint outlines at the symmetry's copies of the dab, in the cell under the pointer. */
+/* Faint outlines at the symmetry's copies of the dab, in the cell under the pointer. The copies are affine maps of the cell
+   at the origin. The pointer may be in any repetition, so it is reduced to that cell, mapped, reduced again, and moved back
+   to the cell under the pointer. Entry 0 is the dab itself. */
 static void outline_copies(const WrApp *app, const WrBrushMark *mark, double x, double y)
 {
     const WrField *field = wr_app_field(app);

@@ -47,7 +47,8 @@ static void axis_line(const WrApp *app, int axis, double texel)
     wr_gui_draw_line(x0, y0, x1, y1, AXIS, wr_gui_scale());
 }
 
-/* Spokes of half a cell's length: rotation is about the centre of each cell. */
+/* Spokes of half a cell's length: rotation is about the centre of each cell. Spoke i has the angle pi/2 + 2 pi i / n in the
+   texel plane, with v up and rows down: hence 1 - v and the minus at the sine. */
 static void spokes(const WrApp *app, const WrSymmetry *s)
 {
     const WrCanvasView *view = app->view;
@@ -63,7 +64,9 @@ static void spokes(const WrApp *app, const WrSymmetry *s)
     }
 }
 
-/* Copies of the centre in the lattice. */
+/* Copies of the centre in the lattice.
+       u = c_u + i / M,   v = c_v + (j + i * stagger) / N,   i < M, j < N, both modulo 1
+   The same lattice is evaluated for dabs in src/brush/symmetry.c. Beyond 256 points the discs would hide the table. */
 static void lattice(const WrApp *app, const WrSymmetry *s)
 {
     if (s->repeat_u * s->repeat_v > 256) return;
@@ -109,7 +112,9 @@ bool wr_symmetry_press(WrApp *app, const WrPointer *at)
     return hypot(at->x - x, at->y - y) <= 9.0 * wr_gui_scale();
 }
 
-/* Snap to whole and half texels, so that mirroring can be exact; with Shift to eighths of the cell. */
+/* Snap to whole and half texels, so that mirroring can be exact; with Shift to eighths of the cell. The mirrored texel of i
+   about a centre c in texels is 2 c - 1 - i, an integer exactly if c is a multiple of 1/2; only then are the copies of a dab
+   the same texels mirrored, without resampling. */
 static double snapped(double u, int size, bool shift)
 {
     double steps = shift ? 8.0 : 2.0 * size, at = rint(u * steps) / steps;
@@ -178,7 +183,9 @@ static bool numbers(WrSymmetry *s)
     return changed;
 }
 
-/* Allow only offsets k/M, with which the lattice closes around the cell. */
+/* Allow only offsets k/M, with which the lattice closes around the cell. Column i is raised by i * stagger rows; after M
+   columns the table repeats, so M * stagger must be a whole number of rows. The offset M/M would equal offset 0 and is
+   excluded. */
 static void close_lattice(WrSymmetry *s)
 {
     double steps = s->repeat_u, k = rint(s->stagger * steps);

@@ -264,6 +264,10 @@ void wr_thumbs_free(WrApp *app)
     app->shelf->thumbs = NULL;
 }
 
+/* Slots are numbered by two interleaved sequences, so that both lists can grow: slot 0 is the brush without a preset, 2 (k +
+   1) preset k, 2 k + 1 stamp k. A side between half the loaded one and the loaded one
+   reuses its textures (drawn smaller), so that
+   dragging the width of the panel does not load everything again. */
 static SDL_Texture *picture_of(WrApp *app, int place, int side)
 {
     WrThumbs *thumbs = thumbs_of(app);
@@ -288,6 +292,8 @@ SDL_Texture *wr_thumb_of_stamp(WrApp *app, int index, int side)
     return picture_of(app, 2 * index + 1, side);
 }
 
+/* Textures belong to the window's thread and are therefore created here, not in the job. A batch of an older round belongs to
+   slots that were dropped since (other library, other scale); its results are freed unused. */
 static void take(WrApp *app, Batch *batch)
 {
     WrThumbs *thumbs = app->shelf->thumbs;
@@ -323,6 +329,9 @@ static bool describe(WrApp *app, int place, Item *item)
     return true;
 }
 
+/* Wishes are those of the last frame only: a thumbnail that was scrolled out of view before its turn is not loaded. The job
+   owns copies of all paths, because the library may be replaced meanwhile. `asked` stays set after a failure, so a broken
+   file is read once. */
 static void ask(WrApp *app)
 {
     WrThumbs *thumbs = app->shelf->thumbs;

@@ -52,6 +52,8 @@ static void drag(WrApp *app, const WrPointer *at)
     wr_app_redraw(app);
 }
 
+/* A drag shorter than three pixels is a click and draws nothing. Both ends are moved by the same whole cell (`home` of the
+   start), so a ramp across the edge keeps its direction; 7 digits resolve 1/1000 texel of a table of 8192. */
 static void release(WrApp *app, const WrPointer *at)
 {
     const WrDrawSettings *how = &app->settings->drawing;
@@ -88,6 +90,7 @@ static bool key(WrApp *app, SDL_Keycode key)
     return true;
 }
 
+/* Drawn as a polygon in texels, because the view may mirror or rotate, and wr_overlay_lines repeats it in all visible cells. */
 static void ring(const WrApp *app, double radius, WrColour colour)
 {
     WrSelectPoint points[72];
