@@ -42,8 +42,8 @@ static const double slope_price[] = {
 };
 WR_ROWS_END(slope_price, WR_SCHEME_COUNT);
 
-#define EXACT_PRICE 2.5    /* factor for second derivatives, on curved surfaces */
-#define FORMULA_PRICE 20.0 /* F from a formula, for each of its terms */
+#define EXACT_PRICE 2.5    /* added for second derivatives, on curved surfaces */
+#define FORMULA_PRICE 20.0 /* F from a formula */
 
 double wr_price_sample(const WrScene *scene, WrScheme scheme, WrBumpMode mode)
 {

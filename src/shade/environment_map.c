@@ -51,9 +51,8 @@ void wr_environment_map_place(WrVec3 d, double *u, double *v)
     *v = 0.5 + (across > 0 || d.y != 0 ? wr_atan2(d.y, across) / WR_PI : 0);
 }
 
-/* Texel i, j of a channel; rows -1 and H, the poles, are the mean of the adjacent row.
-   Beyond a pole the row is reflected through the mean, 2 mean - x, so that bilinear interpolation at the pole
-   is the mean for every longitude (HC111). */
+/* Texel i, j of a channel. Rows -1 and H, beyond the poles, are the adjacent row reflected through its mean, 2 mean - x, so
+   that bilinear interpolation at the pole is the mean for every longitude (HC111). */
 static double texel(const WrEnvironmentMap *s, int i, int j, int c)
 {
     const WrImage *image = s->image;

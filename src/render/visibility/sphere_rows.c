@@ -79,14 +79,16 @@ static WrSlant slant_of(const WrForm o[3], const WrForm d[3], const WrForm *dd, 
 }
 
 /* Smallest l.v of all visible points: v deviates from the direction to the centre at most as far as the outline.
-   cos(a + b) with a the angle from the centre's direction to l, and sin b = 1 / |o|. */
+   cos(a + b) with a the angle from the centre's direction to l, and sin b = 1 / |o|; -1 where a + b exceeds half a turn,
+   for then a point between has l.v = -1. */
 static double least_facing(const WrForm o[3], const WrForm d[3], const double l[3], bool near)
 {
     double a[3];
     for (int i = 0; i < 3; i++) a[i] = near ? o[i].c[0] : -d[i].c[0];
     const double size = product(a, a), facing = product(a, l) / sqrt(size);
-    const double sine = near ? 1 / sqrt(size) : 0;
-    return facing * sqrt(1 - sine * sine) - sqrt(fmax(1 - facing * facing, 0)) * sine;
+    const double sine = near ? 1 / sqrt(size) : 0, cosine = sqrt(1 - sine * sine);
+    if (facing <= -cosine) return -1;
+    return facing * cosine - sqrt(fmax(1 - facing * facing, 0)) * sine;
 }
 
 /* r^2 is negative definite in x (c[3] < 0) where rows meet the sphere in one chord. Up to 1000 radii of
