@@ -19,7 +19,7 @@ typedef struct WrSlab {
     size_t used, cut; /* pieces in use; pieces ever cut */
 } WrSlab;
 
-/* Pieces in use, of all slabs. Tiles of tables come and go by the thousand in each stroke, all of one size: lists of
+/* Pieces ever handed out. Tiles of tables come and go by the thousand in each stroke, all of one size: lists of
    pieces in large blocks need no search, and a block can use large pages. */
 static int64_t taken; /* atomic */
 
