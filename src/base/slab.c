@@ -19,8 +19,8 @@ typedef struct WrSlab {
     size_t used, cut; /* pieces in use; pieces ever cut */
 } WrSlab;
 
-/* Tiles of tables are allocated and freed by the thousand in each stroke, all of one size. malloc would return them to the
-   system above its threshold and fault every page in again. */
+/* Pieces ever handed out. Tiles of tables come and go by the thousand in each stroke, all of one size: lists of
+   pieces in large blocks need no search, and a block can use large pages. */
 static int64_t taken; /* atomic */
 
 int64_t wr_slab_pieces(void)
