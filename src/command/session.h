@@ -108,9 +108,6 @@ bool wr_session_stroke_end(WrSession *session, WrError *err);
 void wr_session_stroke_cancel(
     WrSession *session); /* restores the document; without a stroke nothing happens */
 bool wr_session_in_stroke(const WrSession *session);
-/* Forget the paths found for bare preset names. Presets and tips stay cached and are read again only if their files
-   change. For a program that has written a preset. */
-void wr_session_forget_brushes(WrSession *session);
 
 /* The document; borrowed until the next call that changes the session. */
 const WrDocument *wr_session_document(const WrSession *session);

@@ -225,12 +225,6 @@ void wr_brush_files_free(WrBrushFiles *files)
     wr_free(files);
 }
 
-void wr_session_forget_brushes(WrSession *session)
-{
-    wr_brush_files_free(session->brush_files);
-    session->brush_files = NULL;
-}
-
 /* ---- files ---- */
 
 /* True if none of the entry's files has changed. Modification time alone misses a file replaced by another with the same

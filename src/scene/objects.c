@@ -295,14 +295,6 @@ int wr_scene_object_find(const WrScene *scene, const char *name)
     return -1;
 }
 
-int wr_scene_shown_count(const WrScene *scene)
-{
-    int shown = 0;
-    for (int i = 0; i < wr_scene_object_count(scene); i++)
-        shown += !wr_scene_object(scene, i)->hidden;
-    return shown;
-}
-
 /* `others` are owned references; scenes are freed when the last reference goes. */
 static void drop_others(WrScene *scene)
 {

@@ -20,7 +20,6 @@ const WrScene *wr_scene_object(const WrScene *scene, int i);
 const char *wr_scene_object_label(const WrScene *scene, int i, char buffer[WR_OBJECT_LABEL]);
 /* The index of the object of that name or label, or -1. */
 int wr_scene_object_find(const WrScene *scene, const char *name);
-int wr_scene_shown_count(const WrScene *scene); /* number of visible objects */
 /* True if object i is in a picture of that aspect. False if it is hidden; and for a floor (a still
    plane among other objects) if the camera is behind it, where it would hide everything that stands on
    it. */

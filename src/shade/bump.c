@@ -1,7 +1,6 @@
 #include "shade/bump.h"
 
 #include <float.h>
-#include <string.h>
 
 #include "base/error.h"
 #include "base/exactmath.h"
@@ -15,14 +14,6 @@ const WrBumpInfo wr_bumps[WR_BUMP_COUNT] = {
     [WR_ROW(WR_BUMP_EXACT)] = { "exact", "Exact" },
 };
 WR_ROWS_END(wr_bumps, WR_BUMP_COUNT);
-
-int wr_bump_find(const char *name)
-{
-    for (int mode = 0; mode < WR_BUMP_COUNT; mode++) {
-        if (strcmp(wr_bumps[mode].name, name) == 0) return mode;
-    }
-    return -1;
-}
 
 /* Vectors and numbers with a separate exponent, value = v 2^e, so that products of any finite inputs
    neither overflow nor underflow. Scaling by powers of two is exact: where the plain formula stays

@@ -14,4 +14,3 @@ typedef struct WrBumpInfo {
     const char *title; /* in lists of the window: "Blinn, N + D" */
 } WrBumpInfo;
 extern const WrBumpInfo wr_bumps[WR_BUMP_COUNT];
-int wr_bump_find(const char *name); /* mode, or -1 */

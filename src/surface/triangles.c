@@ -954,17 +954,6 @@ WrTriangles *wr_triangles_square(void)
     return wr_triangles_new(&source, NULL);
 }
 
-int wr_triangles_part(const WrTriangles *triangles, int32_t i)
-{
-    int low = 0, high = triangles->part_count - 1;
-    while (low < high) {
-        const int middle = (low + high + 1) / 2;
-        if (triangles->parts[middle].first <= i) low = middle;
-        else high = middle - 1;
-    }
-    return low;
-}
-
 /* With e_i the edge opposite corner i, grad u = n x (sum of u_i e_i) / 2A (NUMERICS-SCENES a). The edges sum
    to 0, so u of the first corner can be subtracted from all. There is no division by the (u,v) determinant:
    sheared, mirrored and collinear maps need no special case (HC126, HC127). */

@@ -101,9 +101,6 @@ WrTriangles *wr_triangles_square(void);
 float *wr_triangles_pack(const WrTriangles *triangles, size_t *count);
 WrTriangles *wr_triangles_unpack(const float *block, size_t count, WrError *err);
 
-/* Index of the part of triangle i. */
-int wr_triangles_part(const WrTriangles *triangles, int32_t i);
-
 /* Gradients of u and v on a triangle with positions p and (u,v): du/dP, dv/dP, in its plane, and its
  * unit normal.
  *

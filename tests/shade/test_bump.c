@@ -300,14 +300,6 @@ static void hc20_the_tilt_of_equal_normals_is_zero_and_small_ones_are_kept(void 
     assert_near(wr_bump_tilt_deg(up, side), 90, 1e-13);
 }
 
-static void modes_are_found_by_name(void **state)
-{
-    (void)state;
-    for (int mode = 0; mode < WR_BUMP_COUNT; mode++)
-        assert_int_equal(wr_bump_find(wr_bumps[mode].name), mode);
-    assert_int_equal(wr_bump_find("phong"), -1);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -324,7 +316,6 @@ int main(void)
         cmocka_unit_test(a3_blinns_error_stays_under_its_bound),
         cmocka_unit_test(a4_on_a_flat_base_blinn_is_exact_for_any_height),
         cmocka_unit_test(hc20_the_tilt_of_equal_normals_is_zero_and_small_ones_are_kept),
-        cmocka_unit_test(modes_are_found_by_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -48,7 +48,11 @@ const WrCanvasMapRow wr_canvas_maps[WR_CANVAS_SHOWN] = {
     [WR_CANVAS_BENT] = { "Normals", WR_FIELD_MAP_SLOPE_U, WR_CANVAS_NORMALS, 0, 1, true },
 };
 
-#define LOOKS 3 /* displays of heights */
+WR_ROWS(looks);
+static const char *const looks[] = { [WR_ROW(WR_CANVAS_GREY)] = "Grey",
+                                     [WR_ROW(WR_CANVAS_SIGNED)] = "Signed",
+                                     [WR_ROW(WR_CANVAS_CONTOURS)] = "Contours" };
+WR_ROWS_END(looks, WR_CANVAS_LOOKS);
 
 /* Colour ramp over all existing or displayed heights, lowest first, in the canvas colours: heights beyond the range
    are visible at its ends. */
@@ -111,11 +115,6 @@ static void choose_shown(WrCanvasLook *look)
 
 static void range_popup(WrApp *app)
 {
-    WR_ROWS(looks);
-    static const char *const looks[] = { [WR_ROW(WR_CANVAS_GREY)] = "Grey",
-                                         [WR_ROW(WR_CANVAS_SIGNED)] = "Signed",
-                                         [WR_ROW(WR_CANVAS_CONTOURS)] = "Contours" };
-    WR_ROWS_END(looks, LOOKS);
     static const char *const ways[] = { "As the table", "0 to 1", "As it is now" };
     WrCanvasLook *look = &app->settings->look;
     int chosen = (int)look->colours, way = look->automatic ? 0 : is_unit(look) ? 1 : 2;
@@ -127,7 +126,7 @@ static void range_popup(WrApp *app)
         wr_gui_popup_end();
         return;
     }
-    if (wr_gui_segments("look", looks, NULL, LOOKS, &chosen))
+    if (wr_gui_segments("look", looks, NULL, WR_CANVAS_LOOKS, &chosen))
         look->colours = (WrCanvasColours)chosen;
     if (wr_gui_segments("way", ways, NULL, 3, &way)) choose_way(app, way);
     ramp(app, "wide", wr_gui_px(240), wr_gui_px(12));
@@ -161,7 +160,6 @@ static void range_popup(WrApp *app)
 
 static void chip_text(const WrApp *app, const WrCanvasRange *range, char *text, size_t size)
 {
-    static const char *const looks[LOOKS] = { "Grey", "Signed", "Contours" };
     const WrCanvasLook *look = &app->settings->look;
     const WrCanvasMapRow *map = app->map_shown ? &wr_canvas_maps[look->shown] : NULL;
     const char *name = wr_words(wr_app_shows_mask(app) ? "Mask"

@@ -24,9 +24,9 @@ typedef enum WrCanvasColours {
     WR_CANVAS_SIGNED,
     WR_CANVAS_CONTOURS, /* contour lines */
     WR_CANVAS_RELIEF,   /* shaded relief */
-    WR_CANVAS_NORMALS,  /* colours of a normal map */
-    WR_CANVAS_COLOURS
+    WR_CANVAS_NORMALS   /* colours of a normal map */
 } WrCanvasColours;
+#define WR_CANVAS_LOOKS 3 /* the first of them can be chosen; the others belong to maps */
 
 /* Displayed content: the table, or a map of it (canvas_derived_map.h). */
 typedef enum WrCanvasShown {

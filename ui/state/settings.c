@@ -173,7 +173,7 @@ static int view_rows(WrSettings *s, Row *rows)
         { "mouse_fast", &s->fake.fast, NULL, NULL, 2, 1e5 },
         { "mouse_least", &s->fake.least, NULL, NULL, 0, 1 },
         { "shown", NULL, (int *)&s->look.shown, NULL, 0, WR_CANVAS_SHOWN - 1 },
-        { "colours", NULL, (int *)&s->look.colours, NULL, 0, WR_CANVAS_CONTOURS },
+        { "colours", NULL, (int *)&s->look.colours, NULL, 0, WR_CANVAS_LOOKS - 1 },
         { "range_follows", NULL, NULL, &s->look.automatic, 0, 1 },
         { "range_marks", NULL, NULL, &s->look.marks, 0, 1 },
         { "light_x", &s->look.light_x, NULL, NULL, -1, 1 },
