@@ -235,7 +235,7 @@ int wr_ladder_settings(const WrScene *scene, WrAxis axis, WrRung *out, int room)
 }
 
 /* The axes other than `axis` get their most accurate rung, so that the remaining error is that axis' share. */
-WrScene *wr_ladder_best_but(const WrScene *scene, WrAxis axis)
+WrScene *wr_ladder_best_except_axis(const WrScene *scene, WrAxis axis)
 {
     WrScene *best = wr_scene_clone(scene);
     if (axis != WR_AXIS_DERIVATIVE) best->scheme = WR_SCHEME_BSPLINE_FIT;
@@ -428,7 +428,7 @@ static bool share_of(const WrBench *bench, const WrReference *reference, WrAxis 
 {
     WrFrame frame;
     WrErrors errors;
-    WrScene *best = wr_ladder_best_but(bench->request->scene, axis);
+    WrScene *best = wr_ladder_best_except_axis(bench->request->scene, axis);
     WrScene *scene = wr_setting_apply(setting, best);
     const bool good = wr_bench_frame(bench, scene, NULL, &frame, err);
     if (good) {

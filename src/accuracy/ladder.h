@@ -100,4 +100,4 @@ bool wr_ladder_fault_print(const WrRung *rung, WrText *text);
    set; returns the total number. */
 int wr_ladder_settings(const WrScene *scene, WrAxis axis, WrRung *out, int room);
 /* The scene with the dials of all axes except one at their best; the caller frees it. */
-WrScene *wr_ladder_best_but(const WrScene *scene, WrAxis axis);
+WrScene *wr_ladder_best_except_axis(const WrScene *scene, WrAxis axis);

@@ -394,7 +394,7 @@ void wr_plot_draw(const WrPlot *plot, const WrPlotCanvas *canvas, const char *re
         canvas->ring(canvas->ctx, plot->spots[ringed], 7.5 * canvas->unit, 2 * canvas->unit);
 }
 
-/* ---- the page ---- */
+/* ---- pages ---- */
 
 /* The plot of error against time as a file: with spreads, numbers, a key, and the front as a list, each setting in full.
    Its lines are wrapped and the page is made higher, so that every name is included.

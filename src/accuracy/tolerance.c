@@ -15,7 +15,7 @@
 /* ---- settings ---- */
 
 #define CONTRAST 0.25 /* of adaptive samples: part of the tolerance */
-#define CONTRAST_MOST 0.01
+#define CONTRAST_MAX 0.01
 
 WrScene *wr_dial_set_apply(const WrDialSet *set, const WrScene *from, bool fine)
 {
@@ -31,7 +31,7 @@ WrScene *wr_dial_set_apply(const WrDialSet *set, const WrScene *from, bool fine)
     dials->spread = fine ? WR_SPREAD_JITTERED : WR_SPREAD_REGULAR;
     dials->refine = WR_REFINE_CONTRAST;
     if (dials->aa == WR_AA_ADAPTIVE)
-        dials->contrast = fmin(CONTRAST_MOST, CONTRAST * tolerance->value);
+        dials->contrast = fmin(CONTRAST_MAX, CONTRAST * tolerance->value);
     dials->mesh = set->mesh;
     scene->tolerance = (WrTolerance){ WR_TOLERANCE_NONE, 0 };
     return scene;
@@ -39,7 +39,7 @@ WrScene *wr_dial_set_apply(const WrDialSet *set, const WrScene *from, bool fine)
 
 /* ---- table of prices and errors ---- */
 
-static const int samples_tried[] = { 1, 2, 3, 4, 6, 8, 12, WR_SAMPLES_MOST };
+static const int samples_tried[] = { 1, 2, 3, 4, 6, 8, 12, WR_SAMPLES_MAX };
 #define TRIED ((int)(sizeof samples_tried / sizeof *samples_tried))
 
 typedef struct Row {
@@ -58,9 +58,9 @@ typedef struct Table {
     bool max; /* these are largest errors, else root mean squares */
 } Table;
 
-/* Expected errors of calm pictures: rms, and the largest. Outlines have the order 3/2. */
-#define CALM_RMS 0.002
-#define CALM_MAX 0.02
+/* Expected errors of pictures with little detail: rms, and the largest. Outlines have the order 3/2. */
+#define EVEN_RMS 0.002
+#define EVEN_MAX 0.02
 #define OWN_PART                                                                                   \
     0.5 /* error of the scene's own slopes and normal, relative to that of one sample */
 #define ORDER 1.5
@@ -102,7 +102,7 @@ static Table table_of_scene(const WrScene *scene)
     double own_price = wr_price_sample(scene, own.scheme, own.mode);
     if (own_price >= price) own = best, own.mesh = scene->dials.mesh, own_price = price;
     const bool finer = own.mesh != best.mesh;
-    Table table = { .one = max ? CALM_MAX : CALM_RMS, .order = ORDER, .max = max };
+    Table table = { .one = max ? EVEN_MAX : EVEN_RMS, .order = ORDER, .max = max };
     table.own_error = OWN_PART * table.one;
     if (finer || own.scheme != best.scheme || own.mode != best.mode)
         add_rows(&table, own, false, own_price);
@@ -139,10 +139,11 @@ static const Row *find_within(const Table *table, double price)
 /* ---- picture, check and correction ---- */
 
 #define AIM 0.8 /* part of the tolerance that a correction aims at */
-/* credible orders of the error in the samples a side */
-#define ORDER_LEAST 0.8
-#define ORDER_MOST 1.7
-#define ORDER_HIDDEN 0.1 /* by the error of the finer blocks themselves */
+/* Range of the measured order of the error in the samples a side, */
+#define ORDER_MIN 0.8
+#define ORDER_MAX 1.7
+#define ORDER_HIDDEN                                                                               \
+    0.1 /* and its correction: the finer blocks have an error of their own, which lowers it */
 
 typedef struct Run {
     WrStudy study;
@@ -152,7 +153,7 @@ typedef struct Run {
     WrCheckError first_error, error;
 } Run;
 
-static double pick(const Run *run, WrCheckError error)
+static double error_of_kind(const Run *run, WrCheckError error)
 {
     return run->table.max ? error.max : error.rms;
 }
@@ -183,12 +184,12 @@ static bool check_picture(Run *run, int samples, WrError *err)
 
 static double difference(const Run *run, const float *a, const float *b)
 {
-    return pick(run, wr_check_error(&run->check, a, b, false));
+    return error_of_kind(run, wr_check_error(&run->check, a, b, false));
 }
 
-/* Replaces the table's expectations by the measured errors: of the slopes and normal, and of the samples, whose order
+/* Replaces the table's expected errors by the measured ones: of the slopes and normal, and of the samples, whose order
    follows from twice as many. */
-static bool learn(Run *run, WrError *err)
+static bool update_table(Run *run, WrError *err)
 {
     WrCheck *check = &run->check;
     Table *table = &run->table;
@@ -205,10 +206,10 @@ static bool learn(Run *run, WrError *err)
         set.samples *= 2;
         if (!wr_check_render(check, &set, check->other, err)) return false;
         const double twice = difference(run, check->other, check->fine);
-        table->order = twice > 0 ? log2(sampling / twice) + ORDER_HIDDEN : ORDER_MOST;
-        table->order = fmax(ORDER_LEAST, fmin(ORDER_MOST, table->order));
+        table->order = twice > 0 ? log2(sampling / twice) + ORDER_HIDDEN : ORDER_MAX;
+        table->order = fmax(ORDER_MIN, fmin(ORDER_MAX, table->order));
     }
-    table->one = pick(run, run->error) / fmax(total, 1e-12) * sampling *
+    table->one = error_of_kind(run, run->error) / fmax(total, 1e-12) * sampling *
                  pow(run->first->set.samples, table->order);
     return true;
 }
@@ -226,8 +227,9 @@ static bool choose(Run *run, double value, bool timed, WrError *err)
     const int samples = run->first->set.samples;
     if (!check_picture(run, (samples > 2 ? 2 : 4) * samples, err)) return false;
     run->first_error = run->error;
-    if (!timed && pick(run, run->error) > value && run->first != table->rows + table->count - 1) {
-        if (!learn(run, err)) return false;
+    if (!timed && error_of_kind(run, run->error) > value &&
+        run->first != table->rows + table->count - 1) {
+        if (!update_table(run, err)) return false;
         const Row *next = find_cheapest(table, AIM * value, run->first->price);
         if (!render_picture(run, next, err) || !check_picture(run, 2 * next->set.samples, err))
             return false;
@@ -281,7 +283,7 @@ static void report(const Run *run, WrChoice *out)
                  WR_FRAME_BLOCK, WR_FRAME_BLOCK, run->check.all ? ", all" : "");
     if (run->last != run->first)
         wr_text_addf(&more, "the first setting had %.2g and was corrected once; ",
-                     pick(run, run->first_error));
+                     error_of_kind(run, run->first_error));
     if (!out->met && run->last == run->table.rows + run->table.count - 1)
         wr_text_add(&more, "no setting is finer; ");
     wr_text_addf(&more, "choosing and the picture took %.1f ms; one more such frame costs %.1f",

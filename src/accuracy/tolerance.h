@@ -1,10 +1,10 @@
 /* tolerance.h - choice of one setting for a whole picture under an error tolerance, with the resulting picture.
 
    1. A table has the price and the expected error of each setting: slopes, normal, mesh and samples. Prices are
-      counted work (tolerance_price.c). The first expectations are low: a cheap setting that fails costs little.
+      counted work (tolerance_cost.c). The first expectations are low: a cheap setting that fails costs little.
    2. The cheapest setting whose expected error is below the tolerance renders the picture.
    3. Check: up to 64 blocks of WR_FRAME_BLOCK pixels (128 for max=) are rendered with the best slopes and normal, a
-      finer mesh and more samples. They are drawn at random with a constant seed, lively ones more often.
+      finer mesh and more samples. They are drawn at random with a constant seed, those with more variation more often.
    4. If the picture missed, measured errors replace the expected ones, and the cheapest setting that meets the
       tolerance by them renders it again. The same blocks are checked. There is no second correction.
    5. The reason states the measured error, and whether the tolerance was met or MISSED.

@@ -107,7 +107,7 @@ bool wr_check_render(WrCheck *check, const WrDialSet *set, float *out, WrError *
 /* ---- drawing ---- */
 
 #define SEED 0x9e3779b9u
-#define CALM 0.5 /* part of the mean liveliness that calm blocks have at least */
+#define EVEN 0.5 /* part of the mean variation that even blocks have at least */
 
 static float difference(const float *a, const float *b)
 {
@@ -116,13 +116,13 @@ static float difference(const float *a, const float *b)
     return isfinite(sum) ? sum : 0;
 }
 
-/* Liveliness of each block: squared differences of neighbouring pixels in it and across its border; -1: neither it
+/* Variation of each block: squared differences of neighbouring pixels in it and across its border; -1: neither it
    nor a pixel next to it has the object. */
-static void find_lively(const WrStudy *study, double *lively)
+static void measure_variation(const WrStudy *study, double *variation)
 {
     const int wide = study->request->width, high = study->request->height;
     const int across = blocks_across(study);
-    for (int64_t b = 0; b < blocks_of(study); b++) lively[b] = -1;
+    for (int64_t b = 0; b < blocks_of(study); b++) variation[b] = -1;
     for (int y = 0; y < high; y++)
         for (int x = 0; x < wide; x++) {
             const float *p = pixel_of(study, x, y);
@@ -134,31 +134,31 @@ static void find_lively(const WrStudy *study, double *lively)
             if (p[3] <= 0 && p_right[3] <= 0 && p_down[3] <= 0) continue;
             const double step_right = (double)difference(p, p_right);
             const double step_down = (double)difference(p, p_down);
-            lively[here] = fmax(lively[here], 0) + step_right + step_down;
-            if (right != here) lively[right] = fmax(lively[right], 0) + step_right;
-            if (down != here) lively[down] = fmax(lively[down], 0) + step_down;
+            variation[here] = fmax(variation[here], 0) + step_right + step_down;
+            if (right != here) variation[right] = fmax(variation[right], 0) + step_right;
+            if (down != here) variation[down] = fmax(variation[down], 0) + step_down;
         }
 }
 
-/* Draws `wanted` blocks at equal steps of the sum of liveliness, from a random start. A block that is drawn with
+/* Draws `wanted` blocks at equal steps of the sum of variation, from a random start. A block that is drawn with
    probability p stands for 1 / p blocks. */
-static void draw(WrCheck *check, const double *lively, int64_t blocks, int wanted)
+static void draw(WrCheck *check, const double *variation, int64_t blocks, int wanted)
 {
     double sum = 0, passed = 0;
     int64_t shown = 0;
     int drawn = 0;
     for (int64_t b = 0; b < blocks; b++) {
-        if (lively[b] < 0) continue;
+        if (variation[b] < 0) continue;
         shown++;
-        sum += lively[b];
+        sum += variation[b];
     }
-    const double least = shown > 0 ? CALM * sum / (double)shown + 1e-12 : 0;
+    const double least = shown > 0 ? EVEN * sum / (double)shown + 1e-12 : 0;
     const double start = ((double)wr_mix32(SEED) + 0.5) / 4294967296.0;
     check->all = shown <= wanted;
     sum += least * (double)shown;
     for (int64_t b = 0; b < blocks; b++) {
-        if (lively[b] < 0) continue;
-        const double own = lively[b] + least, before = drawn;
+        if (variation[b] < 0) continue;
+        const double own = variation[b] + least, before = drawn;
         passed += own;
         while (passed * wanted >= (drawn + start) * sum && drawn < wanted) drawn++;
         if (!check->all && drawn == before) continue;
@@ -170,28 +170,28 @@ static void draw(WrCheck *check, const double *lively, int64_t blocks, int wante
 
 /* One block of this many is checked, within limits; for the largest error, as many as allowed. */
 #define SHARE 40
-#define LEAST 16
-#define MOST 64
-#define MOST_MAX 128
+#define BLOCKS_MIN 16
+#define BLOCKS_MAX 64
+#define BLOCKS_FOR_MAX 128
 
 bool wr_check_begin(WrCheck *check, WrStudy *study, WrError *err)
 {
     const int64_t blocks = blocks_of(study);
-    double *lively = wr_alloc((size_t)blocks, sizeof *lively);
+    double *variation = wr_alloc((size_t)blocks, sizeof *variation);
     int64_t shown = 0;
-    find_lively(study, lively);
-    for (int64_t b = 0; b < blocks; b++) shown += lively[b] >= 0;
+    measure_variation(study, variation);
+    for (int64_t b = 0; b < blocks; b++) shown += variation[b] >= 0;
     const int64_t share = shown / SHARE;
-    const int wanted = study->request->scene->tolerance.kind == WR_TOLERANCE_MAX ? MOST_MAX
-                       : share < LEAST                                           ? LEAST
-                       : share > MOST                                            ? MOST
+    const int wanted = study->request->scene->tolerance.kind == WR_TOLERANCE_MAX ? BLOCKS_FOR_MAX
+                       : share < BLOCKS_MIN                                      ? BLOCKS_MIN
+                       : share > BLOCKS_MAX                                      ? BLOCKS_MAX
                                                                                  : (int)share;
     check->study = study;
     check->block = wr_alloc((size_t)wanted, sizeof *check->block);
     check->weight = wr_alloc((size_t)wanted, sizeof *check->weight);
     check->only = wr_alloc((size_t)blocks, 1);
-    draw(check, lively, blocks, wanted);
-    wr_free(lively);
+    draw(check, variation, blocks, wanted);
+    wr_free(variation);
     const size_t floats = (size_t)(check->count + 1) * BLOCK_FLOATS;
     check->picture = wr_try_alloc(3 * floats, sizeof(float), "blocks", err);
     if (!check->picture) return false;

@@ -14,20 +14,20 @@ typedef struct WrDialSet {
     WrScheme scheme;
     WrBumpMode mode;
     int mesh;    /* WrDials.mesh */
-    int samples; /* a side: 1..WR_SAMPLES_MOST */
+    int samples; /* a side: 1..WR_SAMPLES_MAX */
 } WrDialSet;
 
-#define WR_SAMPLES_MOST 16
+#define WR_SAMPLES_MAX 16
 
 /* The scene with that setting; the caller frees it. Several samples are adaptive, with a part of the tolerance as
    their contrast, except for a limit of time. fine: for a check, all of them, at random places: outlines and
-   creases parallel to the pixels' rows do not deceive it. */
+   creases parallel to the pixels' rows do not bias it. */
 WrScene *wr_dial_set_apply(const WrDialSet *set, const WrScene *scene, bool fine);
 
 /* Sets the choice's reason: "tolerance rms=0.004: met; measured rms 0.003, max 0.1; " and `more`. */
 void wr_choice_report(WrChoice *choice, const WrTolerance *tolerance, const char *more);
 
-/* ---- tolerance_price.c ---- */
+/* ---- tolerance_cost.c ---- */
 
 /* Price of one sample: nanoseconds on the machine that the table was measured on; proportional elsewhere. */
 double wr_price_sample(const WrScene *scene, WrScheme scheme, WrBumpMode mode);

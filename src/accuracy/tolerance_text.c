@@ -48,7 +48,7 @@ void wr_choice_write(const WrChoice *choice, const WrChoiceOrigin *origin, WrTex
 
 /* ---- parsing ---- */
 
-static bool find_ways(const char *scheme, const char *mode, WrDialSet *out)
+static bool find_slopes_and_normal(const char *scheme, const char *mode, WrDialSet *out)
 {
     const int found = wr_scheme_find(scheme);
     int bump = 0;
@@ -91,8 +91,8 @@ static const char *parse(const char *text, Written *out)
     if (!out->met && strcmp(met, "no") != 0) return "met";
     if (!parse_number(rms, 0, &out->rms)) return "rms";
     if (!parse_number(max, 0, &out->max)) return "max";
-    const bool good = find_ways(scheme, mode, settings) && settings->samples >= 1 &&
-                      settings->samples <= WR_SAMPLES_MOST && settings->mesh >= dial->low &&
+    const bool good = find_slopes_and_normal(scheme, mode, settings) && settings->samples >= 1 &&
+                      settings->samples <= WR_SAMPLES_MAX && settings->mesh >= dial->low &&
                       settings->mesh <= dial->high && text[2 + end] == '\0';
     return good ? NULL : "dials";
 }

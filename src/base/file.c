@@ -429,7 +429,7 @@ static bool file_sums_check(WrFileSums *sums, int fd)
 
 #define TRIES 16 /* attempts to find a free name */
 
-/* ---- names ---- */
+/* ---- temporary names ---- */
 
 /* Links are followed by hand, so that a link to a file that does not exist yet works too. */
 static char *resolve_links(const char *path, WrError *err)
@@ -888,7 +888,7 @@ static void drop_list(WrFileGroup *group)
     if (group->list) take_away(group->list);
 }
 
-/* ---- names ---- */
+/* ---- names of a group ---- */
 
 /* Creates a second name for the existing target before any rename. Creating a name needs space in the folder;
    a rename over an existing name hardly does. On file systems without hard links, place() renames the

@@ -418,15 +418,15 @@ bool wr_suggest(const char *word, WrWordList list, const void *ctx, WrText *text
     return count > 0;
 }
 
-bool wr_fail_word(WrError *err, const char *what, const char *word, WrWordList list,
+bool wr_fail_word(WrError *err, const char *argument, const char *word, WrWordList list,
                   const void *ctx)
 {
     WrText names = { 0 }, near = { 0 };
     for (int i = 0; list(ctx, i); i++) wr_text_addf(&names, "%s%s", i ? ", " : "", list(ctx, i));
     if (wr_suggest(word, list, ctx, &near))
-        wr_fail(err, "%s: did you mean %s? It must be one of %s", what, wr_text_get(&near),
+        wr_fail(err, "%s: did you mean %s? It must be one of %s", argument, wr_text_get(&near),
                 wr_text_get(&names));
-    else wr_fail(err, "%s: must be one of %s", what, wr_text_get(&names));
+    else wr_fail(err, "%s: must be one of %s", argument, wr_text_get(&names));
     wr_text_fini(&near);
     wr_text_fini(&names);
     return false;

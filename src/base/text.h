@@ -70,8 +70,8 @@ int wr_nearest(const char *word, WrWordList list, const void *ctx, int places[WR
 /* Appends the nearest words: "normal+y or normal-y". Appends nothing and returns false if none is near. */
 bool wr_suggest(const char *word, WrWordList list, const void *ctx, WrText *text);
 
-/* Rejects a word that is not in the list: "WHAT: did you mean A? It must be one of A, B, C", or without
- * a suggestion "WHAT: must be one of A, B, C". `what` is the argument and its value, as "--as hieght".
+/* Rejects a word that is not in the list: "ARGUMENT: did you mean A? It must be one of A, B, C", or
+ * without a suggestion "ARGUMENT: must be one of A, B, C". argument: with its value, as "--as hieght".
  * Returns false. */
-bool wr_fail_word(WrError *err, const char *what, const char *word, WrWordList list,
+bool wr_fail_word(WrError *err, const char *argument, const char *word, WrWordList list,
                   const void *ctx);

@@ -33,7 +33,7 @@ static void dab_by_stroke(const WrBrushGround *ground, const WrBrush *brush, dou
 {
     WrStroke *stroke = wr_stroke_new_on(ground, brush);
     wr_stroke_add(stroke, (WrSample){ .u = u, .v = v, .pressure = 1.0 });
-    wr_stroke_free(stroke);
+    wr_stroke_finish(stroke);
 }
 
 void wr_brush_dab_on(const WrBrushGround *ground, const WrBrush *brush, double u, double v)

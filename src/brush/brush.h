@@ -176,7 +176,7 @@ void wr_stroke_push(WrStroke *stroke, WrSample sample);
 bool wr_stroke_work(WrStroke *stroke, double seconds);
 /* Draws the rest, and a deferred sample, so that the stroke ends at the pen's position; the heights
    remain. NULL is allowed. */
-void wr_stroke_free(WrStroke *stroke);
+void wr_stroke_finish(WrStroke *stroke);
 /* Frees the stroke without drawing the rest: for a stroke that is cancelled. */
 void wr_stroke_abandon(WrStroke *stroke);
 

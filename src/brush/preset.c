@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- settings ---- */
+/* ---- table of settings ---- */
 
 static const WrSettingInfo setting_rows[MYPAINT_BRUSH_SETTINGS_COUNT] = {
     /* name, label, meaning, low, high, fallback, use */
@@ -266,7 +266,7 @@ int wr_preset_setting_find(const char *name)
     return -1;
 }
 
-/* ---- inputs ---- */
+/* ---- table of inputs ---- */
 
 /* The inputs of libmypaint 1.6, in its own order: properties of pen and motion that can control a
    setting. low and high are the plot range of a curve; most inputs exceed it occasionally. */
@@ -415,7 +415,7 @@ static bool read_text(json_object *value, Place at, char **text, WrError *err)
     return true;
 }
 
-/* ---- settings ---- */
+/* ---- settings of a file ---- */
 
 /* Limits a value to its range without an error: presets of other programs, and of other versions of
    MyPaint, exceed it occasionally. */

@@ -436,7 +436,7 @@ static void finish(WrStroke *stroke)
     wr_stroke_work(stroke, HUGE_VAL);
 }
 
-void wr_stroke_free(WrStroke *stroke)
+void wr_stroke_finish(WrStroke *stroke)
 {
     if (!stroke) return;
     finish(stroke);

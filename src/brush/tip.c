@@ -352,7 +352,7 @@ static bool tip_parse_gbr(WrTip *tip, int cell, const uint8_t *bytes, size_t siz
     if (!wr_tip_cell_alloc(tip, cell, (int)h.width, (int)h.height, what, err)) return false;
     size_t count = (size_t)h.width * h.height;
     read_pixels(bytes + h.length, count, h.bytes, tip->cell[cell].values);
-    if (!wr_tip_cell_finish(tip, cell, 255, err)) return false;
+    if (!wr_tip_cell_build_levels(tip, cell, 255, err)) return false;
     *used = h.length + count * h.bytes;
     if (name) *name = tip_clean_name(bytes + h.fixed, h.length - h.fixed);
     if (spacing) *spacing = h.spacing;
@@ -589,7 +589,7 @@ static float unit(float x)
     return x > 0.0f ? x < 1.0f ? x : 1.0f : 0.0f; /* NaN becomes 0 */
 }
 
-bool wr_tip_cell_finish(WrTip *tip, int cell, int codes, WrError *err)
+bool wr_tip_cell_build_levels(WrTip *tip, int cell, int codes, WrError *err)
 {
     WrTipCell *c = &tip->cell[cell];
     size_t count = (size_t)c->width[0] * (size_t)c->height[0];
@@ -616,7 +616,7 @@ WrTip *wr_tip_new(int width, int height, const float *values, int codes, WrError
     float *out = tip->cell[0].values;
     size_t count = (size_t)width * (size_t)height;
     for (size_t i = 0; i < count; i++) out[i] = unit(values[i]) * (float)(codes > 0 ? codes : 1);
-    if (!wr_tip_cell_finish(tip, 0, codes, err)) goto fail;
+    if (!wr_tip_cell_build_levels(tip, 0, codes, err)) goto fail;
     return tip;
 fail:
     wr_tip_free(tip);

@@ -45,4 +45,4 @@ WrTip *wr_tip_blank(int cells);
 bool wr_tip_cell_alloc(WrTip *tip, int cell, int width, int height, const char *what, WrError *err);
 /* Level 0 contains values in units of 1/codes (codes 0: of 1). Smooths them if there are codes, scales
  * them to 0..1 and computes the other levels. */
-bool wr_tip_cell_finish(WrTip *tip, int cell, int codes, WrError *err);
+bool wr_tip_cell_build_levels(WrTip *tip, int cell, int codes, WrError *err);

@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* The coverage is luma times alpha, in 0..1. From 8-bit files it is stored in codes 0..255, and
-   wr_tip_cell_finish smooths the steps of the codes; from other files in 0..1, with `codes` 0 and no smoothing. */
+   wr_tip_cell_build_levels smooths the steps of the codes; from other files in 0..1, with `codes` 0 and no smoothing. */
 static WrTip *from_image(const WrImage *image, const char *path, WrError *err)
 {
     int codes = image->type == WR_PIXEL_U8 ? 255 : 0;
@@ -24,7 +24,7 @@ static WrTip *from_image(const WrImage *image, const char *path, WrError *err)
         value = value > 0.0f ? value < 1.0f ? value : 1.0f : 0.0f;
         tip->cell[0].values[i] = value * steps;
     }
-    if (!wr_tip_cell_finish(tip, 0, codes, err)) goto fail;
+    if (!wr_tip_cell_build_levels(tip, 0, codes, err)) goto fail;
     return tip;
 fail:
     wr_tip_free(tip);

@@ -115,7 +115,7 @@ static WrField *paint(WrSampler *sampler, const WrPreset *preset)
     WrBrushGround ground = { .field = field, .pool = sampler->pool };
     WrStroke *stroke = wr_stroke_new_on(&ground, &brush);
     for (int k = 0; k < WR_SAMPLE_POINTS; k++) wr_stroke_add(stroke, sample_at(k));
-    wr_stroke_free(stroke);
+    wr_stroke_finish(stroke);
     return field;
 }
 

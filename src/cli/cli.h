@@ -154,12 +154,11 @@ void wr_cli_note(const char *text);
 /* Write a result to standard output at once. Returns 0, or 1 with a message on failure. */
 int wr_cli_print(const WrCli *cli, const WrText *text);
 
-/* Progress line on standard error, if that is a terminal: start reporting `progress`; clear the line until the next
-   report; stop reporting. */
-void wr_cli_progress_begin(WrProgress *progress);
-void wr_cli_report_resume(void); /* restart for another piece of work */
-void wr_cli_report_end(void);
-void wr_cli_report_stop(void);
+/* Progress line on standard error, if that is a terminal. */
+void wr_cli_progress_begin(WrProgress *progress); /* starts reporting it */
+void wr_cli_progress_resume(void);                /* begins another piece of work */
+void wr_cli_progress_clear(void);                 /* clears the line until the next report */
+void wr_cli_progress_stop(void);                  /* clears the line and stops reporting */
 
 int wr_cli_paint(const WrCli *cli);
 int wr_cli_run(const WrCli *cli);

@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "export/check.h"
-#include "field/seam.h"
+#include "field/seam_check.h"
 
 #include <math.h>
 #include <string.h>

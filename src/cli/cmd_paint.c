@@ -52,7 +52,7 @@ int wr_cli_paint(const WrCli *cli)
                              .isa = cli->isa,
                              .notes = &notes };
         wr_process_drop_interrupts(); /* SDL turns an interrupt into a request to close */
-        wr_cli_report_stop();         /* the window reports from here on */
+        wr_cli_progress_stop();       /* the window reports from here on */
         status = wr_app_run(&app);
     } else {
         status = wr_cli_fail(cli, WR_EXIT_FAILED, &err);

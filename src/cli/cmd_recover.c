@@ -122,7 +122,7 @@ static bool recover_one(const WrCli *cli, const char *journal, const char *path,
     good = good && wr_session_save(session, path, err) &&
            wr_recovered_saved(&recovered, session, path, err);
     wr_progress_set(whole);
-    wr_cli_report_end();
+    wr_cli_progress_clear();
     if (!good && wr_progress_stopped())
         wr_text_addf(&recovered.report, "%s was kept whole: recover it another time\n", journal);
     if (good && !recovered.whole) good = report_rest(cli->words[0], &recovered, err);

@@ -71,7 +71,7 @@ int wr_cli_render(const WrCli *cli)
     }
     WrSession *session = wr_cli_load(cli, false, &err);
     if (!session) return wr_cli_fail(cli, WR_EXIT_FAILED, &err);
-    wr_cli_report_resume();
+    wr_cli_progress_resume();
     bool good = (cli->framed ? render_frames : render_one)(cli, session, &err);
     wr_session_free(session);
     return good ? WR_EXIT_DONE : wr_cli_fail(cli, WR_EXIT_FAILED, &err);

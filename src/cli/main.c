@@ -21,14 +21,14 @@ static void on_interrupt(void)
 int wr_cli_fail(const WrCli *cli, int status, const WrError *err)
 {
     bool stopped = wr_cancel_requested(cli->cancel) && status == WR_EXIT_FAILED;
-    wr_cli_report_end();
+    wr_cli_progress_clear();
     fprintf(stderr, "wrinkle: %s\n", stopped ? "interrupted" : err->text);
     return stopped ? WR_EXIT_INTERRUPTED : status;
 }
 
 void wr_cli_note(const char *text)
 {
-    wr_cli_report_end();
+    wr_cli_progress_clear();
     fprintf(stderr, "wrinkle: note: %s\n", text);
 }
 
@@ -60,7 +60,7 @@ static int run(WrCli *cli)
     wr_progress_set(&progress);
     int status = cli->command->run(cli);
     wr_progress_set(NULL);
-    wr_cli_report_end();
+    wr_cli_progress_clear();
     wr_pool_free(cli->pool);
     return status;
 }

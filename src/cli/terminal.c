@@ -39,20 +39,20 @@ void wr_cli_progress_begin(WrProgress *progress)
     line.progress = progress;
 }
 
-void wr_cli_report_resume(void)
+void wr_cli_progress_resume(void)
 {
-    wr_cli_report_end();
+    wr_cli_progress_clear();
     line.began = line.printed_at = wr_clock_seconds();
 }
 
-void wr_cli_report_end(void)
+void wr_cli_progress_clear(void)
 {
     if (line.shown) fprintf(stderr, "\r%*s\r", 24, "");
     line.shown = false;
 }
 
-void wr_cli_report_stop(void)
+void wr_cli_progress_stop(void)
 {
-    wr_cli_report_end();
+    wr_cli_progress_clear();
     if (line.progress) line.progress->report = NULL;
 }

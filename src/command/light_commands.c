@@ -347,7 +347,7 @@ const WrCommand wr_command_background = {
 
 static void print_tone(const WrScene *scene, WrText *text)
 {
-    if (wr_tone_curve(&scene->tone).plain) return;
+    if (wr_tone_curve_params(&scene->tone).plain) return;
     wr_text_addf(text, "tone %s", wr_tone_names[scene->tone.kind]);
     wr_scene_print_params("tone", NULL, scene, text);
     wr_text_add(text, "\n");

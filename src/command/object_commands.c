@@ -494,7 +494,7 @@ static WrScene *new_ground(const WrScene *scene)
     made->material.specular = 0;
     made->shape.value[ENDLESS] = 1;
     made->material.colour = (WrVec3){ 0.4, 0.4, 0.4 };
-    made->size = WIDE * wr_scene_ball(scene, false);
+    made->size = WIDE * wr_scene_bounding_radius(scene, false);
     return made;
 }
 

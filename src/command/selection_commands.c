@@ -568,7 +568,7 @@ static bool place(Moving *m, const WrField *what, WrRelief *out, WrError *err)
     job.progress = wr_progress_part(&part, m->job.progress, (double)m->done / m->tables,
                                     (m->done + 1.0) / m->tables);
     m->done++;
-    return wr_place(&m->placing, &job, out, err);
+    return wr_transform_piece(&m->placing, &job, out, err);
 }
 
 /* Clear the source area, weighted by the selection. */

@@ -90,7 +90,7 @@ bool wr_session_check_unlocked(const WrSession *session, int index, WrError *err
 static bool is_worn(const WrDocument *document, int index)
 {
     const char *name = document->layers[index].name;
-    return document->solo < 0 && wr_scene_wears(document->scene, name);
+    return document->solo < 0 && wr_scene_uses_layer(document->scene, name);
 }
 
 static bool check_shown(const WrSession *session, int index, WrError *err)
@@ -569,7 +569,7 @@ bool wr_session_run(WrSession *session, const char *line, WrError *err)
 /* ---- moves through the history ---- */
 
 /* Goes through a command line, so that moves are written to the journal like every other command. */
-bool wr_session_go(WrSession *session, int state, WrError *err)
+bool wr_session_history_go(WrSession *session, int state, WrError *err)
 {
     char line[32];
     int steps = state - wr_session_history_position(session);

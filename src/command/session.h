@@ -166,7 +166,7 @@ int wr_session_history_position(const WrSession *session);
 int wr_session_history_oldest(const WrSession *session);
 /* Go to the state after `position` steps, oldest .. count, bit-identical; the view is unchanged (document/history.h).
    The next edit drops the later steps. Fails during a stroke. */
-bool wr_session_go(WrSession *session, int position, WrError *err);
+bool wr_session_history_go(WrSession *session, int position, WrError *err);
 
 /* Numbers of views that can be undone and redone. Views are not edits: they have their own history (commands
    `camera`, `rotate` and `view`) and do not make a document unsaved. */

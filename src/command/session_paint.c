@@ -637,7 +637,7 @@ bool wr_session_draw(const WrPainting *painting, WrSampleAt *sample, const void 
             more = wr_stroke_work(stroke, SLICE);
         } while (more);
     }
-    wr_stroke_free(stroke);
+    wr_stroke_finish(stroke);
     return true;
 }
 
@@ -740,7 +740,7 @@ static WrCall *take_call(WrSession *session)
 bool wr_session_stroke_end(WrSession *session, WrError *err)
 {
     if (!session->stroke) return wr_fail(err, "no stroke is being drawn");
-    wr_stroke_free(session->stroke);
+    wr_stroke_finish(session->stroke);
     wr_painting_end(session, &session->painting);
     wr_document_edit_end(session->state.document, &session->stand_in);
     WrCall *call = take_call(session);

@@ -930,9 +930,9 @@ static int side_of(int size)
 static WrImage *made_by_form(const WrSession *session, const WrScene *object, WrError *err)
 {
     const WrField *like = session->state.document->layers[0].heights;
-    return wr_height_colormap_form(&object->colouring, form_of(object), object->shape.value[2],
-                                   side_of(wr_field_width(like)), side_of(wr_field_height(like)),
-                                   err);
+    return wr_height_colormap_bake_terrain(&object->colouring, form_of(object),
+                                           object->shape.value[2], side_of(wr_field_width(like)),
+                                           side_of(wr_field_height(like)), err);
 }
 
 bool wr_height_colormap_lags(const WrSession *session, const WrScene *object)

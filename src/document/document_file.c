@@ -59,7 +59,7 @@ WrSceneAge wr_scene_age(const WrScene *scene)
         scene->dials.steps != wr_dials_default().steps || scene->camera.frame != 0 ||
         *scene->sheet.as)
         return WR_SCENE_OF_FACETS;
-    if (wr_cell_size_given(&scene->cell) || !wr_tone_curve(&scene->tone).plain)
+    if (wr_cell_size_given(&scene->cell) || !wr_tone_curve_params(&scene->tone).plain)
         return age > WR_SCENE_OF_CELL ? age : WR_SCENE_OF_CELL;
     return age;
 }

@@ -18,8 +18,6 @@
 #include <string.h>
 #include <time.h>
 
-/* ---- files ---- */
-
 /* ---- the journal folder ---- */
 
 bool wr_journal_folder(WrText *path, WrError *err)
@@ -488,8 +486,6 @@ bool wr_journal_parse_line(char *line, size_t length, WrJournalSeal *seal, uint6
     *payload_length = unescape(line + skip, length - skip);
     return true;
 }
-
-/* ---- records ---- */
 
 /* The journal of a session: copies of the files that commands read, and writing of lines. */
 

@@ -14,8 +14,8 @@
      wrinkle-journal 2 CHECKSUM PROGRAM TIME KIND HASH SHA256 SNAPSHOT PATH
    then records:
      CHECKSUM SEQUENCE KIND PAYLOAD
-   CHECKSUM  32 hex digits over the rest of the line, so that damage affects only the lines that it hits SEQUENCE
-   counts from 1, so that a missing or moved line is detected
+   CHECKSUM  32 hex digits over the rest of the line, so that damage affects only the lines that it hits
+   SEQUENCE  counts from 1, so that a missing or moved line is detected
    PAYLOAD   extends to the line end, with \n, \r and \\ for line ends and backslashes; in the header
              also \s for a space and \e for an empty word
    KIND      c command, d it has run ("ok", "ok HASH", "dropped"), b, s, e a stroke's begin,

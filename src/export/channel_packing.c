@@ -159,7 +159,7 @@ bool wr_export_packed_make(WrExportJob *job, WrError *err)
         wr_progress_set(whole);
     }
     if (!good) return false;
-    wr_export_map_range(job, "channels");
+    wr_export_report_range(job, "channels");
     wr_export_codes(job, 0, 1);
     return true;
 }

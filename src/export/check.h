@@ -2,7 +2,7 @@
    are read like all pictures (image/image.h), by the reader process; only the numbers are trusted, not the
    file's claims.
 
-    Edges     by the seam test (field/seam.h), for each colour; the worst one counts. For a sheet of several copies,
+    Edges     by the seam test (field/seam_check.h), for each colour; the worst one counts. For a sheet of several copies,
               as stated by our own label, the cell's edges; for a picture with its border the cell without it. A
               label also states the seam of the original data: a seam stated there is reported, and if it states
               none the numbers must exceed WR_CHECK_SURELY times the largest inner step. Axes of fewer than 8
@@ -19,7 +19,7 @@
               the slopes p and q themselves. */
 #pragma once
 #include "base/enum_rows.h"
-#include "field/seam.h"
+#include "field/seam_check.h"
 #include "image/coding.h"
 
 #include <stdbool.h>

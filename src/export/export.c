@@ -332,7 +332,7 @@ static bool run_job(WrExportJob *job, const char *path, WrError *err)
     job->analytic = job->scene->analytic.kind != WR_ANALYTIC_OFF;
     set_grid(job);
     job->cell = job->field;
-    WrField *sheet = wr_export_sheet(job, &good, err);
+    WrField *sheet = wr_export_build_layout(job, &good, err);
     if (sheet) job->field = sheet, job->analytic = false;
     good =
         good && (!job->picture && (job->sidecar || job->options.mips) ? write_files(job, path, err)

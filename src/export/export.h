@@ -67,7 +67,7 @@
    table is farther from its triangle than the requested error, and the report contains the largest distance. */
 #pragma once
 #include "base/enum_rows.h"
-#include "field/seam.h"
+#include "field/seam_check.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -92,7 +92,7 @@ int64_t wr_export_heights(const WrExportJob *job, int y, int rows, float *out);
 typedef struct WrDerivatives WrDerivatives;
 WrDerivatives wr_export_ground(const WrExportJob *job, const WrField *field);
 /* Stores the smallest and largest number of the map in the report. */
-void wr_export_map_range(WrExportJob *job, const char *quantity);
+void wr_export_report_range(WrExportJob *job, const char *quantity);
 /* Codes of a map's numbers from low to high. */
 void wr_export_codes(WrExportJob *job, double low, double high);
 void wr_export_map_rows(WrExportJob *job, int y, int rows, void *out);
@@ -146,7 +146,7 @@ void wr_export_derived_describe(WrExportJob *job);
 void wr_export_bump_slopes_rows(WrExportJob *job, int y, int rows, void *out);
 void wr_export_bump_slopes_level(void *job, int y, int rows, float *out); /* is a WrLevelRows */
 void wr_export_bump_slopes_describe(WrExportJob *job);
-bool wr_export_drawing_write(WrExportJob *job, const char *path, WrError *err);
+bool wr_export_line_drawing_write(WrExportJob *job, const char *path, WrError *err);
 bool wr_export_profile_write(WrExportJob *job, const char *path, WrError *err);
 bool wr_export_solid_write(WrExportJob *job, const char *path, WrError *err);
 bool wr_export_glb_write(WrExportJob *job, const char *path, WrError *err);

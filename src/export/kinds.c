@@ -466,7 +466,7 @@ const WrExportKind wr_export_kinds[] = {
                      wr_export_set_hidden },
                    OBJECT },
       .channels = 1,
-      .write = wr_export_drawing_write },
+      .write = wr_export_line_drawing_write },
     { .name = "profile",
       .label = "profile",
       .help = "heights along a line of the cell as a chart: svg, pdf, or a picture",

@@ -338,7 +338,7 @@ static bool draw(WrExportJob *job, WrDrawing *drawing, WrError *err)
     return good;
 }
 
-bool wr_export_drawing_write(WrExportJob *job, const char *path, WrError *err)
+bool wr_export_line_drawing_write(WrExportJob *job, const char *path, WrError *err)
 {
     const WrExportOptions *o = &job->options;
     WrDrawing drawing;

@@ -25,7 +25,7 @@ static bool take_heights(WrExportJob *job, WrError *err)
     job->map = wr_try_alloc(texels, sizeof(float), "map", err);
     if (!job->map) return false;
     job->report.replaced += wr_export_heights(job, 0, job->height, job->map);
-    wr_export_map_range(job, "heights");
+    wr_export_report_range(job, "heights");
     return true;
 }
 
@@ -56,7 +56,7 @@ bool wr_export_displacement_make(WrExportJob *job, WrError *err)
     if (o->ground == WR_EXPORT_GROUND_LOWEST) o->ground_at = job->report.low;
     if (isnan(o->scale)) o->scale = job->scene->height;
     change(job, lifted);
-    wr_export_map_range(job, "displacements");
+    wr_export_report_range(job, "displacements");
     if (o->range == WR_EXPORT_RANGE_GIVEN) wr_export_codes(job, o->low, o->high);
     else if (o->range == WR_EXPORT_RANGE_SIGNED)
         export_signed_codes(job, fmax(fabs(job->report.low), fabs(job->report.high)));
@@ -90,7 +90,7 @@ bool wr_export_mask_make(WrExportJob *job, WrError *err)
     if (o->mask_high < o->mask_low)
         return wr_fail(err, "mask: high %g must not be below low %g", o->mask_high, o->mask_low);
     change(job, masked);
-    wr_export_map_range(job, "mask");
+    wr_export_report_range(job, "mask");
     wr_export_codes(job, 0, 1);
     return true;
 }
@@ -169,7 +169,7 @@ bool wr_export_wear_make(WrExportJob *job, WrError *err)
                   most > 0 ? most : 1 };
     if (!wr_noise_check(&wear.noise, err)) return false;
     wr_export_run(job, 0, job->height, wear_piece, &wear);
-    wr_export_map_range(job, "wear");
+    wr_export_report_range(job, "wear");
     wr_export_codes(job, 0, 1);
     return true;
 }
@@ -225,7 +225,7 @@ static void find_extent(WrExportJob *job, int y, int rows, void *ctx)
     wr_export_extent_add(extent, (double)low, (double)high);
 }
 
-void wr_export_map_range(WrExportJob *job, const char *quantity)
+void wr_export_report_range(WrExportJob *job, const char *quantity)
 {
     WrExtent extent;
     wr_export_extent_init(&extent);
@@ -394,7 +394,7 @@ static bool fill(WrExportJob *job, WrFieldMapKind kind, const WrMapJob *settings
     const bool good = wr_map_make(kind, &made, &part, job->pool, job->map, &replaced, err);
     wr_field_free(own);
     job->report.replaced += replaced;
-    if (good) wr_export_map_range(job, quantity);
+    if (good) wr_export_report_range(job, quantity);
     return good;
 }
 
@@ -465,7 +465,7 @@ bool wr_export_curvature_make(WrExportJob *job, WrError *err)
         return true;
     }
     keep_part(job, (WrExportPart)job->options.part);
-    wr_export_map_range(job, job->options.part == WR_EXPORT_CONVEX ? "convexity" : "concavity");
+    wr_export_report_range(job, job->options.part == WR_EXPORT_CONVEX ? "convexity" : "concavity");
     wr_export_codes(job, 0, full > 0 ? full : job->report.high);
     return true;
 }
@@ -534,7 +534,7 @@ bool wr_export_horizon_make(WrExportJob *job, WrError *err)
     const bool good = (own || !job->analytic) && hold_map(job, err) && fill_horizons(job, &o, err);
     wr_field_free(own);
     if (!good) return false;
-    wr_export_map_range(job, "slopes");
+    wr_export_report_range(job, "slopes");
     wr_export_codes(job, 0, job->options.full > 0 ? job->options.full : job->report.high);
     return true;
 }

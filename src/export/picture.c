@@ -127,7 +127,7 @@ WrHistogram wr_export_histogram(const WrDocument *document, double from, double 
     return out;
 }
 
-double wr_export_bytes(const WrExportKind *kind, int width, int height, int depth)
+double wr_export_estimate_bytes(const WrExportKind *kind, int width, int height, int depth)
 {
     return (double)width * height * (kind->channels > 0 ? kind->channels : 1) * (depth / 8.0);
 }

@@ -28,4 +28,4 @@ typedef struct WrHistogram {
 WrHistogram wr_export_histogram(const WrDocument *document, double from, double to);
 
 /* Approximate upper bound of the file's size in bytes: its numbers, uncompressed. */
-double wr_export_bytes(const WrExportKind *kind, int width, int height, int depth);
+double wr_export_estimate_bytes(const WrExportKind *kind, int width, int height, int depth);

@@ -93,8 +93,6 @@ typedef struct WrSolid {
 
 /* solid.c */
 
-/* ---- the body ---- */
-
 /* A closed body in five steps: squares of two triangles cover each face of the surface's (u,v) domain (wr_solid_lay); sides
    at the same position are joined across seams, faces and poles; triangles are bisected until every sample of the relief is
    within the error (wr_solid_refine); the border becomes a back with walls, or caps (wr_solid_close); the mesh is turned
@@ -302,7 +300,7 @@ static void join_sides(Base *base)
     }
 }
 
-/* ---- points ---- */
+/* ---- points of the body ---- */
 
 static int32_t solid_add_point(WrSolid *solid, const WrSolidLocation *locations, int count);
 
@@ -1069,8 +1067,6 @@ static bool solid_close(WrSolid *solid, WrError *err)
     return good;
 }
 
-/* ---- options ---- */
-
 /* ---- file ---- */
 
 #define WORDS "Wrinkle, lengths in millimetres"
@@ -1271,7 +1267,7 @@ static bool solid_write(const WrSolid *solid, const char *ending, const char *pa
     0.0625 /* of |mean normal|^2, at least: a point is displaced by at most 16 times its height */
 #define SHEET 2.0 /* mm: default thickness of an open surface */
 
-/* ---- points ---- */
+/* ---- displaced points ---- */
 
 /* Approximate d with n . d = f for all of several normals: mean f along the mean normal m, over |m|^2. */
 static WrVec3 moved(WrVec3 normals, double f, int count)

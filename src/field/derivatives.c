@@ -84,7 +84,7 @@ static int held(int at, int n, WrWrap wrap)
     return at < 0 ? 0 : at < n ? at : n - 1;
 }
 
-void wr_derivatives_read_held(const WrField *field, int i, int j, int count, float *out)
+void wr_derivatives_read_clamped(const WrField *field, int i, int j, int count, float *out)
 {
     const int w = wr_field_width(field),
               row = held(j, wr_field_height(field), wr_field_wrap_v(field));

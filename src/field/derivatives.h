@@ -46,7 +46,7 @@ void wr_derivatives_row(const WrDerivativesBand *band, int j, const WrDerivative
 
 /* Reads `count` texels of row j from column i on, also outside the table: a clamped axis repeats its
  * edge texel. */
-void wr_derivatives_read_held(const WrField *field, int i, int j, int count, float *out);
+void wr_derivatives_read_clamped(const WrField *field, int i, int j, int count, float *out);
 
 /* Minus the mean curvature, so that convex places (ridges) are positive:
  *    ((1 + q^2) r - 2 p q s + (1 + p^2) t) / (-2 (1 + p^2 + q^2)^(3/2)) */

@@ -197,7 +197,7 @@ static WrField *cut_out(const WrField *field, const WrMapPart *part, int more, W
     WrField *cut = wr_field_new(w, h, WR_WRAP_CLAMP, WR_WRAP_CLAMP, wr_field_level(field), err);
     float *row = cut ? wr_alloc_unset((size_t)w, sizeof *row) : NULL;
     for (int j = 0; cut && j < h; j++) {
-        wr_derivatives_read_held(field, part->x - more, part->y - more + j, w, row);
+        wr_derivatives_read_clamped(field, part->x - more, part->y - more + j, w, row);
         wr_field_write(cut, 0, j, w, 1, row, (size_t)w);
     }
     wr_free(row);

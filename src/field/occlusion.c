@@ -490,8 +490,8 @@ static Ground open_ground(const Near *near, int y, int rows)
     g.heights = wr_alloc_unset((size_t)wide * (size_t)(rows + 2 * reach), sizeof(float));
     for (int j = 0; j < rows + 2 * reach; j++) {
         float *row = g.heights + (size_t)j * g.pitch;
-        wr_derivatives_read_held(o->field, near->part->x - reach, near->part->y + y + j - reach,
-                                 wide, row);
+        wr_derivatives_read_clamped(o->field, near->part->x - reach, near->part->y + y + j - reach,
+                                    wide, row);
         for (int i = 0; i < wide; i++) row[i] *= (float)o->height;
     }
     return g;

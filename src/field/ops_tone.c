@@ -4,7 +4,7 @@
 #include "base/hash.h"
 #include "field/field.h"
 #include "field/ops_internal.h"
-#include "noise/grid.h"
+#include "noise/texel_grid.h"
 
 #include <math.h>
 

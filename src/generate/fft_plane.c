@@ -142,7 +142,7 @@ static void turn_slope(const void *ctx, const WrFft *fft, double *a, double *b, 
     }
 }
 
-bool wr_plane_turned_slope(const WrPlane *plane, int axis, WrSlopes slopes, WrError *err)
+bool wr_plane_slope_adjoint(const WrPlane *plane, int axis, WrSlopes slopes, WrError *err)
 {
     const Turned turned = { slopes, plane->ends[axis], axis == 0 ? plane->width : plane->height };
     return wr_plane_lines(plane, axis, turn_slope, &turned, err);

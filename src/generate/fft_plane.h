@@ -35,7 +35,7 @@ typedef enum WrSlopes {
 
 /* Replaces z by its transposed slope along an axis (D^T z), for least squares. WR_SLOPES_STEP: z[i] is
  * the step from i to i + 1; on a free line the last one is ignored. */
-bool wr_plane_turned_slope(const WrPlane *plane, int axis, WrSlopes slopes, WrError *err);
+bool wr_plane_slope_adjoint(const WrPlane *plane, int axis, WrSlopes slopes, WrError *err);
 
 /* Solves (Du^T Du + Dv^T Dv) x = z in place, with the given slope definition for each axis.
  * Undetermined components become 0: the mean, and the alternating function of a ring of even length

@@ -6,7 +6,7 @@
 #include "field/field.h"
 #include "generate/tile_builder.h"
 #include "generate/generator.h"
-#include "noise/grid.h"
+#include "noise/texel_grid.h"
 
 #include <math.h>
 #include <string.h>

@@ -472,7 +472,7 @@ static bool own_slopes(Work *w, int axis, const double *heights, WrError *err)
     if (w->slopes[axis] == WR_SLOPES_STEP) return each_row(w, step_row, err);
     /* Transposed slopes differ only in sign. */
     return each_row(w, copy_row, err) &&
-           wr_plane_turned_slope(&w->plane, axis, w->slopes[axis], err) &&
+           wr_plane_slope_adjoint(&w->plane, axis, w->slopes[axis], err) &&
            each_row(w, turn_row_round, err);
 }
 
@@ -510,7 +510,7 @@ static bool solve(Work *w, double *z, WrError *err)
     for (int a = 0; a < 2; a++) {
         w->plane.z = w->have[a];
         w->from = w->want[a];
-        if (!each_row(w, copy_row, err) || !wr_plane_turned_slope(&w->plane, a, w->slopes[a], err))
+        if (!each_row(w, copy_row, err) || !wr_plane_slope_adjoint(&w->plane, a, w->slopes[a], err))
             return false;
     }
     w->plane.z = z;

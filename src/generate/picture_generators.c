@@ -112,7 +112,7 @@ bool wr_picture_paste(const WrParamValue *values, const WrGenerateJob *job, WrRe
                           .scale = { mirror & 1 ? -scale : scale, mirror & 2 ? -scale : scale },
                           .turn_deg = wr_param_number(&p, "angle"),
                           .filter = (WrPlaceFilter)wr_param_whole(&p, "filter") };
-    good = heights && (!alpha || weight) && wr_place(&placing, job, out, err);
+    good = heights && (!alpha || weight) && wr_transform_piece(&placing, job, out, err);
     wr_image_free(image);
     wr_field_free(heights);
     wr_field_free(weight);
@@ -345,7 +345,7 @@ static bool even_out(Steps *steps, WrSheet *sheet, const WrGenerateJob *job, WrE
     for (size_t k = 0; k < count && wr_sheet_goes_on(k); k++) mean += steps->z[k] / (double)count;
     for (int a = 0; a < 2; a++) {
         WrPlane plane = plane_of(sheet, steps->g[a], job);
-        if (!wr_plane_turned_slope(&plane, a, WR_SLOPES_STEP, err)) return false;
+        if (!wr_plane_slope_adjoint(&plane, a, WR_SLOPES_STEP, err)) return false;
     }
     for (size_t k = 0; k < count && wr_sheet_goes_on(k); k++)
         sheet->z[k] = steps->g[0][k] + steps->g[1][k];

@@ -79,6 +79,245 @@ extern const WrParam wr_params_solid_mesh[], wr_params_solid_letters[], wr_param
 
 /* Meshes from files, seen from above. */
 
+/* ---- placement ---- */
+
+/* Positions of solids: lattices with random variation, and drawing. */
+
+#define TRIANGLES_MAX 12000000 /* for all copies */
+
+static void multiply(const double a[9], const double b[9], double out[9])
+{
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 3; column++) {
+            double sum = 0.0;
+            for (int k = 0; k < 3; k++) sum += a[3 * row + k] * b[3 * k + column];
+            out[3 * row + column] = sum;
+        }
+}
+
+/* Reduces to [0, n) if the axis is periodic; by whole periods, so without rounding. */
+static double wrapped(double x, int n, WrWrap wrap)
+{
+    if (wrap == WR_WRAP_CLAMP) return x;
+    x -= n * floor(x / n);
+    return x < n ? x : 0.0;
+}
+
+typedef struct Lattice {
+    const WrParams *params;
+    double x, y; /* of `at` */
+    double step[2];
+    int across, rows;
+    double base[9], other[9]; /* rotation, and that of every other copy */
+    uint32_t seed;
+    WrWrap wrap_u, wrap_v;
+    int width, height;
+} Lattice;
+
+/* -1..1 */
+static double chance(const Lattice *l, int i, int j, int use)
+{
+    return 2.0 * wr_chance(l->seed, i, j, use) - 1.0;
+}
+
+/* The row's rotation is loosened by random angles about all axes, applied after it: R = L B, matrices row by row. */
+static void turn_place(const Lattice *l, int i, int j, double out[9])
+{
+    const double *base = (i + j) % 2 ? l->other : l->base;
+    double turn = wr_param_number(l->params, "turn"), tilt = wr_param_number(l->params, "tilt");
+    double loose[9];
+    const double angles[3] = { tilt * chance(l, i, j, 3), tilt * chance(l, i, j, 4),
+                               turn * chance(l, i, j, 5) };
+    if (turn > 0.0 || tilt > 0.0) {
+        wr_z_turn(angles, loose);
+        multiply(loose, base, out);
+    } else {
+        for (int k = 0; k < 9; k++) out[k] = base[k];
+    }
+}
+
+/* (0, 0) is the first of the lowest row; the lattice's middle is at `at`. wr_z_place rounds to a fixed fraction of a texel,
+   so that a copy that is moved by whole periods of the table has the same bits: the relief tiles exactly. */
+static WrSolidPlace place(const Lattice *l, int i, int j)
+{
+    double jitter = wr_param_number(l->params, "jitter"), dx = i - 0.5 * (l->across - 1);
+    double dy = j - 0.5 * (l->rows - 1);
+    if (j % 2) dx += wr_param_number(l->params, "stagger");
+    WrSolidPlace p = { .scale = 1.0 + wr_param_number(l->params, "vary") * chance(l, i, j, 2) };
+    double x = l->x + wr_z_place(dx * l->step[0] + jitter * chance(l, i, j, 0));
+    double y = l->y - wr_z_place(dy * l->step[1] + jitter * chance(l, i, j, 1));
+    p.at[0] = wrapped(x, l->width, l->wrap_u);
+    p.at[1] = wrapped(y, l->height, l->wrap_v);
+    p.at[2] = -wr_param_number(l->params, "sink") * p.scale;
+    turn_place(l, i, j, p.turn);
+    return p;
+}
+
+/* Positions of all copies. *places is owned by the caller (wr_free), [*count]. */
+static bool solid_places(const WrParams *params, const WrGenerateJob *job, WrSolidPlace **places,
+                         int64_t *count, WrError *err)
+{
+    const double *at = wr_param_value(params, "at")->number;
+    const double *spacing = wr_param_value(params, "spacing")->number;
+    Lattice l = { .params = params,
+                  .across = wr_param_whole(params, "across"),
+                  .rows = wr_param_whole(params, "rows"),
+                  .seed = wr_param_seed(params),
+                  .wrap_u = wr_field_wrap_u(job->like),
+                  .wrap_v = wr_field_wrap_v(job->like),
+                  .width = wr_field_width(job->like),
+                  .height = wr_field_height(job->like) };
+    l.x = wr_z_place(at[0] * l.width - 0.5);
+    l.y = wr_z_place((1.0 - at[1]) * l.height - 0.5);
+    l.step[0] = spacing[0] > 0.0 ? spacing[0] : (double)l.width / l.across;
+    l.step[1] = spacing[1] > 0.0 ? spacing[1] : (double)l.height / l.rows;
+    const double about_x[3] = { wr_param_number(params, "alternate"), 0.0, 0.0 };
+    double alternate[9];
+    wr_z_turn(wr_param_value(params, "rotate")->number, l.base);
+    wr_z_turn(about_x, alternate);
+    multiply(l.base, alternate, l.other);
+    *count = (int64_t)l.across * l.rows;
+    WrSolidPlace *made = wr_try_alloc((size_t)*count, sizeof *made, "places of solids", err);
+    if (!made) return false;
+    for (int j = 0; j < l.rows; j++)
+        for (int i = 0; i < l.across; i++) made[(int64_t)j * l.across + i] = place(&l, i, j);
+    *places = made;
+    return true;
+}
+
+/* Draws the scene with the parameters' height (for `rise` texels of z), cut at the ground. */
+static bool solid_draw(const WrParams *params, WrZScene *scene, double rise,
+                       const WrGenerateJob *job, WrRelief *out, WrError *err)
+{
+    scene->floor = 0.0;
+    scene->soft = wr_param_number(params, "soft");
+    scene->scale = wr_param_number(params, "height") / (rise > 0.0 ? rise : 1.0);
+    return wr_zbuffer_draw(scene, job, out, err);
+}
+
+/* Lowest and highest corner of the posed box, relative to its origin. pose[6..8] is the row of the rotation that makes z: the
+   extreme of a linear function over a box is reached at a corner, axis by axis. */
+static void letters_range(const WrZSolid *solid, double range[2])
+{
+    double low[3], high[3];
+    wr_zletters_box(solid->letters, low, high);
+    range[0] = range[1] = 0.0;
+    for (int k = 0; k < 3; k++) {
+        double p = solid->pose[6 + k] * low[k], q = solid->pose[6 + k] * high[k];
+        range[0] += p < q ? p : q;
+        range[1] += p < q ? q : p;
+    }
+}
+
+/* Draws copies of one solid. letters: those of WR_Z_LETTERS, which stand on their lowest point; else NULL. */
+static bool draw_copies(const WrParams *params, WrZShape shape, double param,
+                        const WrZLetters *letters, const double size[3], const WrGenerateJob *job,
+                        WrRelief *out, WrError *err)
+{
+    WrSolidPlace *places = NULL;
+    int64_t count;
+    double rise = 1.0;
+    if (!solid_places(params, job, &places, &count, err)) return false;
+    WrZSolid *solids =
+        wr_try_alloc((size_t)count, sizeof *solids, letters ? "letters" : "solids", err);
+    bool good = solids;
+    for (int64_t i = 0; good && i < count; i++) {
+        const WrSolidPlace *p = &places[i];
+        const double scaled[3] = { size[0] * p->scale, size[1] * p->scale, size[2] * p->scale };
+        good = wr_zsolid_set(&solids[i], shape, param, letters, scaled, p->turn, p->at, err);
+        if (!good) break;
+        double range[2] = { 0.0, 0.0 };
+        if (letters) letters_range(&solids[i], range);
+        solids[i].at[2] -= range[0];
+        if (i == 0) rise = (letters ? range[1] - range[0] : wr_zsolid_rise(&solids[0])) / p->scale;
+    }
+    WrZScene scene = { .solids = solids, .solid_count = count };
+    good = good && solid_draw(params, &scene, rise, job, out, err);
+    wr_free(solids);
+    wr_free(places);
+    return good;
+}
+
+/* ---- nets ---- */
+
+typedef struct Copies {
+    const WrSolidNet *net;
+    const WrSolidPlace *places;
+    double (*turned)[3]; /* [point_count] of the present copy */
+} Copies;
+
+/* For loops over a net: false after a cancellation, which is checked at intervals. The result is then incomplete. */
+static bool goes_on(int64_t i)
+{
+    return i % 4096 != 0 || !wr_progress_stopped();
+}
+
+/* Rotates the points about the origin, y down; returns the lowest and the highest z. */
+static void turn_points(const Copies *c, const WrSolidPlace *p, double range[2])
+{
+    for (int64_t i = 0; i < c->net->point_count && goes_on(i); i++) {
+        const double *q = c->net->points[i];
+        for (int k = 0; k < 3; k++) {
+            const double *m = &p->turn[3 * k];
+            double x = p->scale * (m[0] * q[0] + m[1] * q[1] + m[2] * q[2]);
+            c->turned[i][k] = k == 2 ? x : wr_z_place(k == 1 ? -x : x);
+        }
+        double z = c->turned[i][2];
+        range[0] = i == 0 || z < range[0] ? z : range[0];
+        range[1] = i == 0 || z > range[1] ? z : range[1];
+    }
+}
+
+static void put_copy(const Copies *c, const WrSolidPlace *p, double low, WrZTriangle *out)
+{
+    for (int64_t i = 0; i < c->net->count && goes_on(i); i++)
+        for (int k = 0; k < 3; k++) {
+            const double *q = c->turned[c->net->corners[i][k]];
+            out[i].x[k] = p->at[0] + q[0];
+            out[i].y[k] = p->at[1] + q[1];
+            /* Each copy stands with its lowest point on the ground, lowered by `sink`. */
+            out[i].z[k] = p->at[2] + (q[2] - low);
+        }
+}
+
+/* Draws copies of a mesh with their lowest point on the ground. The points are rotated about the
+ * origin. */
+static bool solid_draw_net(const WrParams *params, const WrSolidNet *net, const WrGenerateJob *job,
+                           WrRelief *out, WrError *err)
+{
+    WrSolidPlace *places = NULL;
+    int64_t count;
+    if (!solid_places(params, job, &places, &count, err)) return false;
+    bool good = count * net->count <= TRIANGLES_MAX;
+    if (!good)
+        wr_fail(err, "%lld copies of %lld triangles: must be at most %d triangles together",
+                (long long)count, (long long)net->count, TRIANGLES_MAX);
+    WrZTriangle *triangles = NULL;
+    Copies c = { net, places, NULL };
+    if (good)
+        triangles =
+            wr_try_alloc((size_t)(count * net->count) + 1, sizeof *triangles, "triangles", err);
+    if (triangles)
+        c.turned = wr_try_alloc((size_t)net->point_count + 1, sizeof *c.turned, "points", err);
+    good = triangles && c.turned;
+    double rise = 0.0;
+    for (int64_t i = 0; good && i < count; i++) {
+        double range[2] = { 0.0, 0.0 };
+        turn_points(&c, &places[i], range);
+        put_copy(&c, &places[i], range[0], triangles + i * net->count);
+        /* `height` is the rise of the first copy at scale 1: all heights of the scene are multiplied by height / rise
+           (wr_solid_draw). */
+        if (i == 0) rise = (range[1] - range[0]) / places[0].scale;
+        good = !wr_progress_stopped() || wr_fail(err, "cancelled");
+    }
+    WrZScene scene = { .triangles = triangles, .triangle_count = count * net->count };
+    good = good && solid_draw(params, &scene, rise, job, out, err);
+    wr_free(c.turned);
+    wr_free(triangles);
+    wr_free(places);
+    return good;
+}
+
 /* ---- meshes ---- */
 
 const WrParam wr_params_solid_mesh[] = {
@@ -117,9 +356,6 @@ static bool fit(const WrMesh *mesh, double size, double (*points)[3])
                 scale * ((double)mesh->points[i][k] - (low[k] + 0.5 * (high[k] - low[k])));
     return true;
 }
-
-static bool solid_draw_net(const WrParams *params, const WrSolidNet *net, const WrGenerateJob *job,
-                           WrRelief *out, WrError *err);
 
 static bool solid_mesh(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                        WrError *err)
@@ -482,52 +718,6 @@ static bool outline_of(const WrParams *params, const WrGenerateJob *job, WrFontO
     return good;
 }
 
-/* Lowest and highest corner of the posed box, relative to its origin. pose[6..8] is the row of the rotation that makes z: the
-   extreme of a linear function over a box is reached at a corner, axis by axis. */
-static void box_range(const WrZSolid *solid, double range[2])
-{
-    double low[3], high[3];
-    wr_zletters_box(solid->letters, low, high);
-    range[0] = range[1] = 0.0;
-    for (int k = 0; k < 3; k++) {
-        double p = solid->pose[6 + k] * low[k], q = solid->pose[6 + k] * high[k];
-        range[0] += p < q ? p : q;
-        range[1] += p < q ? q : p;
-    }
-}
-
-static bool solid_places(const WrParams *params, const WrGenerateJob *job, WrSolidPlace **places,
-                         int64_t *count, WrError *err);
-
-static bool solid_draw(const WrParams *params, WrZScene *scene, double rise,
-                       const WrGenerateJob *job, WrRelief *out, WrError *err);
-
-static bool draw_letters(const WrParams *params, const WrZLetters *letters,
-                         const WrGenerateJob *job, WrRelief *out, WrError *err)
-{
-    WrSolidPlace *places = NULL;
-    int64_t count;
-    double rise = 1.0;
-    if (!solid_places(params, job, &places, &count, err)) return false;
-    WrZSolid *solids = wr_try_alloc((size_t)count, sizeof *solids, "letters", err);
-    bool good = solids;
-    for (int64_t i = 0; good && i < count; i++) {
-        const WrSolidPlace *p = &places[i];
-        const double size[3] = { p->scale, p->scale, p->scale };
-        double range[2];
-        good = wr_zsolid_set(&solids[i], WR_Z_LETTERS, 0.0, letters, size, p->turn, p->at, err);
-        if (!good) break;
-        box_range(&solids[i], range);
-        solids[i].at[2] -= range[0];
-        if (i == 0) rise = (range[1] - range[0]) / p->scale;
-    }
-    WrZScene scene = { .solids = solids, .solid_count = count };
-    good = good && solid_draw(params, &scene, rise, job, out, err);
-    wr_free(solids);
-    wr_free(places);
-    return good;
-}
-
 static bool solid_letters(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                           WrError *err)
 {
@@ -535,205 +725,10 @@ static bool solid_letters(const WrParamValue *values, const WrGenerateJob *job, 
     WrFontOutline outline = { 0 };
     WrZLetters *letters = NULL;
     if (outline_of(&params, job, &outline, err)) letters = cut(&params, &outline, err);
-    bool good = letters && draw_letters(&params, letters, job, out, err);
+    bool good = letters && draw_copies(&params, WR_Z_LETTERS, 0.0, letters,
+                                       (const double[3]){ 1, 1, 1 }, job, out, err);
     wr_zletters_free(letters);
     wr_font_outline_fini(&outline);
-    return good;
-}
-
-/* ---- placement ---- */
-
-/* Positions of solids: lattices with random variation, and drawing. */
-
-#define TRIANGLES_MAX 12000000 /* for all copies */
-
-static void multiply(const double a[9], const double b[9], double out[9])
-{
-    for (int row = 0; row < 3; row++)
-        for (int column = 0; column < 3; column++) {
-            double sum = 0.0;
-            for (int k = 0; k < 3; k++) sum += a[3 * row + k] * b[3 * k + column];
-            out[3 * row + column] = sum;
-        }
-}
-
-/* Reduces to [0, n) if the axis is periodic; by whole periods, so without rounding. */
-static double wrapped(double x, int n, WrWrap wrap)
-{
-    if (wrap == WR_WRAP_CLAMP) return x;
-    x -= n * floor(x / n);
-    return x < n ? x : 0.0;
-}
-
-typedef struct Lattice {
-    const WrParams *params;
-    double x, y; /* of `at` */
-    double step[2];
-    int across, rows;
-    double base[9], other[9]; /* rotation, and that of every other copy */
-    uint32_t seed;
-    WrWrap wrap_u, wrap_v;
-    int width, height;
-} Lattice;
-
-/* -1..1 */
-static double chance(const Lattice *l, int i, int j, int use)
-{
-    return 2.0 * wr_chance(l->seed, i, j, use) - 1.0;
-}
-
-/* The row's rotation is loosened by random angles about all axes, applied after it: R = L B, matrices row by row. */
-static void turn_place(const Lattice *l, int i, int j, double out[9])
-{
-    const double *base = (i + j) % 2 ? l->other : l->base;
-    double turn = wr_param_number(l->params, "turn"), tilt = wr_param_number(l->params, "tilt");
-    double loose[9];
-    const double angles[3] = { tilt * chance(l, i, j, 3), tilt * chance(l, i, j, 4),
-                               turn * chance(l, i, j, 5) };
-    if (turn > 0.0 || tilt > 0.0) {
-        wr_z_turn(angles, loose);
-        multiply(loose, base, out);
-    } else {
-        for (int k = 0; k < 9; k++) out[k] = base[k];
-    }
-}
-
-/* (0, 0) is the first of the lowest row; the lattice's middle is at `at`. wr_z_place rounds to a fixed fraction of a texel,
-   so that a copy that is moved by whole periods of the table has the same bits: the relief tiles exactly. */
-static WrSolidPlace place(const Lattice *l, int i, int j)
-{
-    double jitter = wr_param_number(l->params, "jitter"), dx = i - 0.5 * (l->across - 1);
-    double dy = j - 0.5 * (l->rows - 1);
-    if (j % 2) dx += wr_param_number(l->params, "stagger");
-    WrSolidPlace p = { .scale = 1.0 + wr_param_number(l->params, "vary") * chance(l, i, j, 2) };
-    double x = l->x + wr_z_place(dx * l->step[0] + jitter * chance(l, i, j, 0));
-    double y = l->y - wr_z_place(dy * l->step[1] + jitter * chance(l, i, j, 1));
-    p.at[0] = wrapped(x, l->width, l->wrap_u);
-    p.at[1] = wrapped(y, l->height, l->wrap_v);
-    p.at[2] = -wr_param_number(l->params, "sink") * p.scale;
-    turn_place(l, i, j, p.turn);
-    return p;
-}
-
-/* Positions of all copies. *places is owned by the caller (wr_free), [*count]. */
-static bool solid_places(const WrParams *params, const WrGenerateJob *job, WrSolidPlace **places,
-                         int64_t *count, WrError *err)
-{
-    const double *at = wr_param_value(params, "at")->number;
-    const double *spacing = wr_param_value(params, "spacing")->number;
-    Lattice l = { .params = params,
-                  .across = wr_param_whole(params, "across"),
-                  .rows = wr_param_whole(params, "rows"),
-                  .seed = wr_param_seed(params),
-                  .wrap_u = wr_field_wrap_u(job->like),
-                  .wrap_v = wr_field_wrap_v(job->like),
-                  .width = wr_field_width(job->like),
-                  .height = wr_field_height(job->like) };
-    l.x = wr_z_place(at[0] * l.width - 0.5);
-    l.y = wr_z_place((1.0 - at[1]) * l.height - 0.5);
-    l.step[0] = spacing[0] > 0.0 ? spacing[0] : (double)l.width / l.across;
-    l.step[1] = spacing[1] > 0.0 ? spacing[1] : (double)l.height / l.rows;
-    const double about_x[3] = { wr_param_number(params, "alternate"), 0.0, 0.0 };
-    double alternate[9];
-    wr_z_turn(wr_param_value(params, "rotate")->number, l.base);
-    wr_z_turn(about_x, alternate);
-    multiply(l.base, alternate, l.other);
-    *count = (int64_t)l.across * l.rows;
-    WrSolidPlace *made = wr_try_alloc((size_t)*count, sizeof *made, "places of solids", err);
-    if (!made) return false;
-    for (int j = 0; j < l.rows; j++)
-        for (int i = 0; i < l.across; i++) made[(int64_t)j * l.across + i] = place(&l, i, j);
-    *places = made;
-    return true;
-}
-
-/* Draws the scene with the parameters' height (for `rise` texels of z), cut at the ground. */
-static bool solid_draw(const WrParams *params, WrZScene *scene, double rise,
-                       const WrGenerateJob *job, WrRelief *out, WrError *err)
-{
-    scene->floor = 0.0;
-    scene->soft = wr_param_number(params, "soft");
-    scene->scale = wr_param_number(params, "height") / (rise > 0.0 ? rise : 1.0);
-    return wr_zbuffer_draw(scene, job, out, err);
-}
-
-/* ---- nets ---- */
-
-typedef struct Copies {
-    const WrSolidNet *net;
-    const WrSolidPlace *places;
-    double (*turned)[3]; /* [point_count] of the present copy */
-} Copies;
-
-/* For loops over a net: false after a cancellation, which is checked at intervals. The result is then incomplete. */
-static bool goes_on(int64_t i)
-{
-    return i % 4096 != 0 || !wr_progress_stopped();
-}
-
-/* Rotates the points about the origin, y down; returns the lowest and the highest z. */
-static void turn_points(const Copies *c, const WrSolidPlace *p, double range[2])
-{
-    for (int64_t i = 0; i < c->net->point_count && goes_on(i); i++) {
-        const double *q = c->net->points[i];
-        for (int k = 0; k < 3; k++) {
-            const double *m = &p->turn[3 * k];
-            double x = p->scale * (m[0] * q[0] + m[1] * q[1] + m[2] * q[2]);
-            c->turned[i][k] = k == 2 ? x : wr_z_place(k == 1 ? -x : x);
-        }
-        double z = c->turned[i][2];
-        range[0] = i == 0 || z < range[0] ? z : range[0];
-        range[1] = i == 0 || z > range[1] ? z : range[1];
-    }
-}
-
-static void put_copy(const Copies *c, const WrSolidPlace *p, double low, WrZTriangle *out)
-{
-    for (int64_t i = 0; i < c->net->count && goes_on(i); i++)
-        for (int k = 0; k < 3; k++) {
-            const double *q = c->turned[c->net->corners[i][k]];
-            out[i].x[k] = p->at[0] + q[0];
-            out[i].y[k] = p->at[1] + q[1];
-            /* Each copy stands with its lowest point on the ground, lowered by `sink`. */
-            out[i].z[k] = p->at[2] + (q[2] - low);
-        }
-}
-
-/* Draws copies of a mesh with their lowest point on the ground. The points are rotated about the
- * origin. */
-static bool solid_draw_net(const WrParams *params, const WrSolidNet *net, const WrGenerateJob *job,
-                           WrRelief *out, WrError *err)
-{
-    WrSolidPlace *places = NULL;
-    int64_t count;
-    if (!solid_places(params, job, &places, &count, err)) return false;
-    bool good = count * net->count <= TRIANGLES_MAX;
-    if (!good)
-        wr_fail(err, "%lld copies of %lld triangles: must be at most %d triangles together",
-                (long long)count, (long long)net->count, TRIANGLES_MAX);
-    WrZTriangle *triangles = NULL;
-    Copies c = { net, places, NULL };
-    if (good)
-        triangles =
-            wr_try_alloc((size_t)(count * net->count) + 1, sizeof *triangles, "triangles", err);
-    if (triangles)
-        c.turned = wr_try_alloc((size_t)net->point_count + 1, sizeof *c.turned, "points", err);
-    good = triangles && c.turned;
-    double rise = 0.0;
-    for (int64_t i = 0; good && i < count; i++) {
-        double range[2] = { 0.0, 0.0 };
-        turn_points(&c, &places[i], range);
-        put_copy(&c, &places[i], range[0], triangles + i * net->count);
-        /* `height` is the rise of the first copy at scale 1: all heights of the scene are multiplied by height / rise
-           (wr_solid_draw). */
-        if (i == 0) rise = (range[1] - range[0]) / places[0].scale;
-        good = !wr_progress_stopped() || wr_fail(err, "cancelled");
-    }
-    WrZScene scene = { .triangles = triangles, .triangle_count = count * net->count };
-    good = good && solid_draw(params, &scene, rise, job, out, err);
-    wr_free(c.turned);
-    wr_free(triangles);
-    wr_free(places);
     return good;
 }
 
@@ -792,42 +787,21 @@ static const WrParam torus_params[] = {
 
 /* ---- drawing ---- */
 
-static bool draw(const WrParams *params, WrZShape shape, double param, const double size[3],
-                 const WrGenerateJob *job, WrRelief *out, WrError *err)
-{
-    WrSolidPlace *places = NULL;
-    int64_t count;
-    double rise = 1.0;
-    if (!solid_places(params, job, &places, &count, err)) return false;
-    WrZSolid *solids = wr_try_alloc((size_t)count, sizeof *solids, "solids", err);
-    bool good = solids;
-    for (int64_t i = 0; good && i < count; i++) {
-        const WrSolidPlace *p = &places[i];
-        const double scaled[3] = { size[0] * p->scale, size[1] * p->scale, size[2] * p->scale };
-        good = wr_zsolid_set(&solids[i], shape, param, NULL, scaled, p->turn, p->at, err);
-        if (good && i == 0) rise = wr_zsolid_rise(&solids[0]) / p->scale;
-    }
-    WrZScene scene = { .solids = solids, .solid_count = count };
-    good = good && solid_draw(params, &scene, rise, job, out, err);
-    wr_free(solids);
-    wr_free(places);
-    return good;
-}
-
 static bool make_sphere(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                         WrError *err)
 {
     const WrParams params = { sphere_params, values };
     double r = wr_param_number(&params, "radius");
     const double size[3] = { r, r, r };
-    return draw(&params, WR_Z_SPHERE, 0.0, size, job, out, err);
+    return draw_copies(&params, WR_Z_SPHERE, 0.0, NULL, size, job, out, err);
 }
 
 static bool make_ellipsoid(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                            WrError *err)
 {
     const WrParams params = { ellipsoid_params, values };
-    return draw(&params, WR_Z_SPHERE, 0.0, wr_param_value(&params, "radii")->number, job, out, err);
+    return draw_copies(&params, WR_Z_SPHERE, 0.0, NULL, wr_param_value(&params, "radii")->number,
+                       job, out, err);
 }
 
 static bool make_box(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
@@ -836,7 +810,7 @@ static bool make_box(const WrParamValue *values, const WrGenerateJob *job, WrRel
     const WrParams params = { box_params, values };
     const double *side = wr_param_value(&params, "size")->number;
     const double size[3] = { 0.5 * side[0], 0.5 * side[1], 0.5 * side[2] };
-    return draw(&params, WR_Z_BOX, 0.0, size, job, out, err);
+    return draw_copies(&params, WR_Z_BOX, 0.0, NULL, size, job, out, err);
 }
 
 static bool make_round(const WrParamValue *values, WrZShape shape, const WrGenerateJob *job,
@@ -845,7 +819,7 @@ static bool make_round(const WrParamValue *values, WrZShape shape, const WrGener
     const WrParams params = { round_params, values };
     double r = wr_param_number(&params, "radius");
     const double size[3] = { r, r, 0.5 * wr_param_number(&params, "length") };
-    return draw(&params, shape, 0.0, size, job, out, err);
+    return draw_copies(&params, shape, 0.0, NULL, size, job, out, err);
 }
 
 static bool make_cylinder(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
@@ -869,7 +843,7 @@ static bool make_capsule(const WrParamValue *values, const WrGenerateJob *job, W
     if (length < 2.0 * r)
         return wr_fail(err, "solid capsule: length=%g: must be at least twice the radius, %g",
                        length, 2.0 * r);
-    return draw(&params, WR_Z_CAPSULE, (0.5 * length - r) / r, size, job, out, err);
+    return draw_copies(&params, WR_Z_CAPSULE, (0.5 * length - r) / r, NULL, size, job, out, err);
 }
 
 static bool make_torus(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
@@ -881,7 +855,7 @@ static bool make_torus(const WrParamValue *values, const WrGenerateJob *job, WrR
     if (!(tube < r))
         return wr_fail(err, "solid torus: tube=%g: must be less than the ring's radius, %g", tube,
                        r);
-    return draw(&params, WR_Z_TORUS, tube / r, size, job, out, err);
+    return draw_copies(&params, WR_Z_TORUS, tube / r, NULL, size, job, out, err);
 }
 
 #define ROW(n, l, h, p, m)                                                                         \

@@ -14,7 +14,7 @@
 #include "image/fill_missing.h"
 #include "image/image.h"
 #include "image/sidecar.h"
-#include "noise/grid.h"
+#include "noise/texel_grid.h"
 
 #include <float.h>
 #include <math.h>
@@ -213,8 +213,6 @@ bool wr_terrain_elevation(const WrParamValue *values, const WrGenerateJob *job, 
     wr_sheet_fini(&e.sheet);
     return good;
 }
-
-/* ---- terrain ---- */
 
 /* ---- Terraces: the present heights quantized to steps ---- */
 

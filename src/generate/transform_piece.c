@@ -230,7 +230,8 @@ static void fill_block(const void *ctx, const WrGenerateBlock *b, int worker, fl
                                                  &heights[y * WR_TILE + x]);
 }
 
-bool wr_place(const WrPlacing *placing, const WrGenerateJob *job, WrRelief *out, WrError *err)
+bool wr_transform_piece(const WrPlacing *placing, const WrGenerateJob *job, WrRelief *out,
+                        WrError *err)
 {
     Placed p = { .placing = placing };
     const WrField *like = job->like;

@@ -40,4 +40,5 @@ typedef struct WrPlacing {
 } WrPlacing;
 
 /* The piece on a table like job->like: heights and coverage. */
-bool wr_place(const WrPlacing *placing, const WrGenerateJob *job, WrRelief *out, WrError *err);
+bool wr_transform_piece(const WrPlacing *placing, const WrGenerateJob *job, WrRelief *out,
+                        WrError *err);

@@ -35,14 +35,14 @@ static void note(WrHardMeasurement *gauge, WrHardPrecision precision, double dev
     if (deviation > gauge->worst[precision]) gauge->worst[precision] = deviation;
 }
 
-void wr_hard_off(WrHardMeasurement *gauge, WrHardPrecision precision, double deviation)
+void wr_hard_record_error(WrHardMeasurement *gauge, WrHardPrecision precision, double deviation)
 {
     note(gauge, precision, fabs(deviation + gauge->nudge[precision]));
 }
 
 void wr_hard_near(WrHardMeasurement *gauge, WrHardPrecision precision, double got, double want)
 {
-    wr_hard_off(gauge, precision, got == want ? 0.0 : fabs(got - want));
+    wr_hard_record_error(gauge, precision, got == want ? 0.0 : fabs(got - want));
 }
 
 void wr_hard_holds(WrHardMeasurement *gauge, WrHardPrecision precision, bool ok)
@@ -115,14 +115,14 @@ WrSurfacePointf wr_hard_point(WrHardMeasurement *gauge, int set, const WrShape *
     return at;
 }
 
-WrVec3 wr_hard_perturbed(WrBumpMode mode, const WrSurfacePoint *at, WrHardSlope slope)
+WrVec3 wr_hard_bumped_normal(WrBumpMode mode, const WrSurfacePoint *at, WrHardSlope slope)
 {
     return wr_bump_unit_normal(mode, at->n, at->n_unit, at->pu, at->pv, at->n_u, at->n_v, slope.f,
                                slope.fu, slope.fv);
 }
 
-WrVec3 wr_hard_perturbed_f(WrHardMeasurement *gauge, int set, WrBumpMode mode,
-                           const WrSurfacePointf *at, WrHardSlope slope, bool behind)
+WrVec3 wr_hard_bumped_normal_f(WrHardMeasurement *gauge, int set, WrBumpMode mode,
+                               const WrSurfacePointf *at, WrHardSlope slope, bool behind)
 {
     WrStrip *strip = gauge->strip;
     const float side = behind ? -1.0f : 1.0f;
@@ -143,8 +143,8 @@ WrVec3 wr_hard_perturbed_f(WrHardMeasurement *gauge, int set, WrBumpMode mode,
     return wr_hard_vec(GET3(strip, b));
 }
 
-WrVec3 wr_hard_perturbed_wide(WrHardMeasurement *gauge, int set, WrBumpMode mode,
-                              const WrSurfacePoint *at, WrHardSlope slope)
+WrVec3 wr_hard_bumped_normal_wide(WrHardMeasurement *gauge, int set, WrBumpMode mode,
+                                  const WrSurfacePoint *at, WrHardSlope slope)
 {
     WrStripd *strip = gauge->wide_strip;
     const WrRaysd rays = { .toward = { at->n_unit.x, at->n_unit.y, at->n_unit.z } };

@@ -96,13 +96,13 @@ static bool hc25(WrHardMeasurement *g, WrError *err)
             double part[2];
             shine(g, set, &lit, part);
             wr_hard_near(g, WR_HARD_FLOAT, part[0], fmax(0.0, facing));
-            if (facing < -1e-6) wr_hard_off(g, WR_HARD_FLOAT, part[1]);
+            if (facing < -1e-6) wr_hard_record_error(g, WR_HARD_FLOAT, part[1]);
         }
         if (i % 4 || !forwards(&lit)) continue;
         double part[2];
         if (!wr_hard_shine(&lit, part, err)) return false;
         wr_hard_near(g, WR_HARD_DOUBLE, part[0], fmax(0.0, facing));
-        if (facing < -1e-12) wr_hard_off(g, WR_HARD_DOUBLE, part[1]);
+        if (facing < -1e-12) wr_hard_record_error(g, WR_HARD_DOUBLE, part[1]);
     }
     return true;
 }
@@ -128,7 +128,7 @@ static bool hc26(WrHardMeasurement *g, WrError *err)
                 lit.light = (WrVec3){ 1, 0, -(double)FLT_EPSILON };
                 shine(g, set, &lit, below);
                 const double jump = fabs(above[0] + above[1] - below[0] - below[1]);
-                wr_hard_off(g, WR_HARD_FLOAT, fmax(0.0, jump - allowed));
+                wr_hard_record_error(g, WR_HARD_FLOAT, fmax(0.0, jump - allowed));
             }
             double above[2], below[2];
             lit.light = (WrVec3){ 1, 0, DBL_EPSILON };
@@ -136,7 +136,7 @@ static bool hc26(WrHardMeasurement *g, WrError *err)
             lit.light = (WrVec3){ 1, 0, -DBL_EPSILON };
             if (!wr_hard_shine(&lit, below, err)) return false;
             const double jump = fabs(above[0] + above[1] - below[0] - below[1]);
-            wr_hard_off(g, WR_HARD_DOUBLE, fmax(0.0, jump - allowed));
+            wr_hard_record_error(g, WR_HARD_DOUBLE, fmax(0.0, jump - allowed));
         }
     }
     return true;
@@ -173,7 +173,7 @@ static bool hc27(WrHardMeasurement *g, WrError *err)
             rows += K * (double)shot.frame.rgba[4 * (y * SIZE + SIZE / 2) + 3];
         wr_hard_near(g, WR_HARD_FLOAT, rows, c / 1.25 * SIZE * K);
         /* a NaN counts as a large deviation */
-        wr_hard_off(g, WR_HARD_FLOAT, 1e3 * (double)wr_hard_wild(&shot));
+        wr_hard_record_error(g, WR_HARD_FLOAT, 1e3 * (double)wr_hard_wild(&shot));
         wr_hard_put_away(&shot);
         WrReference reference = { 0 };
         good = wr_hard_refer(g, &request, K, &reference, err);
@@ -253,12 +253,15 @@ static void check_levels(WrHardMeasurement *g, const WrPyramid *pyramid, const W
                 const double f = pyramid_height(pyramid, level, i, j);
                 const double want = wave_mean((double)i / level->width, (i + 1.0) / level->width);
                 sum += f;
-                if (w > 1) wr_hard_off(g, WR_HARD_FLOAT, fabs(f - 1.0 - want) * w / (WR_PI / 1.5));
+                if (w > 1)
+                    wr_hard_record_error(g, WR_HARD_FLOAT,
+                                         fabs(f - 1.0 - want) * w / (WR_PI / 1.5));
             }
-        wr_hard_off(g, WR_HARD_FLOAT, fabs(sum / (level->width * level->height) - mean) / 1e-6);
+        wr_hard_record_error(g, WR_HARD_FLOAT,
+                             fabs(sum / (level->width * level->height) - mean) / 1e-6);
     }
     const WrPyramidLevel *last = &pyramid->level[pyramid->levels - 1];
-    wr_hard_off(g, WR_HARD_FLOAT, last->width == 1 && last->height == 1 ? 0.0 : 2.0);
+    wr_hard_record_error(g, WR_HARD_FLOAT, last->width == 1 && last->height == 1 ? 0.0 : 2.0);
 }
 
 static bool hc55(WrHardMeasurement *g, WrError *err)
@@ -391,12 +394,12 @@ static bool hc57(WrHardMeasurement *g, WrError *err)
                 WrSurfacePoint at;
                 wr_surface_at(&shape, 0, (double)u, (double)v, &at);
                 WrHardSlope slope = wr_hard_sample(field, (WrScheme)scheme, (double)u, (double)v);
-                perturbed[end] = wr_hard_perturbed(WR_BUMP_BLINN, &at, slope);
+                perturbed[end] = wr_hard_bumped_normal(WR_BUMP_BLINN, &at, slope);
                 for (int set = 0; set < g->sets; set++) {
                     WrSurfacePointf atf = wr_hard_point(g, set, &shape, 1.0, 0, u, v);
                     slope = wr_hard_look_at(g, set, &look, u, v);
                     single[set][end] =
-                        wr_hard_perturbed_f(g, set, WR_BUMP_BLINN, &atf, slope, false);
+                        wr_hard_bumped_normal_f(g, set, WR_BUMP_BLINN, &atf, slope, false);
                 }
             }
             wr_hard_holds(g, WR_HARD_DOUBLE, wr_hard_same(perturbed[0], perturbed[1]));
@@ -725,11 +728,12 @@ static Sample plane_point(void)
 static void angles(WrHardMeasurement *g, const Sample *s, WrBumpMode mode, WrHardSlope slope,
                    WrVec3 want)
 {
-    wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(wr_hard_perturbed(mode, &s->at, slope), want));
+    wr_hard_record_error(g, WR_HARD_DOUBLE,
+                         v3_angle_rad(wr_hard_bumped_normal(mode, &s->at, slope), want));
     for (int set = 0; set < g->sets; set++)
-        wr_hard_off(
+        wr_hard_record_error(
             g, WR_HARD_FLOAT,
-            v3_angle_rad(wr_hard_perturbed_f(g, set, mode, &s->single, slope, false), want));
+            v3_angle_rad(wr_hard_bumped_normal_f(g, set, mode, &s->single, slope, false), want));
 }
 
 static bool hc13(WrHardMeasurement *g, WrError *err)
@@ -754,10 +758,10 @@ static bool hc14(WrHardMeasurement *g, WrError *err)
     const Sample s = plane_point();
     const WrHardSlope slope = { 1e30, 0, 0 };
     for (int mode = 0; mode < WR_BUMP_COUNT; mode++) {
-        WrVec3 perturbed = wr_hard_perturbed((WrBumpMode)mode, &s.at, slope);
+        WrVec3 perturbed = wr_hard_bumped_normal((WrBumpMode)mode, &s.at, slope);
         wr_hard_holds(g, WR_HARD_DOUBLE, wr_hard_same(perturbed, s.at.n_unit));
         for (int set = 0; set < g->sets; set++) {
-            perturbed = wr_hard_perturbed_f(g, set, (WrBumpMode)mode, &s.single, slope, false);
+            perturbed = wr_hard_bumped_normal_f(g, set, (WrBumpMode)mode, &s.single, slope, false);
             wr_hard_holds(g, WR_HARD_FLOAT, wr_hard_same(perturbed, s.at.n_unit));
         }
     }
@@ -779,13 +783,14 @@ static void check_steep(WrHardMeasurement *g, int i)
     const WrVec3 d = wr_bump_d(s.at.n_unit, s.at.pu, s.at.pv, a, b);
     for (int set = 0; set < g->sets; set++) {
         const WrHardSlope slope = { 0, size * a, size * b };
-        const WrVec3 perturbed = wr_hard_perturbed_f(g, set, mode, &s.single, slope, false);
-        wr_hard_off(g, WR_HARD_FLOAT, v3_angle_rad(perturbed, d));
+        const WrVec3 perturbed = wr_hard_bumped_normal_f(g, set, mode, &s.single, slope, false);
+        wr_hard_record_error(g, WR_HARD_FLOAT, v3_angle_rad(perturbed, d));
     }
     s.at.pu = v3_scale(s.at.pu, 1e30), s.at.pv = v3_scale(s.at.pv, 1e30);
     s.at.n = v3_scale(s.at.n, 1e60), s.at.n_len *= 1e60;
     const WrHardSlope slope = { 0, DBL_MAX * a, DBL_MAX * b };
-    wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(wr_hard_perturbed(mode, &s.at, slope), d));
+    wr_hard_record_error(g, WR_HARD_DOUBLE,
+                         v3_angle_rad(wr_hard_bumped_normal(mode, &s.at, slope), d));
 }
 
 /* On the unit plane the downhill direction is -(Fu, Fv). */
@@ -798,11 +803,12 @@ static bool hc15(WrHardMeasurement *g, WrError *err)
     for (int i = 0; i < 5; i++)
         for (int mode = WR_BUMP_BLINN; mode < WR_BUMP_COUNT; mode++) {
             const WrHardSlope slope = { 0.1, steep[i], -steep[i] / 2 };
-            WrVec3 perturbed = wr_hard_perturbed((WrBumpMode)mode, &s.at, slope);
-            wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(perturbed, down));
+            WrVec3 perturbed = wr_hard_bumped_normal((WrBumpMode)mode, &s.at, slope);
+            wr_hard_record_error(g, WR_HARD_DOUBLE, v3_angle_rad(perturbed, down));
             for (int set = 0; set < g->sets && i < 3; set++) {
-                perturbed = wr_hard_perturbed_f(g, set, (WrBumpMode)mode, &s.single, slope, false);
-                wr_hard_off(g, WR_HARD_FLOAT, v3_angle_rad(perturbed, down));
+                perturbed =
+                    wr_hard_bumped_normal_f(g, set, (WrBumpMode)mode, &s.single, slope, false);
+                wr_hard_record_error(g, WR_HARD_FLOAT, v3_angle_rad(perturbed, down));
             }
         }
     for (int i = 0; i < 600; i++) check_steep(g, i);
@@ -823,12 +829,13 @@ static bool hc16(WrHardMeasurement *g, WrError *err)
         const Sample s = sample_of(g, i);
         for (int mode = WR_BUMP_BLINN; mode < WR_BUMP_COUNT; mode++) {
             const WrHardSlope slope = { 0, 1e-30, -1e-30 };
-            WrVec3 perturbed = wr_hard_perturbed((WrBumpMode)mode, &s.at, slope);
-            wr_hard_off(g, WR_HARD_DOUBLE, places(perturbed, s.at.n_unit, 0x1p-52));
+            WrVec3 perturbed = wr_hard_bumped_normal((WrBumpMode)mode, &s.at, slope);
+            wr_hard_record_error(g, WR_HARD_DOUBLE, places(perturbed, s.at.n_unit, 0x1p-52));
             for (int set = 0; set < g->sets; set++) {
-                perturbed = wr_hard_perturbed_f(g, set, (WrBumpMode)mode, &s.single, slope, false);
-                wr_hard_off(g, WR_HARD_FLOAT,
-                            places(perturbed, wr_hard_vec(s.single.n_unit), 0x1p-23));
+                perturbed =
+                    wr_hard_bumped_normal_f(g, set, (WrBumpMode)mode, &s.single, slope, false);
+                wr_hard_record_error(g, WR_HARD_FLOAT,
+                                     places(perturbed, wr_hard_vec(s.single.n_unit), 0x1p-23));
             }
         }
     }
@@ -843,14 +850,15 @@ static bool hc17(WrHardMeasurement *g, WrError *err)
         for (int mode = 0; mode < WR_BUMP_COUNT; mode++) {
             const double none = i % 2 ? -0.0 : 0.0, f = mode == WR_BUMP_EXACT ? 0.0 : 0.25;
             const WrHardSlope slope = { f, none, 0 };
-            const WrVec3 perturbed = wr_hard_perturbed((WrBumpMode)mode, &s.at, slope);
+            const WrVec3 perturbed = wr_hard_bumped_normal((WrBumpMode)mode, &s.at, slope);
             const WrVec3 n = wr_bump_normal((WrBumpMode)mode, s.at.n, s.at.n_unit, s.at.pu, s.at.pv,
                                             s.at.n_u, s.at.n_v, f, none, 0);
             wr_hard_holds(g, WR_HARD_DOUBLE,
                           memcmp(&perturbed, &s.at.n_unit, sizeof perturbed) == 0);
             wr_hard_holds(g, WR_HARD_DOUBLE, memcmp(&n, &s.at.n, sizeof n) == 0);
             for (int set = 0; set < g->sets; set++) {
-                WrVec3 got = wr_hard_perturbed_f(g, set, (WrBumpMode)mode, &s.single, slope, false);
+                WrVec3 got =
+                    wr_hard_bumped_normal_f(g, set, (WrBumpMode)mode, &s.single, slope, false);
                 wr_hard_holds(g, WR_HARD_FLOAT, wr_hard_same(got, wr_hard_vec(s.single.n_unit)));
             }
         }
@@ -867,13 +875,13 @@ static bool hc18(WrHardMeasurement *g, WrError *err)
     for (int i = 0; i < 4; i++) {
         const double a = slopes[i];
         const WrHardSlope slope = { 0, 0.6 * a, 0.8 * a };
-        WrVec3 perturbed = wr_hard_perturbed(WR_BUMP_INVARIANT, &s.at, slope);
-        wr_hard_off(g, WR_HARD_DOUBLE,
-                    fabs(hypot(perturbed.x / a, perturbed.y / a) / perturbed.z - 1.0));
+        WrVec3 perturbed = wr_hard_bumped_normal(WR_BUMP_INVARIANT, &s.at, slope);
+        wr_hard_record_error(g, WR_HARD_DOUBLE,
+                             fabs(hypot(perturbed.x / a, perturbed.y / a) / perturbed.z - 1.0));
         for (int set = 0; set < g->sets && i < 2; set++) {
-            perturbed = wr_hard_perturbed_f(g, set, WR_BUMP_INVARIANT, &s.single, slope, false);
-            wr_hard_off(g, WR_HARD_FLOAT,
-                        fabs(hypot(perturbed.x / a, perturbed.y / a) / perturbed.z - 1.0));
+            perturbed = wr_hard_bumped_normal_f(g, set, WR_BUMP_INVARIANT, &s.single, slope, false);
+            wr_hard_record_error(g, WR_HARD_FLOAT,
+                                 fabs(hypot(perturbed.x / a, perturbed.y / a) / perturbed.z - 1.0));
         }
     }
     return true;
@@ -898,13 +906,16 @@ static bool hc19(WrHardMeasurement *g, WrError *err)
                 const double a = hypot(slope.fu, slope.fv);
                 WrSurfacePoint at;
                 wr_surface_at(&shape, 0, u, v, &at);
-                WrVec3 perturbed = wr_hard_perturbed(WR_BUMP_INVARIANT, &at, slope);
-                wr_hard_off(g, WR_HARD_DOUBLE, fabs(tangent(at.n_unit, perturbed) / a - 1.0));
+                WrVec3 perturbed = wr_hard_bumped_normal(WR_BUMP_INVARIANT, &at, slope);
+                wr_hard_record_error(g, WR_HARD_DOUBLE,
+                                     fabs(tangent(at.n_unit, perturbed) / a - 1.0));
                 for (int set = 0; set < g->sets && k <= 24; set++) {
                     WrSurfacePointf atf = wr_hard_point(g, set, &shape, 1.0, 0, (float)u, (float)v);
-                    perturbed = wr_hard_perturbed_f(g, set, WR_BUMP_INVARIANT, &atf, slope, false);
-                    wr_hard_off(g, WR_HARD_FLOAT,
-                                fabs(tangent(wr_hard_vec(atf.n_unit), perturbed) / a - 1.0));
+                    perturbed =
+                        wr_hard_bumped_normal_f(g, set, WR_BUMP_INVARIANT, &atf, slope, false);
+                    wr_hard_record_error(
+                        g, WR_HARD_FLOAT,
+                        fabs(tangent(wr_hard_vec(atf.n_unit), perturbed) / a - 1.0));
                 }
             }
     return true;
@@ -917,8 +928,8 @@ static bool hc20(WrHardMeasurement *g, WrError *err)
     for (int i = 0; i < 200; i++) {
         const Sample s = sample_of(g, i);
         const WrVec3 single = wr_hard_vec(s.single.n_unit);
-        wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(s.at.n_unit, s.at.n_unit));
-        wr_hard_off(g, WR_HARD_FLOAT, v3_angle_rad(single, single));
+        wr_hard_record_error(g, WR_HARD_DOUBLE, v3_angle_rad(s.at.n_unit, s.at.n_unit));
+        wr_hard_record_error(g, WR_HARD_FLOAT, v3_angle_rad(single, single));
         const double little = ldexp(1.0, -1 - i % 60);
         const WrVec3 a = { 0, 0, 1 }, b = { sin(little), 0, cos(little) };
         wr_hard_near(g, WR_HARD_DOUBLE, v3_angle_rad(a, b), little);
@@ -948,7 +959,7 @@ static void kernels_make_unit(WrHardMeasurement *g)
         const int sets = t > 0.0f && t < FLT_MIN ? g->sets : g->all;
         for (int set = 0; set < sets; set++) {
             WrVec3 perturbed =
-                wr_hard_perturbed_f(g, set, mode, &at, (WrHardSlope){ 0, 1, 0 }, false);
+                wr_hard_bumped_normal_f(g, set, mode, &at, (WrHardSlope){ 0, 1, 0 }, false);
             wr_hard_holds(g, WR_HARD_FLOAT, fabs(v3_len(perturbed) - 1.0) < 1e-6);
             wr_hard_holds(g, WR_HARD_FLOAT, v3_angle_rad(perturbed, want) < 1e-4);
         }
@@ -995,7 +1006,7 @@ static bool hc22(WrHardMeasurement *g, WrError *err)
         const WrVec3 d = wr_bump_d(s.at.n_unit, s.at.pu, s.at.pv, fu, fv);
         const WrVec3 swapped = wr_bump_normal(WR_BUMP_BLINN, v3_neg(s.at.n), v3_neg(s.at.n_unit),
                                               s.at.pv, s.at.pu, zero, zero, 0, fv, fu);
-        wr_hard_off(g, WR_HARD_DOUBLE, v3_len(v3_sub(swapped, v3_sub(d, s.at.n))));
+        wr_hard_record_error(g, WR_HARD_DOUBLE, v3_len(v3_sub(swapped, v3_sub(d, s.at.n))));
         WrSurfacePointf turned = s.single;
         turned.pu = s.single.pv;
         turned.pv = s.single.pu;
@@ -1005,9 +1016,9 @@ static bool hc22(WrHardMeasurement *g, WrError *err)
         const WrVec3 want =
             v3_unit(v3_sub(wr_bump_d(wide.n_unit, wide.pu, wide.pv, fu, fv), n), zero);
         for (int set = 0; set < g->sets; set++) {
-            WrVec3 got = wr_hard_perturbed_f(g, set, WR_BUMP_BLINN, &turned,
-                                             (WrHardSlope){ 0, fv, fu }, false);
-            wr_hard_off(g, WR_HARD_FLOAT, v3_angle_rad(got, want));
+            WrVec3 got = wr_hard_bumped_normal_f(g, set, WR_BUMP_BLINN, &turned,
+                                                 (WrHardSlope){ 0, fv, fu }, false);
+            wr_hard_record_error(g, WR_HARD_FLOAT, v3_angle_rad(got, want));
         }
     }
     return true;
@@ -1057,8 +1068,8 @@ static bool hc23(WrHardMeasurement *g, WrError *err)
         const WrHardSlope here = { f, fu, fv };
         angles(g, &s, WR_BUMP_EXACT, here, front);
         for (int set = 0; set < g->sets; set++) {
-            WrVec3 back = wr_hard_perturbed_f(g, set, WR_BUMP_EXACT, &s.single, here, true);
-            wr_hard_off(g, WR_HARD_FLOAT, v3_angle_rad(back, v3_neg(front)));
+            WrVec3 back = wr_hard_bumped_normal_f(g, set, WR_BUMP_EXACT, &s.single, here, true);
+            wr_hard_record_error(g, WR_HARD_FLOAT, v3_angle_rad(back, v3_neg(front)));
         }
     }
     return true;

@@ -114,7 +114,7 @@ static bool plain_ground(WrHardMeasurement *g, int cells, bool rises, WrError *e
         const int column = k / 16 % ground.columns;
         if (rises && (column < 2 || column >= ground.columns - 2)) continue;
         const double want = rises ? (double)p[0] / 1.25 * level : level;
-        wr_hard_off(g, WR_HARD_DOUBLE, fabs((double)p[2] / (height * want) - 1));
+        wr_hard_record_error(g, WR_HARD_DOUBLE, fabs((double)p[2] / (height * want) - 1));
     }
     if (good) wr_free(ground.points);
     wr_field_free(field);
@@ -135,7 +135,8 @@ bool wr_hard_hc177(WrHardMeasurement *g, WrError *err)
             wr_field_set(field, i, 0, i % 2 ? -3e38f : 3e38f);
         good = make_ground(field, k % 2 ? -1e30 : 1e30, 9, &ground, err);
         for (int i = 0; good && i < 48 * ground.columns * ground.rows; i++)
-            if (!(fabsf(ground.points[i / 48][i % 48]) <= 1e30f)) wr_hard_off(g, WR_HARD_DOUBLE, 1);
+            if (!(fabsf(ground.points[i / 48][i % 48]) <= 1e30f))
+                wr_hard_record_error(g, WR_HARD_DOUBLE, 1);
         if (good) wr_free(ground.points);
         wr_field_free(field);
     }

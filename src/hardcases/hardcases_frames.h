@@ -20,7 +20,7 @@ typedef struct WrHardMesh {
 WrTriangles *wr_hard_mesh_triangles_new(const WrHardMesh *mesh, WrError *err);
 
 /* Pictures of a mesh seen from above in every arithmetic and by the reference: each value is finite. */
-bool wr_hard_mesh_tame(WrHardMeasurement *gauge, const WrHardMesh *mesh, WrError *err);
+bool wr_hard_check_mesh_finite(WrHardMeasurement *gauge, const WrHardMesh *mesh, WrError *err);
 /* The mesh from above, orthographic, 2.2 units high about the origin, and one light. Takes ownership of the
    mesh. */
 WrScene *wr_hard_above(WrTriangles *triangles, double height);

@@ -30,7 +30,7 @@ struct WrHardMeasurement {
 };
 
 /* Reports a deviation, 0 or more; NaN counts as infinite. */
-void wr_hard_off(WrHardMeasurement *gauge, WrHardPrecision precision, double deviation);
+void wr_hard_record_error(WrHardMeasurement *gauge, WrHardPrecision precision, double deviation);
 /* Reports |got - want|. */
 void wr_hard_near(WrHardMeasurement *gauge, WrHardPrecision precision, double got, double want);
 /* Reports one violation unless ok. */
@@ -66,13 +66,13 @@ typedef struct WrHardSlope {
     double f, fu, fv;
 } WrHardSlope;
 /* n' in double, normalised. */
-WrVec3 wr_hard_perturbed(WrBumpMode mode, const WrSurfacePoint *at, WrHardSlope slope);
+WrVec3 wr_hard_bumped_normal(WrBumpMode mode, const WrSurfacePoint *at, WrHardSlope slope);
 /* n' by a kernel, seen from the side of n (behind: from the other side). */
-WrVec3 wr_hard_perturbed_f(WrHardMeasurement *gauge, int set, WrBumpMode mode,
-                           const WrSurfacePointf *at, WrHardSlope slope, bool behind);
+WrVec3 wr_hard_bumped_normal_f(WrHardMeasurement *gauge, int set, WrBumpMode mode,
+                               const WrSurfacePointf *at, WrHardSlope slope, bool behind);
 /* n' by the renderer's kernels in double: set 0 or 1. */
-WrVec3 wr_hard_perturbed_wide(WrHardMeasurement *gauge, int set, WrBumpMode mode,
-                              const WrSurfacePoint *at, WrHardSlope slope);
+WrVec3 wr_hard_bumped_normal_wide(WrHardMeasurement *gauge, int set, WrBumpMode mode,
+                                  const WrSurfacePoint *at, WrHardSlope slope);
 /* The point converted to double, for formulas on float's own numbers. */
 WrSurfacePoint wr_hard_point_to_double(const WrSurfacePointf *at);
 /* The float point without the rounding of its computation: doubles rounded once. */

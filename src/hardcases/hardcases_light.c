@@ -44,7 +44,7 @@ static bool changes(WrHardMeasurement *g, WrScene *scene, WrHardPrecision precis
     scene->lights[0].shadow = true;
     request.force = force;
     if (good && wr_hard_shoot(g, &request, &with, err)) {
-        wr_hard_off(g, precision, (double)wr_hard_differ(&with, &without, 0));
+        wr_hard_record_error(g, precision, (double)wr_hard_differ(&with, &without, 0));
         wr_hard_put_away(&with);
         wr_hard_put_away(&without);
     } else {
@@ -374,9 +374,10 @@ static bool hc99(WrHardMeasurement *g, WrError *err)
                           wr_hard_vec(v3f_from(at.v)) };
         const double peak = 0.25 / (alpha * alpha), exact = narrow(f, (double)(float)alpha);
         for (int set = 0; set < g->all; set++)
-            wr_hard_off(g, WR_HARD_FLOAT, alpha * fabs(in_float(g, set, &of, f) - exact) / peak);
-        wr_hard_off(g, WR_HARD_DOUBLE,
-                    alpha * fabs(in_double(g, i & 1, &of, at) - narrow(at, alpha)) / peak);
+            wr_hard_record_error(g, WR_HARD_FLOAT,
+                                 alpha * fabs(in_float(g, set, &of, f) - exact) / peak);
+        wr_hard_record_error(g, WR_HARD_DOUBLE,
+                             alpha * fabs(in_double(g, i & 1, &of, at) - narrow(at, alpha)) / peak);
     }
     return true;
 }
@@ -448,11 +449,12 @@ static bool hc104(WrHardMeasurement *g, WrError *err)
         const Place back = { up, at.v, at.l };
         for (int set = 0; set < g->all; set++) {
             const double a = in_float(g, set, &of, at) / at.l.z;
-            wr_hard_off(g, WR_HARD_FLOAT, fabs(in_float(g, set, &of, back) / at.v.z - a) / (1 + a));
+            wr_hard_record_error(g, WR_HARD_FLOAT,
+                                 fabs(in_float(g, set, &of, back) / at.v.z - a) / (1 + a));
         }
         const double a = in_double(g, i / count % 2, &of, at) / at.l.z;
-        wr_hard_off(g, WR_HARD_DOUBLE,
-                    fabs(in_double(g, i / count % 2, &of, back) / at.v.z - a) / (1 + a));
+        wr_hard_record_error(g, WR_HARD_DOUBLE,
+                             fabs(in_double(g, i / count % 2, &of, back) / at.v.z - a) / (1 + a));
     }
     return true;
 }
@@ -822,16 +824,17 @@ static bool hc101(WrHardMeasurement *g, WrError *err)
         const WrEnvironmentBrdf gloss = facets_of(near[i]);
         wr_blur_orders(&gloss, 5, order);
         for (int l = 0; l < 5; l++) /* the slope at 1 is below 1 */
-            wr_hard_off(g, WR_HARD_DOUBLE, fmax(0, fabs(order[l] - flat[l]) - (1 - near[i])));
+            wr_hard_record_error(g, WR_HARD_DOUBLE,
+                                 fmax(0, fabs(order[l] - flat[l]) - (1 - near[i])));
     }
     for (int i = 0; i < 20; i++) {
         const double alpha = wr_hard_between(g, 0.2, 0.97), mu = wr_hard_between(g, 0.02, 1);
         const WrEnvironmentBrdf gloss = facets_of(alpha);
         double e[2];
         wr_blur_orders(&gloss, 2, order);
-        wr_hard_off(g, WR_HARD_DOUBLE, fabs(order[1] - slope_kept(alpha)));
+        wr_hard_record_error(g, WR_HARD_DOUBLE, fabs(order[1] - slope_kept(alpha)));
         wr_ggx_albedo(1, mu, e);
-        wr_hard_off(g, WR_HARD_FLOAT, fabs(e[0] + e[1] - (1 - mu * log(1 + 1 / mu))));
+        wr_hard_record_error(g, WR_HARD_FLOAT, fabs(e[0] + e[1] - (1 - mu * log(1 + 1 / mu))));
     }
     WrEnvironmentMap *from = around(64, 32, linear, err);
     WrEnvLookup m = { 0 };
@@ -841,7 +844,7 @@ static bool hc101(WrHardMeasurement *g, WrError *err)
         for (int set = 0; set < g->all; set++) {
             const WrVec3 d = random_direction(g);
             const double want = 1 + 0.9 * 2 / 3 * v3_dot(d, east);
-            wr_hard_off(g, WR_HARD_FLOAT, fabs(mirrored(g, set, &m, d) - want));
+            wr_hard_record_error(g, WR_HARD_FLOAT, fabs(mirrored(g, set, &m, d) - want));
         }
     wr_env_lookup_drop(&m);
     wr_environment_map_free(from);
@@ -970,16 +973,16 @@ static bool generic_highlight(WrHardMeasurement *g, double s, WrError *err)
     const WrVec3f nf = v3f_from(n), lf = v3f_from(l), vf = v3f_from(v);
     const double want = lobe_of(wr_hard_vec(nf), wr_hard_vec(lf), wr_hard_vec(vf), s);
     for (int set = 0; set < g->all; set++)
-        wr_hard_off(g, WR_HARD_FLOAT,
-                    steps(highlight(g, set, nf, lf, vf, s, false), want, s, 0x1p-23));
+        wr_hard_record_error(g, WR_HARD_FLOAT,
+                             steps(highlight(g, set, nf, lf, vf, s, false), want, s, 0x1p-23));
     const WrHardLit lit = { .perturbed = n, .light = l, .view = v, .specular = 1, .shininess = s };
     for (int set = 0; set < 2; set++)
-        wr_hard_off(g, WR_HARD_DOUBLE,
-                    steps(highlight_wide(g, set, &lit), lobe_of(n, l, v, s), s, 0x1p-52));
+        wr_hard_record_error(g, WR_HARD_DOUBLE,
+                             steps(highlight_wide(g, set, &lit), lobe_of(n, l, v, s), s, 0x1p-52));
     if (!(n.z > 0.05)) return true;
     double part[2];
     if (!wr_hard_shine(&lit, part, err)) return false;
-    wr_hard_off(g, WR_HARD_DOUBLE, steps(part[1], lobe_of(n, l, v, s), s, 0x1p-52));
+    wr_hard_record_error(g, WR_HARD_DOUBLE, steps(part[1], lobe_of(n, l, v, s), s, 0x1p-52));
     return true;
 }
 
@@ -1015,14 +1018,15 @@ static bool shiny_pictures(WrHardMeasurement *g, WrError *err)
             const double want = (double)shots[WR_HARD_WIDE].frame.rgba[i];
             lit += i % 4 == 0 && want > 0.3;
             for (int way = 0; way < WR_HARD_WIDE; way++) /* n' itself has an error of a few ulps */
-                wr_hard_off(g, WR_HARD_FLOAT,
-                            steps((double)shots[way].frame.rgba[i], want, s, 0x1p-23));
+                wr_hard_record_error(g, WR_HARD_FLOAT,
+                                     steps((double)shots[way].frame.rgba[i], want, s, 0x1p-23));
         }
         for (int way = 0; way < WR_HARD_WAYS; way++) wr_hard_put_away(&shots[way]);
         wr_scene_free(scene);
     }
     if (good)
-        wr_hard_off(g, WR_HARD_FLOAT, lit > 100 ? 0.0 : 1e9); /* otherwise nothing was visible */
+        wr_hard_record_error(g, WR_HARD_FLOAT,
+                             lit > 100 ? 0.0 : 1e9); /* otherwise nothing was visible */
     wr_field_free(field);
     return good;
 }
@@ -1035,13 +1039,14 @@ static bool hc89(WrHardMeasurement *g, WrError *err)
         const double s = powers[k % 7];
         float c = k < 14 ? (k < 7 ? 0.0f : 1.0f) : wr_hard_float(g);
         if (k % 2) c = 1.0f - c * 1e-4f; /* where a high power is not 0 */
-        wr_hard_off(g, WR_HARD_FLOAT,
-                    steps((double)wr_pow01_f(c, (float)s), pow((double)c, s), s, 0x1p-23));
+        wr_hard_record_error(g, WR_HARD_FLOAT,
+                             steps((double)wr_pow01_f(c, (float)s), pow((double)c, s), s, 0x1p-23));
         const WrVec3f z = { 0, 0, 1 };
         const WrVec3f light = { sqrtf(1.0f - c * c), 0, c };
         for (int set = 0; set < g->all; set++) {
             const double shine = highlight(g, set, z, light, z, s, true);
-            wr_hard_off(g, WR_HARD_FLOAT, 1e9 * (fmax(0.0, shine - 1.0) + fmax(0.0, -shine)));
+            wr_hard_record_error(g, WR_HARD_FLOAT,
+                                 1e9 * (fmax(0.0, shine - 1.0) + fmax(0.0, -shine)));
         }
         if (!generic_highlight(g, s, err)) return false;
     }
@@ -1054,9 +1059,10 @@ static bool hc90(WrHardMeasurement *g, WrError *err)
     float c = 1.0f;
     for (int k = 0; k < 16; k++) {
         const WrVec3f n = { 0, 0, c };
-        wr_hard_off(g, WR_HARD_FLOAT, fmax(0.0, (double)wr_pow01_f(c, 1e5f) - 1.0));
+        wr_hard_record_error(g, WR_HARD_FLOAT, fmax(0.0, (double)wr_pow01_f(c, 1e5f) - 1.0));
         for (int set = 0; set < g->sets; set++)
-            wr_hard_off(g, WR_HARD_FLOAT, fmax(0.0, highlight(g, set, n, n, n, 1e5, true) - 1.0));
+            wr_hard_record_error(g, WR_HARD_FLOAT,
+                                 fmax(0.0, highlight(g, set, n, n, n, 1e5, true) - 1.0));
         c = nextafterf(c, 2.0f);
     }
     for (int k = 0; k < 200; k++) { /* n', l and v in one direction, each rounded differently */
@@ -1070,7 +1076,7 @@ static bool hc90(WrHardMeasurement *g, WrError *err)
                                 .gate = true };
         double part[2];
         if (!wr_hard_shine(&lit, part, err)) return false;
-        wr_hard_off(g, WR_HARD_DOUBLE, fmax(0.0, part[1] - 1.0));
+        wr_hard_record_error(g, WR_HARD_DOUBLE, fmax(0.0, part[1] - 1.0));
     }
     return true;
 }
@@ -1082,8 +1088,10 @@ static bool hc91(WrHardMeasurement *g, WrError *err)
     for (int k = 0; k < 12; k++) {
         const WrVec3f v = { 0.6f, 0, 0.8f }, back = { -0.6f, 0, -0.8f }, none = { 0, 0, 0 };
         for (int set = 0; set < g->sets; set++) {
-            wr_hard_off(g, WR_HARD_FLOAT, highlight(g, set, v, back, v, powers[k % 3], k % 2 != 0));
-            wr_hard_off(g, WR_HARD_FLOAT, highlight(g, set, v, none, v, powers[k % 3], true));
+            wr_hard_record_error(g, WR_HARD_FLOAT,
+                                 highlight(g, set, v, back, v, powers[k % 3], k % 2 != 0));
+            wr_hard_record_error(g, WR_HARD_FLOAT,
+                                 highlight(g, set, v, none, v, powers[k % 3], true));
         }
         const WrHardLit lit = { .perturbed = { 0, 0, 1 },
                                 .light = { 0, 0, -1 },
@@ -1093,7 +1101,7 @@ static bool hc91(WrHardMeasurement *g, WrError *err)
                                 .gate = k % 2 };
         double part[2];
         if (!wr_hard_shine(&lit, part, err)) return false;
-        wr_hard_off(g, WR_HARD_DOUBLE, part[1]);
+        wr_hard_record_error(g, WR_HARD_DOUBLE, part[1]);
     }
     return true;
 }
@@ -1133,10 +1141,12 @@ static bool hc92(WrHardMeasurement *g, WrError *err)
         good = wr_hard_shoot(g, &request, &many, err) &&
                (!refers || wr_hard_refer(g, &request, n, &refined, err));
         for (int i = 0; i < VALUES && good; i++) {
-            wr_hard_off(g, WR_HARD_FLOAT,
-                        mean_off((double)many.frame.rgba[i], (double)point.frame.rgba[i], n, 23));
+            wr_hard_record_error(
+                g, WR_HARD_FLOAT,
+                mean_off((double)many.frame.rgba[i], (double)point.frame.rgba[i], n, 23));
             if (refers)
-                wr_hard_off(g, WR_HARD_DOUBLE, mean_off(refined.rgba[i], single.rgba[i], n, 52));
+                wr_hard_record_error(g, WR_HARD_DOUBLE,
+                                     mean_off(refined.rgba[i], single.rgba[i], n, 52));
         }
         wr_hard_put_away(&many);
         wr_reference_fini(&refined);
@@ -1166,7 +1176,8 @@ static bool hc93(WrHardMeasurement *g, WrError *err)
                 .pu = { 1, 0, 0 }, .pv = { 0.3f, 1, 0 }, .n_unit = { 0, 0, 1 }, .n_len = 1
             };
             WrStrip *s = g->strip;
-            wr_hard_perturbed_f(g, set, WR_BUMP_BLINN, &at, (WrHardSlope){ 0, 0.1, -0.2 }, false);
+            wr_hard_bumped_normal_f(g, set, WR_BUMP_BLINN, &at, (WrHardSlope){ 0, 0.1, -0.2 },
+                                    false);
             s->suu[0] = (float)spreads[k % 8][0];
             s->suv[0] = (float)spreads[k % 8][1];
             s->svv[0] = (float)spreads[k % 8][2];

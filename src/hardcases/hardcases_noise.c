@@ -1,7 +1,7 @@
 /* Hard cases of single noises: lattice points, far and negative positions, hashes, faces of simplices. */
 #include "base/error.h"
 #include "hardcases/hardcases_internal.h"
-#include "noise/grid.h"
+#include "noise/texel_grid.h"
 #include "noise/noise.h"
 #include "noise/octaves.h"
 #include "render/textures/solid_texture_setup.h"

@@ -148,7 +148,7 @@ static bool hc79(WrHardMeasurement *g, WrError *err)
     WrRelief refused = { NULL, NULL };
     param(&values, "radius")->number[0] = 0.0;
     const bool made = make(&values, like, NULL, &refused, NULL);
-    wr_hard_off(g, WR_HARD_FLOAT, made ? 1.0 : 0.0);
+    wr_hard_record_error(g, WR_HARD_FLOAT, made ? 1.0 : 0.0);
     wr_relief_fini(&refused);
     wr_field_free(like);
     return good;
@@ -211,7 +211,7 @@ static bool hc81(WrHardMeasurement *g, WrError *err)
             wr_stroke_add(stroke, (WrSample){ .u = wr_hard_random(g),
                                               .v = wr_hard_random(g),
                                               .pressure = wr_hard_random(g) });
-        wr_stroke_free(stroke);
+        wr_stroke_finish(stroke);
         wr_history_push(history, document, "stroke", NULL, (uint64_t)k);
         if (k % EVERY == 0) hashes[k / EVERY] = wr_field_hash(wr_document_field(document));
     }
@@ -325,7 +325,7 @@ static bool look_for_cracks(WrHardMeasurement *g, const WrFrameRequest *request,
         wr_view_init(&view, scene, wr_shape_radius(&scene->shape), shot.frame.plan,
                      request->turn_deg, SIDE, SIDE, err) &&
         wr_dice_make(&made, scene, request->field, &view, scene->dials.dice, g->pool, err);
-    if (good) wr_hard_off(g, WR_HARD_FLOAT, cracks(made.triangles));
+    if (good) wr_hard_record_error(g, WR_HARD_FLOAT, cracks(made.triangles));
     wr_dice_fini(&made);
     wr_view_fini(&view);
     wr_hard_put_away(&shot);
@@ -355,14 +355,14 @@ static bool ends(WrHardMeasurement *g, const WrFrameRequest *request, bool endle
 {
     WrReference truth = { 0 };
     bool good = wr_hard_refer(g, request, 1, &truth, err);
-    if (good) wr_hard_off(g, WR_HARD_DOUBLE, (double)wr_hard_wild_reference(&truth));
+    if (good) wr_hard_record_error(g, WR_HARD_DOUBLE, (double)wr_hard_wild_reference(&truth));
     for (int way = 0; way < (endless ? 1 : WR_HARD_WAYS) && good; way++) {
         const WrHardPrecision precision = way == WR_HARD_WIDE ? WR_HARD_DOUBLE : WR_HARD_FLOAT;
         WrHardShot shot;
         good = wr_hard_shoot_by(g, request, (WrHardWay)way, &shot, err);
         if (!good) break;
         const char *why = shot.frame.plan->rows[WR_EFFECT_DISPLACED].reason;
-        wr_hard_off(g, precision, (double)wr_hard_wild(&shot));
+        wr_hard_record_error(g, precision, (double)wr_hard_wild(&shot));
         wr_hard_holds(g, precision, !endless || strstr(why, "as many as there may be"));
         wr_hard_put_away(&shot);
     }
@@ -431,7 +431,7 @@ static void draw(WrField *field, const WrBrush *brush, const WrSample *samples, 
 {
     WrStroke *stroke = wr_stroke_new(field, brush);
     for (int k = 0; k < count; k++) wr_stroke_add(stroke, samples[k]);
-    wr_stroke_free(stroke);
+    wr_stroke_finish(stroke);
 }
 
 static WrSample at(double u, double v, double pressure)
@@ -630,8 +630,8 @@ static void check_pass(WrHardMeasurement *g, const WrField *was, const WrField *
     wr_field_range(was, &low, &high);
     wr_field_range(is, &low_now, &high_now);
     wr_hard_near(g, WR_HARD_FLOAT, mean_of(is), mean_of(was));
-    wr_hard_off(g, WR_HARD_FLOAT, fmax(0.0, (double)high_now - (double)high));
-    wr_hard_off(g, WR_HARD_FLOAT, fmax(0.0, (double)low - (double)low_now));
+    wr_hard_record_error(g, WR_HARD_FLOAT, fmax(0.0, (double)high_now - (double)high));
+    wr_hard_record_error(g, WR_HARD_FLOAT, fmax(0.0, (double)low - (double)low_now));
 }
 
 static bool hc77(WrHardMeasurement *g, WrError *err)

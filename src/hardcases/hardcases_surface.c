@@ -33,10 +33,10 @@ static void angles(WrHardMeasurement *g, const WrShape *shape, double u, double 
 {
     WrSurfacePoint at;
     wr_surface_at(shape, 0, u, v, &at);
-    wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(at.n_unit, want));
+    wr_hard_record_error(g, WR_HARD_DOUBLE, v3_angle_rad(at.n_unit, want));
     for (int k = 0; k < g->sets; k++) {
         WrSurfacePointf atf = wr_hard_point(g, k, shape, 1.0, 0, (float)u, (float)v);
-        wr_hard_off(g, WR_HARD_FLOAT, v3_angle_rad(wr_hard_vec(atf.n_unit), want));
+        wr_hard_record_error(g, WR_HARD_FLOAT, v3_angle_rad(wr_hard_vec(atf.n_unit), want));
     }
 }
 
@@ -230,8 +230,9 @@ static void compare_edges(WrHardMeasurement *g, const WrPatches *set, const WrFi
                     const double h = on_patch(set, b / 4, to, field, &q, &other);
                     if (!(v3_len(v3_sub(p, q)) < 1e-9)) continue;
                     met++;
-                    wr_hard_off(g, WR_HARD_DOUBLE,
-                                f == h ? v3_len(v3_sub(slope, other)) / (1 + v3_len(slope)) : 1);
+                    wr_hard_record_error(g, WR_HARD_DOUBLE,
+                                         f == h ? v3_len(v3_sub(slope, other)) / (1 + v3_len(slope))
+                                                : 1);
                 }
     wr_hard_holds(g, WR_HARD_DOUBLE, met >= 4 * 9);
 }
@@ -529,12 +530,12 @@ static bool hc32(WrHardMeasurement *g, WrError *err)
         const WrVec3 want = by_gradient(&at, fu, fv);
         const WrSurfacePointf single = wr_hard_narrow(&at);
         const WrHardSlope slope = { 0, fu, fv };
-        wr_hard_off(g, WR_HARD_DOUBLE,
-                    v3_angle_rad(wr_hard_perturbed(WR_BUMP_BLINN, &at, slope), want));
+        wr_hard_record_error(g, WR_HARD_DOUBLE,
+                             v3_angle_rad(wr_hard_bumped_normal(WR_BUMP_BLINN, &at, slope), want));
         for (int set = 0; set < g->sets; set++)
-            wr_hard_off(
+            wr_hard_record_error(
                 g, WR_HARD_FLOAT,
-                v3_angle_rad(wr_hard_perturbed_f(g, set, WR_BUMP_BLINN, &single, slope, false),
+                v3_angle_rad(wr_hard_bumped_normal_f(g, set, WR_BUMP_BLINN, &single, slope, false),
                              want));
     }
     return true;
@@ -635,7 +636,7 @@ bool wr_hard_hc129(WrHardMeasurement *g, WrError *err)
         wr_hard_holds(g, WR_HARD_DOUBLE, made->report.near_uv == (apart > 0));
         wr_hard_holds(g, WR_HARD_DOUBLE, made->corner_count == 4 + (apart > 0));
         wr_triangles_free(made);
-        if (!wr_hard_mesh_tame(g, &mesh, err)) return false;
+        if (!wr_hard_check_mesh_finite(g, &mesh, err)) return false;
     }
     return true;
 }
@@ -652,7 +653,7 @@ bool wr_hard_hc130(WrHardMeasurement *g, WrError *err)
     wr_hard_units(g, &fold, frames);
     wr_hard_holds(g, WR_HARD_DOUBLE, frames[2].t.x == 1 && frames[2].sign == 1);
     wr_hard_holds(g, WR_HARD_DOUBLE, frames[5].t.x == -1 && frames[5].sign == 1);
-    return wr_hard_mesh_tame(g, &fold, err);
+    return wr_hard_check_mesh_finite(g, &fold, err);
 }
 
 /* A triangle with two coincident corners copies the frame of its neighbour's corners; a single degenerate one
@@ -675,7 +676,7 @@ bool wr_hard_hc131(WrHardMeasurement *g, WrError *err)
         wr_hard_holds(g, WR_HARD_DOUBLE, memcmp(&frames[3 + k], from, sizeof *from) == 0);
         wr_hard_holds(g, WR_HARD_DOUBLE, frames[6 + k].t.x == 1);
     }
-    return wr_hard_mesh_tame(g, &mesh, err);
+    return wr_hard_check_mesh_finite(g, &mesh, err);
 }
 
 /* Three and more triangles at one edge, with corners chosen at random from few: grouping terminates, and frames
@@ -709,7 +710,7 @@ bool wr_hard_hc132(WrHardMeasurement *g, WrError *err)
             wr_hard_holds(g, WR_HARD_DOUBLE, isfinite(v3_len(mean[i].t) + v3_len(mean[i].b)));
         WrTriangles *made = wr_hard_mesh_triangles_new(&mesh, NULL); /* all may have no area */
         wr_triangles_free(made);
-        if (made && round < 6 && !wr_hard_mesh_tame(g, &mesh, err)) return false;
+        if (made && round < 6 && !wr_hard_check_mesh_finite(g, &mesh, err)) return false;
     }
     return true;
 }
@@ -748,12 +749,13 @@ bool wr_hard_hc133(WrHardMeasurement *g, WrError *err)
             v3_unit((WrVec3){ (double)n[0], (double)n[1], (double)n[2] }, (WrVec3){ 0, 0, 0 });
         WrVec3 normal, gu, gv;
         const bool good = wr_triangle_gradients(p, uv, &normal, &gu, &gv);
-        wr_hard_off(g, WR_HARD_DOUBLE, good ? v3_angle_rad(normal, want) : INFINITY);
+        wr_hard_record_error(g, WR_HARD_DOUBLE, good ? v3_angle_rad(normal, want) : INFINITY);
         WrTriangles *made = wr_hard_mesh_triangles_new(&mesh, err);
         if (!made) return false;
         const float *got = made->corners[0].n;
-        wr_hard_off(g, WR_HARD_FLOAT,
-                    v3_angle_rad((WrVec3){ (double)got[0], (double)got[1], (double)got[2] }, want));
+        wr_hard_record_error(
+            g, WR_HARD_FLOAT,
+            v3_angle_rad((WrVec3){ (double)got[0], (double)got[1], (double)got[2] }, want));
         wr_triangles_free(made);
     }
     return true;
@@ -780,7 +782,7 @@ bool wr_hard_hc136(WrHardMeasurement *g, WrError *err)
             wr_hard_holds(g, WR_HARD_DOUBLE, n[0] == 0 && n[1] == 0 && fabsf(n[2]) == 1);
         }
         wr_triangles_free(made);
-        if (!wr_hard_mesh_tame(g, &mesh, err)) return false;
+        if (!wr_hard_check_mesh_finite(g, &mesh, err)) return false;
     }
     return true;
 }
@@ -838,7 +840,7 @@ bool wr_hard_hc134(WrHardMeasurement *g, WrError *err)
             WrReferenceHit hit = { .s = INFINITY };
             lost += !wr_reference_mesh_hit(&mesh, false, &ray, &hit);
         }
-        wr_hard_off(g, WR_HARD_DOUBLE, lost);
+        wr_hard_record_error(g, WR_HARD_DOUBLE, lost);
         wr_reference_mesh_fini(&mesh);
         WrScene *scene = wr_hard_above(triangles, 0);
         const WrFrameRequest request = {
@@ -903,7 +905,7 @@ static void angle_f(WrHardMeasurement *g, const WrShape *shape, float u, float v
 {
     for (int k = 0; k < g->sets; k++) {
         WrSurfacePointf at = wr_hard_point(g, k, shape, 1.0, 0, u, v);
-        wr_hard_off(g, WR_HARD_FLOAT, v3_angle_rad(wr_hard_vec(at.n_unit), want));
+        wr_hard_record_error(g, WR_HARD_FLOAT, v3_angle_rad(wr_hard_vec(at.n_unit), want));
     }
 }
 
@@ -911,7 +913,7 @@ static void angle_d(WrHardMeasurement *g, const WrShape *shape, double u, double
 {
     WrSurfacePoint at;
     wr_surface_at(shape, 0, u, v, &at);
-    wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(at.n_unit, want));
+    wr_hard_record_error(g, WR_HARD_DOUBLE, v3_angle_rad(at.n_unit, want));
 }
 
 static bool hc01(WrHardMeasurement *g, WrError *err)
@@ -945,12 +947,14 @@ static bool hc02(WrHardMeasurement *g, WrError *err)
             const WrVec3 n = { c * cl, s * cl, sl };
             const WrVec3 ideal =
                 v3_unit(v3_sub(n, v3_sub((WrVec3){ 0.1, 0, 0 }, v3_scale(n, 0.1 * n.x))), zero);
-            wr_hard_off(g, WR_HARD_DOUBLE,
-                        v3_angle_rad(wr_hard_perturbed(WR_BUMP_BLINN, &at, slope), ideal));
+            wr_hard_record_error(
+                g, WR_HARD_DOUBLE,
+                v3_angle_rad(wr_hard_bumped_normal(WR_BUMP_BLINN, &at, slope), ideal));
             for (int set = 0; set < g->sets && k <= 24; set++) {
                 WrSurfacePointf atf = wr_hard_point(g, set, &sphere, 1.0, 0, (float)u, (float)v);
-                WrVec3 perturbed = wr_hard_perturbed_f(g, set, WR_BUMP_BLINN, &atf, slope, false);
-                wr_hard_off(g, WR_HARD_FLOAT, v3_angle_rad(perturbed, ideal));
+                WrVec3 perturbed =
+                    wr_hard_bumped_normal_f(g, set, WR_BUMP_BLINN, &atf, slope, false);
+                wr_hard_record_error(g, WR_HARD_FLOAT, v3_angle_rad(perturbed, ideal));
             }
         }
     return true;
@@ -968,12 +972,12 @@ static bool hc03(WrHardMeasurement *g, WrError *err)
                                         wr_hard_between(g, -40, 40) };
             WrSurfacePoint at;
             wr_surface_at(&sphere, 0, (double)u, v, &at);
-            WrVec3 perturbed = wr_hard_perturbed((WrBumpMode)mode, &at, slope);
-            wr_hard_off(g, WR_HARD_DOUBLE, fabs(v3_len(perturbed) - 1.0));
+            WrVec3 perturbed = wr_hard_bumped_normal((WrBumpMode)mode, &at, slope);
+            wr_hard_record_error(g, WR_HARD_DOUBLE, fabs(v3_len(perturbed) - 1.0));
             for (int set = 0; set < g->sets; set++) {
                 WrSurfacePointf atf = wr_hard_point(g, set, &sphere, 1.0, 0, u, (float)v);
-                perturbed = wr_hard_perturbed_f(g, set, (WrBumpMode)mode, &atf, slope, false);
-                wr_hard_off(g, WR_HARD_FLOAT, fabs(v3_len(perturbed) - 1.0));
+                perturbed = wr_hard_bumped_normal_f(g, set, (WrBumpMode)mode, &atf, slope, false);
+                wr_hard_record_error(g, WR_HARD_FLOAT, fabs(v3_len(perturbed) - 1.0));
             }
         }
     return true;
@@ -1049,11 +1053,11 @@ static bool degenerate(WrHardMeasurement *g, const WrShape *shape, WrError *err)
         wr_surface_at(shape, 0, u, v, &at);
         wr_hard_holds(g, WR_HARD_DOUBLE, wr_hard_same(at.n_unit, (WrVec3){ 0, 0, 1 }));
         for (int mode = 0; mode < WR_BUMP_COUNT; mode++) {
-            WrVec3 perturbed = wr_hard_perturbed((WrBumpMode)mode, &at, slope);
+            WrVec3 perturbed = wr_hard_bumped_normal((WrBumpMode)mode, &at, slope);
             wr_hard_holds(g, WR_HARD_DOUBLE, fabs(v3_len(perturbed) - 1.0) < 1e-14);
             for (int set = 0; set < g->sets; set++) {
                 WrSurfacePointf atf = wr_hard_point(g, set, shape, 1.0, 0, (float)u, (float)v);
-                perturbed = wr_hard_perturbed_f(g, set, (WrBumpMode)mode, &atf, slope, false);
+                perturbed = wr_hard_bumped_normal_f(g, set, (WrBumpMode)mode, &atf, slope, false);
                 wr_hard_holds(g, WR_HARD_FLOAT, fabs(v3_len(perturbed) - 1.0) < 1e-6);
             }
         }
@@ -1152,7 +1156,7 @@ static bool same_pictures(WrHardMeasurement *g, WrError *err)
             if (!(off <= worst)) worst = off;
         }
         if (good) {
-            wr_hard_off(g, WR_HARD_FLOAT, worst < 5e-3 ? 0.0 : 1.0);
+            wr_hard_record_error(g, WR_HARD_FLOAT, worst < 5e-3 ? 0.0 : 1.0);
             wr_hard_put_away(&shot);
         }
         wr_scene_free(scene);
@@ -1179,16 +1183,16 @@ static bool hc09(WrHardMeasurement *g, WrError *err)
         for (int m = 0; m < 2; m++) {
             const WrBumpMode mode = m ? WR_BUMP_INVARIANT : WR_BUMP_BLINN;
             const double grow = m ? 1.0 : k;
-            const WrVec3 want = wr_hard_perturbed(mode, &at, (WrHardSlope){ 0, fu, fv });
+            const WrVec3 want = wr_hard_bumped_normal(mode, &at, (WrHardSlope){ 0, fu, fv });
             const WrVec3 got =
-                wr_hard_perturbed(mode, &far, (WrHardSlope){ 0, grow * fu, grow * fv });
-            wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(got, want));
+                wr_hard_bumped_normal(mode, &far, (WrHardSlope){ 0, grow * fu, grow * fv });
+            wr_hard_record_error(g, WR_HARD_DOUBLE, v3_angle_rad(got, want));
             for (int set = 0; set < g->sets; set++) {
                 WrSurfacePointf atf = wr_hard_point(g, set, &big, unit, 0, u, v);
                 const double s = m ? 1.0 : grow * unit;
-                WrVec3 perturbed = wr_hard_perturbed_f(g, set, mode, &atf,
-                                                       (WrHardSlope){ 0, s * fu, s * fv }, false);
-                wr_hard_off(g, WR_HARD_FLOAT, v3_angle_rad(perturbed, want));
+                WrVec3 perturbed = wr_hard_bumped_normal_f(
+                    g, set, mode, &atf, (WrHardSlope){ 0, s * fu, s * fv }, false);
+                wr_hard_record_error(g, WR_HARD_FLOAT, v3_angle_rad(perturbed, want));
             }
         }
     }
@@ -1198,7 +1202,7 @@ static bool hc09(WrHardMeasurement *g, WrError *err)
 /* Cosine of the angle between n and a tangent, in ulps of the precision. */
 static void upright(WrHardMeasurement *g, WrHardPrecision p, WrVec3 n, WrVec3 tangent, double ulp)
 {
-    wr_hard_off(g, p, fabs(v3_dot(n, tangent)) / v3_len(tangent) / ulp);
+    wr_hard_record_error(g, p, fabs(v3_dot(n, tangent)) / v3_len(tangent) / ulp);
 }
 
 static bool hc10(WrHardMeasurement *g, WrError *err)
@@ -1255,7 +1259,7 @@ static void leans(WrHardMeasurement *g, WrHardPrecision p, const WrSurfacePoint 
     const WrVec3 normal = true_cross(at->pu, at->pv);
     const double sine = v3_len(normal) / v3_len(at->pu) / v3_len(at->pv);
     if (!(sine > 16.0 * ulp)) return; /* in this precision the patch is a line */
-    wr_hard_off(g, p, v3_angle_rad(at->n_unit, normal) * sine / ulp);
+    wr_hard_record_error(g, p, v3_angle_rad(at->n_unit, normal) * sine / ulp);
 }
 
 static bool hc11(WrHardMeasurement *g, WrError *err)

@@ -48,19 +48,19 @@ static int focal_heights(const WrShape *shape, const WrSurfacePoint *at, double 
 static void check_focal(WrHardMeasurement *g, const WrSurfacePoint *at, WrHardSlope slope)
 {
     const bool level = slope.fu == 0.0 && slope.fv == 0.0;
-    const WrVec3 want = wr_hard_perturbed(WR_BUMP_EXACT, at, slope);
+    const WrVec3 want = wr_hard_bumped_normal(WR_BUMP_EXACT, at, slope);
     const WrSurfacePointf single = wr_hard_narrow(at);
     const WrVec3 n_f = wr_hard_vec(single.n_unit);
     if (level) wr_hard_holds(g, WR_HARD_DOUBLE, wr_hard_same(want, at->n_unit));
     wr_hard_holds(g, WR_HARD_DOUBLE, fabs(v3_len(want) - 1.0) < 1e-14);
     for (int set = 0; set < 2; set++) {
-        const WrVec3 got = wr_hard_perturbed_wide(g, set, WR_BUMP_EXACT, at, slope);
+        const WrVec3 got = wr_hard_bumped_normal_wide(g, set, WR_BUMP_EXACT, at, slope);
         wr_hard_holds(g, WR_HARD_DOUBLE,
                       level ? wr_hard_same(got, at->n_unit) : v3_angle_rad(got, want) < 1e-9);
     }
     const bool still = wr_hard_same(want, at->n_unit);
     for (int set = 0; set < g->all; set++) {
-        const WrVec3 got = wr_hard_perturbed_f(g, set, WR_BUMP_EXACT, &single, slope, false);
+        const WrVec3 got = wr_hard_bumped_normal_f(g, set, WR_BUMP_EXACT, &single, slope, false);
         wr_hard_holds(g, WR_HARD_FLOAT,
                       still ? wr_hard_same(got, n_f) : v3_angle_rad(got, want) < 1e-4);
     }
@@ -230,9 +230,9 @@ static bool closed_against_mesh(WrHardMeasurement *g, WrError *err)
             differ += !(fabsf(shots[0].frame.rgba[4 * i] - shots[1].frame.rgba[4 * i]) <= 2e-3f);
         for (int i = 0; i < W * H; i++)
             differ_double += !(fabs(references[0].rgba[4 * i] - references[1].rgba[4 * i]) <= 2e-3);
-        wr_hard_off(g, WR_HARD_FLOAT, (double)differ / (W * H));
-        wr_hard_off(g, WR_HARD_DOUBLE, (double)differ_double / (W * H));
-        wr_hard_off(g, WR_HARD_FLOAT, shots[0].frame.covered > 2000 ? 0.0 : 1.0);
+        wr_hard_record_error(g, WR_HARD_FLOAT, (double)differ / (W * H));
+        wr_hard_record_error(g, WR_HARD_DOUBLE, (double)differ_double / (W * H));
+        wr_hard_record_error(g, WR_HARD_FLOAT, shots[0].frame.covered > 2000 ? 0.0 : 1.0);
     }
     for (int k = 0; k < 2; k++) {
         wr_hard_put_away(&shots[k]);
@@ -268,8 +268,8 @@ static bool among_surfaces(WrHardMeasurement *g, WrError *err)
             good = wr_hard_shoot_by(g, &request, (WrHardWay)way, &shot, err);
             if (!good) break;
             const double part = (double)apart(&shot, &reference, 0.02) / (SIZE * SIZE);
-            wr_hard_off(g, way == WR_HARD_WIDE ? WR_HARD_DOUBLE : WR_HARD_FLOAT, part);
-            wr_hard_off(g, WR_HARD_FLOAT, shot.frame.covered > 200 ? 0.0 : 1.0);
+            wr_hard_record_error(g, way == WR_HARD_WIDE ? WR_HARD_DOUBLE : WR_HARD_FLOAT, part);
+            wr_hard_record_error(g, WR_HARD_FLOAT, shot.frame.covered > 200 ? 0.0 : 1.0);
             wr_hard_put_away(&shot);
         }
         wr_reference_fini(&reference);
@@ -506,8 +506,8 @@ static bool hc87(WrHardMeasurement *g, WrError *err)
                wr_scene_place(scene, (double)(tick % 36000) * 0.01, 1, &here, err);
         if (!good) break;
         const double *a = day.rotation, *b = here.rotation;
-        wr_hard_off(g, WR_HARD_DOUBLE,
-                    fabs(atan2(a[2] * b[0] - a[0] * b[2], a[0] * b[0] + a[2] * b[2])));
+        wr_hard_record_error(g, WR_HARD_DOUBLE,
+                             fabs(atan2(a[2] * b[0] - a[0] * b[2], a[0] * b[0] + a[2] * b[2])));
     }
     wr_scene_free(scene);
     return good;
@@ -617,7 +617,7 @@ WrScene *wr_hard_above(WrTriangles *triangles, double height)
     return scene;
 }
 
-bool wr_hard_mesh_tame(WrHardMeasurement *g, const WrHardMesh *mesh, WrError *err)
+bool wr_hard_check_mesh_finite(WrHardMeasurement *g, const WrHardMesh *mesh, WrError *err)
 {
     WrTriangles *triangles = wr_hard_mesh_triangles_new(mesh, err);
     if (!triangles) return false;
@@ -749,8 +749,9 @@ static bool measure_bend(WrHardMeasurement *g, const WrHardMesh *mesh, const Map
             if (shot.frame.rgba[4 * i + 3] != 1 || fabs(x) < 0.02) continue;
             const WrVec3 want = by_map(field, scene, &map[x >= 0], x, y);
             const float *n = normals + 3 * (size_t)i;
-            wr_hard_off(g, WR_HARD_FLOAT,
-                        v3_angle_rad((WrVec3){ (double)n[0], (double)n[1], (double)n[2] }, want));
+            wr_hard_record_error(
+                g, WR_HARD_FLOAT,
+                v3_angle_rad((WrVec3){ (double)n[0], (double)n[1], (double)n[2] }, want));
             *bent = fmax(*bent, hypot(want.x, want.y) / want.z);
         }
         wr_hard_put_away(&shot);
@@ -762,7 +763,7 @@ static bool measure_bend(WrHardMeasurement *g, const WrHardMesh *mesh, const Map
         if (!good || !probe.hit) continue;
         const WrVec3 want =
             by_map(field, scene, &map[probe.at.p.x >= 0], probe.at.p.x, probe.at.p.y);
-        wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(probe.perturbed, want));
+        wr_hard_record_error(g, WR_HARD_DOUBLE, v3_angle_rad(probe.perturbed, want));
     }
     wr_free(normals);
     wr_field_free(field);
@@ -809,7 +810,7 @@ bool wr_hard_hc28(WrHardMeasurement *g, WrError *err)
     if (!wr_hard_mikk(&thin, frames, err)) return false;
     wr_hard_units(g, &thin, frames);
     return bends_within(g, &still, flat, 0.1, 0, 1e-6, 1e-12, err) &&
-           wr_hard_mesh_tame(g, &thin, err);
+           wr_hard_check_mesh_finite(g, &thin, err);
 }
 
 /* Along u = |x| the table still bends normals; across it nothing changes. */
@@ -939,7 +940,7 @@ bool wr_hard_hc31(WrHardMeasurement *g, WrError *err)
                       mean[i].sign == side && fabs(mean[i].t.x - ACROSS * side) < 1e-12);
     }
     report(g, &mesh, 0, 1);
-    return wr_hard_mesh_tame(g, &mesh, err);
+    return wr_hard_check_mesh_finite(g, &mesh, err);
 }
 
 /* Bumps are raised on both sides: n' by the map, whose gradient does not depend on handedness. */
@@ -988,7 +989,7 @@ static bool against_reference(WrHardMeasurement *g, const WrFrameRequest *reques
             const double *q = reference.rgba + 4 * (size_t)i;
             differ += !(fabs((double)p[0] - q[0]) <= off && fabs((double)p[3] - q[3]) <= off);
         }
-        if (good) wr_hard_off(g, wr_hard_precision(way), (double)differ / count);
+        if (good) wr_hard_record_error(g, wr_hard_precision(way), (double)differ / count);
         wr_hard_put_away(&shot);
     }
     wr_reference_fini(&reference);
@@ -1119,8 +1120,9 @@ static bool down_to_the_feet(WrHardMeasurement *g, const WrFrameRequest *request
             const double tangent = (1 - 2 * (y + 0.5) / size) * tan(60 * WR_RAD_PER_DEG);
             const size_t at = 4 * ((size_t)y * (size_t)size + (size_t)size / 2) + 3;
             if (WR_RAD_PER_DEG * 45 - atan(tangent) < far + 0.02) continue;
-            if (!(shot.frame.rgba[at] == 1.0f)) wr_hard_off(g, wr_hard_precision(way), 1.0);
-            if (!(reference.rgba[at] == 1.0)) wr_hard_off(g, WR_HARD_DOUBLE, 1.0);
+            if (!(shot.frame.rgba[at] == 1.0f))
+                wr_hard_record_error(g, wr_hard_precision(way), 1.0);
+            if (!(reference.rgba[at] == 1.0)) wr_hard_record_error(g, WR_HARD_DOUBLE, 1.0);
         }
         wr_hard_put_away(&shot);
     }
@@ -1209,9 +1211,12 @@ bool wr_hard_hc170(WrHardMeasurement *g, WrError *err)
             };
             good = good && wr_hard_shoot_by(g, &request, (WrHardWay)way, &flat, err);
             if (good)
-                wr_hard_off(g, wr_hard_precision(way),
-                            (double)wr_hard_differ(&far, &flat, 0.002) / (4 * SIZE * SIZE));
-            if (good) wr_hard_off(g, wr_hard_precision(way), flat.frame.covered > 300 ? 0.0 : 1.0);
+                wr_hard_record_error(g, wr_hard_precision(way),
+                                     (double)wr_hard_differ(&far, &flat, 0.002) /
+                                         (4 * SIZE * SIZE));
+            if (good)
+                wr_hard_record_error(g, wr_hard_precision(way),
+                                     flat.frame.covered > 300 ? 0.0 : 1.0);
             wr_hard_put_away(&far);
             wr_hard_put_away(&flat);
         }
@@ -1313,9 +1318,10 @@ bool wr_hard_hc166(WrHardMeasurement *g, WrError *err)
             const WrVec3 h = v3_add(wr_hard_vec(lf), wr_hard_vec(vf));
             const double len = v3_len(h), got = (double)strip->sr[0];
             const double c = len > 1e-12 ? fmax(0.0, h.z / len) : 0.0;
-            wr_hard_off(g, WR_HARD_FLOAT, got >= 0.0 && got <= 1.0 ? 0.0 : 2.0);
-            wr_hard_off(g, WR_HARD_FLOAT,
-                        fabs(got - pow(c, s)) / (s * (double)FLT_EPSILON / fmax(len, 1e-12)));
+            wr_hard_record_error(g, WR_HARD_FLOAT, got >= 0.0 && got <= 1.0 ? 0.0 : 2.0);
+            wr_hard_record_error(g, WR_HARD_FLOAT,
+                                 fabs(got - pow(c, s)) /
+                                     (s * (double)FLT_EPSILON / fmax(len, 1e-12)));
         }
         WrStripd *strip = g->wide_strip;
         const WrKernLightd lamp = { .where = { l.x, l.y, l.z }, .rgb = { 1, 1, 1 } };
@@ -1328,7 +1334,8 @@ bool wr_hard_hc166(WrHardMeasurement *g, WrError *err)
         g->wide[1]->specular(&lamp, 1.0, s, false, strip);
         const WrVec3 h = v3_add(l, v);
         const double len = v3_len(h), c = fmax(0.0, h.z / len);
-        wr_hard_off(g, WR_HARD_DOUBLE, fabs(strip->sr[0] - pow(c, s)) / (s * DBL_EPSILON / len));
+        wr_hard_record_error(g, WR_HARD_DOUBLE,
+                             fabs(strip->sr[0] - pow(c, s)) / (s * DBL_EPSILON / len));
     }
     return true;
 }

@@ -516,8 +516,8 @@ bool wr_decoder_read(WrDecoder *decoder, int part, int y, int rows, int channels
                    reason, *reason ? ")" : "");
 }
 
-bool wr_decoder_digest(WrDecoder *decoder, int part, int y, int rows, int channels, WrHash *digest,
-                       bool *memory, WrError *err)
+bool wr_decoder_hash_rows(WrDecoder *decoder, int part, int y, int rows, int channels,
+                          WrHash *digest, bool *memory, WrError *err)
 {
     size_t row = (size_t)wr_decoder_part(decoder, part).width * (size_t)channels;
     int step = rows < WR_IMAGE_STRIP ? rows : WR_IMAGE_STRIP;

@@ -44,5 +44,5 @@ static inline void wr_digest_strip(WrHash *digest, const float *values, size_t c
     *digest = wr_hash_bytes(values, count * sizeof *values, *digest);
 }
 /* Chains rows [y, y + rows) into *digest, y a multiple of WR_IMAGE_STRIP. Uses memory for one strip. */
-bool wr_decoder_digest(WrDecoder *decoder, int part, int y, int rows, int channels, WrHash *digest,
-                       bool *memory, WrError *err);
+bool wr_decoder_hash_rows(WrDecoder *decoder, int part, int y, int rows, int channels,
+                          WrHash *digest, bool *memory, WrError *err);

@@ -98,7 +98,7 @@ static bool shape_inside(const Files *files, const WrFontRequest *ask, WrText *b
         parts[i] = (WrFontFile){ at, (size_t)files->lengths[i] };
         at += files->lengths[i];
     }
-    bool good = wr_font_make(parts, files->count, ask, block, err);
+    bool good = wr_font_shape_text(parts, files->count, ask, block, err);
     wr_map_end(map, (size_t)files->total);
     if (!good) wr_error_prefix(err, "%s: ", files->name);
     return good;

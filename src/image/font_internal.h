@@ -54,8 +54,8 @@ bool wr_font_unpack(char *block, size_t length, size_t text_length, WrFontText *
 /* Reads the fonts, 1..WR_FONT_FILES, the first of which is the main one, and shapes the text, in this
  * process.
  * Errors   one sentence that does not name the file */
-bool wr_font_make(const WrFontFile *files, int count, const WrFontRequest *ask, WrText *block,
-                  WrError *err);
+bool wr_font_shape_text(const WrFontFile *files, int count, const WrFontRequest *ask, WrText *block,
+                        WrError *err);
 
 /* Unpacks a gzip file, up to `limit` bytes. *out is owned by the caller (wr_free). */
 bool wr_font_gunzip(const uint8_t *bytes, size_t length, size_t limit, uint8_t **out, size_t *count,

@@ -438,7 +438,7 @@ bool wr_font_gunzip(const uint8_t *bytes, size_t length, size_t limit, uint8_t *
     return wr_fail(err, "its gzip packing is damaged or cut off");
 }
 
-/* ---- lines ---- */
+/* ---- lines of a text ---- */
 
 /* Splits a text into lines, and lines into parts by direction (Unicode's bidirectional algorithm, by FriBidi).
    libraqm would do this and shape too, but through FreeType's scaled font; here HarfBuzz shapes in font units
@@ -677,8 +677,8 @@ static bool check_placed(const WrFontMaking *making, WrError *err)
 
 static bool font_parts(WrFontFace *faces, int count, WrError *err);
 
-bool wr_font_make(const WrFontFile *files, int count, const WrFontRequest *ask, WrText *block,
-                  WrError *err)
+bool wr_font_shape_text(const WrFontFile *files, int count, const WrFontRequest *ask, WrText *block,
+                        WrError *err)
 {
     WrFontMaking making = { 0 };
     Opened all = { .count = 0 };

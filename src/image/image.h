@@ -46,7 +46,8 @@ typedef struct WrImageLabel {
     bool edged;    /* the edges of the pattern are known: the next four are valid */
     bool open;     /* the image is not one cell: an atlas, a map over a whole surface */
     bool border;   /* the last column and row repeat the first ones */
-    int edge[2]; /* u, v: -1 the height steps, 0 the slope breaks, 1, 2 continuous (field/seam.h) */
+    int edge
+        [2]; /* u, v: -1 the height steps, 0 the slope breaks, 1, 2 continuous (field/seam_check.h) */
     int copies[2];    /* of the cell, side by side */
     char refused[96]; /* "wrinkle:range=nan,1": an invalid value, ignored; "" */
 } WrImageLabel;

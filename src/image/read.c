@@ -283,7 +283,7 @@ bool wr_image_file_digest(WrImageFile *file, int part, int y, int rows, WrHash *
 {
     int channels = wr_image_file_part(file, part).channels;
     if (file->reader) return wr_reader_digest(file->reader, part, y, rows, channels, digest, err);
-    return wr_decoder_digest(file->decoder, part, y, rows, channels, digest, NULL, err);
+    return wr_decoder_hash_rows(file->decoder, part, y, rows, channels, digest, NULL, err);
 }
 
 /* for messages */

@@ -47,7 +47,7 @@ const char *wr_reader_attribute(WrReader *reader, int part, const char *name);
 bool wr_reader_read(WrReader *reader, int part, int y, int rows, int channels, float *out,
                     WrError *err);
 
-/* Chains rows of a part into *digest, like wr_decoder_digest; no pixels are transferred. */
+/* Chains rows of a part into *digest, like wr_decoder_hash_rows; no pixels are transferred. */
 bool wr_reader_digest(WrReader *reader, int part, int y, int rows, int channels, WrHash *digest,
                       WrError *err);
 

@@ -109,8 +109,8 @@ static void digest_rows(const Serving *serving, const WrWireDigest *want)
     WrError err = { "" };
     bool memory = false;
     WrHash digest = want->digest;
-    if (wr_decoder_digest(serving->decoder, want->part, want->y, want->rows, want->channels,
-                          &digest, &memory, &err))
+    if (wr_decoder_hash_rows(serving->decoder, want->part, want->y, want->rows, want->channels,
+                             &digest, &memory, &err))
         answer(WR_WIRE_DIGEST, &digest, sizeof digest);
     else answer_failure(memory, &err);
 }
@@ -180,7 +180,7 @@ static bool make_font(const char *bytes, size_t length, const char *want, size_t
         bytes += files[i].length;
         length -= files[i].length;
     }
-    return wr_font_make(files, order.file_count, &ask, block, err);
+    return wr_font_shape_text(files, order.file_count, &ask, block, err);
 }
 
 static char *receive_ask(uint32_t *length)

@@ -33,7 +33,7 @@ static bool verify_texts(WrImageFile *file, int index, const WrImageOut *part, W
         const char *want = part->attributes[i].text;
         const char *have = wr_image_file_attribute(file, index, part->attributes[i].name);
         if (strcmp(have ? have : "", want) != 0)
-            return wr_fail(err, "%.80s of part %d is not what was written",
+            return wr_fail(err, "%.80s of part %d differs from the picture that was written",
                            part->attributes[i].name, index + 1);
     }
     return true;

@@ -1,7 +1,7 @@
 /* noise_internal.h - internals shared by the files of noise.
    Private to this module. */
 #pragma once
-#include "noise/grid.h"
+#include "noise/texel_grid.h"
 
 #include <stdbool.h>
 

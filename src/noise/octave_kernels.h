@@ -1,4 +1,4 @@
-/* octave_kernels.h - inner loops of octaves on square cells (grid.c), compiled once per
+/* octave_kernels.h - inner loops of octaves on square cells (texel_grid.c), compiled once per
    instruction set.
 
    All sets give the same bits: only + - * / floor, comparisons and conversions, without contraction.

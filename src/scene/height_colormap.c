@@ -132,8 +132,8 @@ static void fill_hollows(const WrHeightColormap *colouring, const WrField *heigh
     }
 }
 
-WrImage *wr_height_colormap_form(const WrHeightColormap *colouring, const WrPatches *set,
-                                 double height, int w, int h, WrError *err)
+WrImage *wr_height_colormap_bake_terrain(const WrHeightColormap *colouring, const WrPatches *set,
+                                         double height, int w, int h, WrError *err)
 {
     WrImage *image = picture_of(w, h, err);
     WrField *heights = NULL, *means = NULL;

@@ -48,8 +48,8 @@ void wr_height_colormap_default(WrHeightColormap *out);
 void wr_height_colormap_at(const WrHeightColormap *colouring, double height, double slope_deg,
                            double rgb[3]);
 /* The picture for a terrain's patches, covering it once; height: of value 1. */
-WrImage *wr_height_colormap_form(const WrHeightColormap *colouring, const WrPatches *set,
-                                 double height, int w, int h, WrError *err);
+WrImage *wr_height_colormap_bake_terrain(const WrHeightColormap *colouring, const WrPatches *set,
+                                         double height, int w, int h, WrError *err);
 /* The picture for a table, texel by texel; its slopes are central differences for the table on a square
  * of one unit. height: of value 1. */
 WrImage *wr_height_colormap_table(const WrHeightColormap *colouring, const WrField *field,

@@ -222,9 +222,10 @@ bool wr_scene_place_sized(const WrScene *scene, double radius, double turn_deg, 
     placed.radius = radius;
     place_object(scene, turn_deg, &placed);
     const bool one = scene->other_count == 0;
-    placed.ball = one ? v3_len(scene->at) + scene->size * radius : wr_scene_ball(scene, false);
-    placed.reach =
-        one ? placed.ball + scene->size * scene_stands_out(scene) : wr_scene_ball(scene, true);
+    placed.ball =
+        one ? v3_len(scene->at) + scene->size * radius : wr_scene_bounding_radius(scene, false);
+    placed.reach = one ? placed.ball + scene->size * scene_stands_out(scene)
+                       : wr_scene_bounding_radius(scene, true);
     place_camera(&scene->camera, aspect, &placed);
     *out = placed;
     return true;
@@ -393,7 +394,7 @@ static bool wears(const WrScene *object, const char *layer)
            (object->form_layer && strcmp(object->form_layer, layer) == 0);
 }
 
-bool wr_scene_wears(const WrScene *scene, const char *layer)
+bool wr_scene_uses_layer(const WrScene *scene, const char *layer)
 {
     for (int i = 0; i < wr_scene_object_count(scene); i++) {
         const WrScene *object = wr_scene_object(scene, i);
@@ -499,7 +500,7 @@ static double scene_stands_out(const WrScene *object)
 
 /* The radius of a sphere about the world's origin; it does not change with the turntable, so the camera stands
    still. */
-double wr_scene_ball(const WrScene *scene, bool displaced)
+double wr_scene_bounding_radius(const WrScene *scene, bool displaced)
 {
     double ball = 0;
     for (int i = 0; i < wr_scene_object_count(scene); i++) {

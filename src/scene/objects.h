@@ -33,7 +33,7 @@ WrScene *wr_scene_hide(const WrScene *scene, int i, bool hidden);
 /* Replaces object i, which is not active, of a modifiable scene; owns `object`. */
 void wr_scene_set_object(WrScene *scene, int i, WrScene *object);
 /* True if a visible object uses the layer, as its table or as its form. */
-bool wr_scene_wears(const WrScene *scene, const char *layer);
+bool wr_scene_uses_layer(const WrScene *scene, const char *layer);
 /* Objects that use a layer of that name, as table or form, use the other name from now on; NULL if none
  * does. */
 WrScene *wr_scene_rename_layer(const WrScene *scene, const char *from, const char *to);
@@ -48,7 +48,7 @@ WrScene *wr_scene_remove_object(const WrScene *scene, int i);
 bool wr_scene_fit_includes(const WrScene *scene, int i);
 /* Radius of the sphere about the world's origin that contains those objects for every turn of the
    turntable. displaced: including displacements; else only their bases. */
-double wr_scene_ball(const WrScene *scene, bool displaced);
+double wr_scene_bounding_radius(const WrScene *scene, bool displaced);
 /* Fixes a fitting or orthographic camera at the position that the camera of `like` has in a picture
    `aspect` times as wide as high, with the same visible region; any other is unchanged. `like` may be
    the scene itself; if its camera is invalid nothing changes. */

@@ -208,7 +208,7 @@ WR_ROWS_END(wr_tone_names, WR_TONE_KINDS);
 #define NO_KNEE 3.0e38f /* never reached by light */
 
 /* k = 1/2; y = exposure in powers of two times light. */
-WrToneCurve wr_tone_curve(const WrTone *tone)
+WrToneCurve wr_tone_curve_params(const WrTone *tone)
 {
     return (WrToneCurve){ .gain = (float)exp2(tone->exposure),
                           .knee = tone->kind == WR_TONE_SOFT ? 0.5f : NO_KNEE,
@@ -217,7 +217,7 @@ WrToneCurve wr_tone_curve(const WrTone *tone)
 
 float wr_tone_at(const WrTone *tone, float light)
 {
-    const WrToneCurve curve = wr_tone_curve(tone);
+    const WrToneCurve curve = wr_tone_curve_params(tone);
     const float y = curve.gain * light, left = 1.0f - curve.knee;
     return y > curve.knee ? 1.0f - left * left / (y + 1.0f - 2.0f * curve.knee) : y;
 }

@@ -25,7 +25,7 @@ typedef struct WrToneCurve {
     float gain, knee;
     bool plain; /* gain 1 and no knee: codes are those of the light itself */
 } WrToneCurve;
-WrToneCurve wr_tone_curve(const WrTone *tone);
+WrToneCurve wr_tone_curve_params(const WrTone *tone);
 /* One number of light. */
 float wr_tone_at(const WrTone *tone, float light);
 

@@ -40,7 +40,7 @@ static void all_objects_take_a_setting(void **state)
                              { WR_DIAL_SCHEME, WR_DIAL_NORMAL },
                              { WR_SCHEME_BSPLINE, WR_BUMP_EXACT } };
     WrScene *a = wr_setting_apply(&slopes, scene), *b = wr_setting_apply(&both, scene);
-    WrScene *best = wr_ladder_best_but(scene, WR_AXIS_ANTIALIASING);
+    WrScene *best = wr_ladder_best_except_axis(scene, WR_AXIS_ANTIALIASING);
     for (int i = 0; i < 3; i++) {
         const WrScene *was = wr_scene_object(scene, i);
         const bool model = was->bump == WR_BUMP_INVARIANT;

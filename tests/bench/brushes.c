@@ -214,7 +214,7 @@ static double time_engine(Race *race)
     WrBrush brush = engine_brush(race->preset, race->pace.radius);
     WrStroke *stroke = wr_stroke_new(race->engine_field, &brush);
     for (int k = 0; k < race->pace.events; k++) wr_stroke_add(stroke, race->events[k]);
-    wr_stroke_free(stroke);
+    wr_stroke_finish(stroke);
     return wr_clock_seconds() - start;
 }
 

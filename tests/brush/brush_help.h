@@ -78,7 +78,7 @@ static inline void run_on(const WrBrushGround *ground, const WrBrush *brush,
 {
     WrStroke *stroke = wr_stroke_new_on(ground, brush);
     for (int k = 0; k < count; k++) wr_stroke_add(stroke, samples[k]);
-    wr_stroke_free(stroke);
+    wr_stroke_finish(stroke);
 }
 
 static inline void run_stroke(WrField *field, const WrBrush *brush, const WrSample *samples,

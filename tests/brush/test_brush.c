@@ -52,7 +52,7 @@ static void run_stroke(WrField *field, const WrBrush *brush, const WrSample *sam
 {
     WrStroke *stroke = wr_stroke_new(field, brush);
     for (int k = 0; k < count; k++) wr_stroke_add(stroke, samples[k]);
-    wr_stroke_free(stroke);
+    wr_stroke_finish(stroke);
 }
 
 /* The model: in double, over all images, without spans, tiles or vectors. */
@@ -410,8 +410,8 @@ static void what_comes_out_depends_on_the_samples_alone(void **state)
         u += 0.01 * (test_random(&random) - 0.48);
         v += 0.01 * (test_random(&random) - 0.5);
     }
-    wr_stroke_free(sa);
-    wr_stroke_free(sb);
+    wr_stroke_finish(sa);
+    wr_stroke_finish(sb);
     assert_true(same_heights(a, b));
     wr_field_free(a);
     wr_field_free(b);

@@ -351,7 +351,7 @@ static void hc74_wild_samples_leave_finite_heights_in_every_mode(void **state)
             for (int k = 0; k < 36; k++)
                 wr_stroke_add(stroke, (WrSample){ k % 5 ? 0.02 * k : wild[k / 6], 0.3 + 0.01 * k,
                                                   wild[k % 6], wild[k / 6], 1, wild[k / 6] });
-            wr_stroke_free(stroke);
+            wr_stroke_finish(stroke);
             float low, high;
             wr_field_range(field, &low, &high);
             assert_true(low > -100 && high < 100);
@@ -402,7 +402,7 @@ static void hc76_very_many_dabs_add_up_and_stay_finite(void **state)
     for (int k = 0; way <= (count - 0.5) * 100; k++, way += 25)
         wr_stroke_push(stroke,
                        at(k % 4 == 1 || k % 4 == 2 ? 25.0 / 64 : 0, k % 4 > 1 ? 25.0 / 64 : 0, 1));
-    wr_stroke_free(stroke);
+    wr_stroke_finish(stroke);
     float low, high;
     wr_field_range(field, &low, &high);
     double expected = 0.5 * count * (double)0.001f;
@@ -411,7 +411,7 @@ static void hc76_very_many_dabs_add_up_and_stay_finite(void **state)
     brush.strength = 1e38;
     stroke = wr_stroke_new(field, &brush);
     for (int k = 0; k < 100000; k++) wr_stroke_push(stroke, at(k % 2 ? 0.4 : 0, 0, 1));
-    wr_stroke_free(stroke);
+    wr_stroke_finish(stroke);
     wr_field_range(field, &low, &high);
     assert_true(high == FLT_MAX && low == FLT_MAX);
     wr_field_free(field);

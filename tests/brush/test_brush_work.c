@@ -46,7 +46,7 @@ static void the_bits_do_not_depend_on_how_the_work_is_cut(void **state)
             while (wr_stroke_work(stroke, 0)) {
             }
             assert_false(wr_stroke_work(stroke, 1));
-            wr_stroke_free(stroke);
+            wr_stroke_finish(stroke);
             assert_true(same_heights(whole, cut));
             wr_field_free(whole);
             wr_field_free(cut);

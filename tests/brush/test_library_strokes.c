@@ -39,7 +39,7 @@ static WrHash paint(const WrPreset *preset, const WrField *ground, WrPool *pool,
                                           .tilt_y = 0.1,
                                           .seconds = 0.5 * t });
     }
-    wr_stroke_free(stroke);
+    wr_stroke_finish(stroke);
     WrHash hash = wr_field_hash(on.field);
     if (painted) {
         *painted = on.field;

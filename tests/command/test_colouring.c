@@ -76,7 +76,7 @@ static void a_plane_has_the_colours_of_its_heights(void **state)
     WrTriangles *made =
         wr_patches_new((const float(*)[48])points, columns * rows, WR_PATCH_SPLIT, NULL);
     const WrHeightColormap own = ramp();
-    WrImage *image = wr_height_colormap_form(&own, made->patches, rise, 53, 19, NULL);
+    WrImage *image = wr_height_colormap_bake_terrain(&own, made->patches, rise, 53, 19, NULL);
     for (int k = 0; k < 53 * 19; k++) {
         const double u = (k % 53 + 0.5) / 53;
         if (u < 0.12 || u > 0.88 || fabs(u - 0.35) < 0.01) continue;

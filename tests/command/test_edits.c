@@ -131,7 +131,7 @@ static void a_stroke_drawn_live_keeps_to_the_selection_and_marks_the_layer(void 
     assert_true(wr_session_stroke_begin(live, "stroke radius=15 strength=0.5", &err));
     for (int i = 0; i < 3; i++) assert_true(wr_session_stroke_add(live, &samples[i], 1, &err));
     assert_false(wr_session_run(live, "undo", &err));
-    assert_false(wr_session_go(live, 0, &err));
+    assert_false(wr_session_history_go(live, 0, &err));
     assert_true(wr_session_stroke_end(live, &err));
     assert_true(wr_hash_equal(wr_session_hash(live), wr_session_hash(line)));
     const WrLayer *layer = &doc(live)->layers[1];

@@ -66,7 +66,7 @@ static void hc81_a_thousand_strokes_are_undone_and_redone_bit_for_bit(void **sta
         }
     }
     WrError err;
-    assert_true(wr_session_go(s, first, &err) && has_hash(s, hashes[0]));
+    assert_true(wr_session_history_go(s, first, &err) && has_hash(s, hashes[0]));
     wr_session_free(s);
 }
 
@@ -91,8 +91,8 @@ static void undo_redo_and_their_limits(void **state)
     must_fail(s, "redo 3", "3 steps: 2 can be redone");
     must_run(s, "redo");
     assert_true(doc(s)->scene->shape.kind == WR_SURFACE_torus);
-    assert_false(wr_session_go(s, 4, &err));
-    assert_false(wr_session_go(s, -1, &err));
+    assert_false(wr_session_history_go(s, 4, &err));
+    assert_false(wr_session_history_go(s, -1, &err));
     must_run(s, "fill 3"); /* the branch of fill 2 is dropped */
     assert_int_equal(wr_session_history_count(s), 3);
     assert_string_equal(wr_session_history_line(s, 2), "fill 3");
@@ -174,10 +174,10 @@ static void the_oldest_states_go_when_the_budget_is_full(void **state)
     assert_true(wr_session_history_bytes(s) <= 1000000);
     assert_int_equal(wr_session_history_count(s), 31); /* their lines stay */
     assert_string_equal(wr_session_history_line(s, 0), "table 512x512");
-    assert_false(wr_session_go(s, oldest - 1, &err));
+    assert_false(wr_session_history_go(s, oldest - 1, &err));
     assert_non_null(strstr(err.text, "given up"));
     must_fail(s, "undo 31", "can be undone");
-    assert_true(wr_session_go(s, oldest, &err));
+    assert_true(wr_session_history_go(s, oldest, &err));
     must_fail(s, "undo", "0 can be undone; older states were given up");
     /* undone states count too: the last of them is dropped first, never the present one */
     must_run(s, "history budget=0");

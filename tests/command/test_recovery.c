@@ -379,7 +379,7 @@ static void undoing_past_a_fresh_start_of_the_journal_can_be_recovered(void **st
     assert_true(wr_session_run(session, "dab 0.6,0.6", NULL));
     assert_true(wr_session_run(session, "undo 3", NULL));
     assert_true(wr_session_run(session, "redo 1", NULL));
-    assert_true(wr_session_go(session, 2, NULL));
+    assert_true(wr_session_history_go(session, 2, NULL));
     WrHash want = wr_session_hash(session), hash;
     wr_session_journal_leave(session);
     wr_session_free(session);

@@ -5,7 +5,7 @@
 #include "session_help.h"
 
 #include "export/check.h"
-#include "field/seam.h"
+#include "field/seam_check.h"
 #include "generate/generator.h"
 
 /* Cells with several features in each direction, so that no single one is only at the edge. */

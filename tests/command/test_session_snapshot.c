@@ -88,7 +88,7 @@ static void nothing_runs_in_a_still(void **state)
     WrSession *session = some_session(), *still = wr_session_snapshot(session);
     must_fail(still, "fill 0.37", "not while");
     must_fail(still, "undo", "not while");
-    assert_false(wr_session_go(still, 0, &err));
+    assert_false(wr_session_history_go(still, 0, &err));
     assert_false(wr_session_stroke_begin(still, "stroke radius=7", &err));
     assert_false(wr_session_save(still, "still.exr", &err));
     wr_session_free(still);

@@ -434,7 +434,7 @@ static void the_ground_lies_under_what_is_shown(void **state)
     assert_near(ground_of(session)->size, 6, 1e-9);
     assert_true(wr_shape_endless(&ground_of(session)->shape));
     assert_int_equal(scene_of(session)->chosen, 0);
-    const double ball = wr_scene_ball(scene_of(session), false);
+    const double ball = wr_scene_bounding_radius(scene_of(session), false);
     assert_near(ball, 0.5, 1e-9); /* a fitted camera ignores it */
     must_run(session, "object add box at=2,-0.3,0 size=2 turn=0,0,0");
     must_run(session, "surface cube s=0.5");
@@ -605,7 +605,7 @@ static void stretched_places_are_each_others_inverse(void **state)
     const double product = v3_dot(way, v3_sub(world, place.position)) / place.size;
     assert_near(v3_dot(wr_place_dual_back(&place, way), v3_sub(p, place.centre)), product, 1e-12);
     assert_true(place.cofactor.x > 0 && place.cofactor.y < 0 && place.cofactor.z > 0);
-    assert_near(wr_scene_ball(scene_of(session), false),
+    assert_near(wr_scene_bounding_radius(scene_of(session), false),
                 2 * wr_shape_radius(&scene_of(session)->shape), 1e-12);
     wr_session_free(session);
 }

@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "field/field.h"
-#include "field/seam.h"
+#include "field/seam_check.h"
 
 #define TURN 6.283185307179586
 

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "field/analytic.h"
-#include "field/seam.h"
+#include "field/seam_check.h"
 #include "field/field.h"
 
 #define W 37

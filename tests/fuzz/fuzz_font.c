@@ -33,7 +33,7 @@ static void shape_varied(const uint8_t *bytes, size_t length, const char *axes)
     WrText block = { 0 };
     WrFontRequest ask = { .text = "A \xd8\xa8\xd9\x84\xd8\xa7 fi\n\xe0\xa4\x95\xe0\xa4\xbf",
                           .axes = axes };
-    if (!wr_font_make(files, length % 3 == 0 ? 1 : 2, &ask, &block, &err)) {
+    if (!wr_font_shape_text(files, length % 3 == 0 ? 1 : 2, &ask, &block, &err)) {
         MUST(err.text[0] != '\0');
         wr_text_fini(&block);
         return;

@@ -100,7 +100,7 @@ static void check_steps(int width, int height, WrEnds u, WrEnds v)
                     f[(size_t)y * w + (size_t)x] - f[(size_t)j * w + (size_t)i];
             }
         plane.z = g[a];
-        assert_true(wr_plane_turned_slope(&plane, a, WR_SLOPES_STEP, NULL));
+        assert_true(wr_plane_slope_adjoint(&plane, a, WR_SLOPES_STEP, NULL));
     }
     for (size_t k = 0; k < count; k++) g[0][k] += g[1][k];
     for (size_t k = 0; k < count; k++) mean += f[k] / (double)count;

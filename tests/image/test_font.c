@@ -464,7 +464,7 @@ static void answers_are_checked_number_by_number(void **state)
     int refusals = 0, taken = 0;
     assert_true(wr_file_read(SANS, 1 << 24, &bytes, &length, &err));
     const WrFontFile file = { (const uint8_t *)bytes, length };
-    assert_true(wr_font_make(&file, 1, &ask, &block, &err));
+    assert_true(wr_font_shape_text(&file, 1, &ask, &block, &err));
     for (int i = 0; i < 4000; i++) {
         char *copy = wr_alloc(block.length, 1);
         memcpy(copy, block.data, block.length);

@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "base/pool.h"
-#include "noise/grid.h"
+#include "noise/texel_grid.h"
 
 #define MAX_MOST (640 * 300)
 static float f[MAX_MOST], fu[MAX_MOST], fv[MAX_MOST], again[MAX_MOST], again_u[MAX_MOST],
@@ -17,7 +17,7 @@ static WrOctavesPlan plan_of(const WrOctaves *octaves)
     return plan;
 }
 
-/* The bounds stated in grid.h. */
+/* The bounds stated in texel_grid.h. */
 static void tolerances(const WrOctavesPlan *plan, double *height, double slope[2])
 {
     double amplitudes = 0.0, sloped[2] = { 0 };

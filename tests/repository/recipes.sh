@@ -106,7 +106,7 @@ users_of() {
 }
 
 # ---- a surface ----
-list=src/surface/surface_list.h prices=src/accuracy/tolerance_price.c
+list=src/surface/surface_list.h prices=src/accuracy/tolerance_cost.c
 edit "$list" 's/(WR_X\(terrain\)\n)/$1WR_X(dummy)\n/'
 edit "$list" 's/(#include "surface\/terrain_row.h"\n)/$1#include "surface\/dummy.h"\n/'
 stops 'surface with its list alone' 'dummy' src/surface/surface.c "${kernels[@]}"
@@ -169,15 +169,15 @@ compile 'export' "$kinds" $(users_of 'WR_EXPORT_KIND_COUNT')
 pristine "$kinds" "$count"
 
 # ---- a panel ----
-roster=ui/app/roster_list.c panels=ui/panels/panels.h
-edit "$roster" 's/(\{ "History", )/{ "Dummy", wr_panel_dummy, NULL, false, false },\n$1/'
-stops 'panel with its row alone' 'wr_panel_dummy' "$roster"
+registry=ui/app/registry_list.c panels=ui/panels/panels.h
+edit "$registry" 's/(\{ "History", )/{ "Dummy", wr_panel_dummy, NULL, false, false },\n$1/'
+stops 'panel with its row alone' 'wr_panel_dummy' "$registry"
 edit "$panels" 's/(void wr_panel_history\()/void wr_panel_dummy(WrApp *app);\n$1/'
 sed 's/wr_panel_history/wr_panel_dummy/' "$source/ui/panels/panel_history.c" >"$tree/ui/panels/panel_dummy.c"
 like ui/panels/panel_history.c ui/panels/panel_dummy.c
-compile 'panel' "$roster" ui/panels/panel_dummy.c
-links 'panel whose file is in no list' 'undefined.*wr_panel_dummy' "$roster"
-links 'panel' '' "$roster" ui/panels/panel_dummy.c
+compile 'panel' "$registry" ui/panels/panel_dummy.c
+links 'panel whose file is in no list' 'undefined.*wr_panel_dummy' "$registry"
+links 'panel' '' "$registry" ui/panels/panel_dummy.c
 rm "$tree/ui/panels/panel_dummy.c"
-pristine "$panels" "$roster"
+pristine "$panels" "$registry"
 exit $bad

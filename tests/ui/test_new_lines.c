@@ -44,7 +44,7 @@ static void every_starter_is_made_on_every_surface(void **state)
         if (!wr_new_surface(form.surface)) continue;
         WrSession *session = wr_session_new(NULL);
         WrText lines = { 0 };
-        wr_new_lines(&form, wr_document_wrap_name(n % WR_DOCUMENT_WRAPS), &lines);
+        wr_new_document_lines(&form, wr_document_wrap_name(n % WR_DOCUMENT_WRAPS), &lines);
         run(session, wr_text_get(&lines));
         const WrDocument *document = wr_session_document(session);
         const WrField *field = document->layers[0].heights;
@@ -69,7 +69,7 @@ static void cells_keep_their_shape(void **state)
         WrNewForm form = { .width = size[0], .height = size[1], .surface = (int)kinds[kind] };
         WrSession *session = wr_session_new(NULL);
         WrText lines = { 0 };
-        wr_new_lines(&form, wr_document_wrap_name(0), &lines);
+        wr_new_document_lines(&form, wr_document_wrap_name(0), &lines);
         char *rest = strchr(wr_text_get(&lines), '\n') + 1; /* without its table */
         run(session, rest);
         const WrScene *scene = wr_session_document(session)->scene;

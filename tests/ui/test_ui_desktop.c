@@ -2,7 +2,7 @@
    resources in xrdb's form; damaged ones. */
 #include "test.h"
 
-#include "ui/toolkit/desktop.h"
+#include "ui/toolkit/desktop_scale.h"
 
 #include <string.h>
 

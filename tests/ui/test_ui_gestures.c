@@ -16,7 +16,7 @@
 #include "ui/state/dialog.h"
 #include "ui/state/layout.h"
 #include "ui/state/messages.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/session_view.h"
 #include "ui/state/settings.h"
 #include "ui/patch/patch.h"
@@ -446,7 +446,7 @@ static void see_state(Bench *bench, const char *where, Base *base, bool cancelle
              wr_session_last_command(bench->session));
     if (cancelled && now != before) complain(where, "Escape left a change", text);
     if (now > before + 3) complain(where, "many steps", text);
-    if (now != before && !wr_session_go(bench->session, before, &err))
+    if (now != before && !wr_session_history_go(bench->session, before, &err))
         complain(where, "no way back", err.text);
     settle(bench);
     if (!is_base(bench, base)) {
@@ -485,12 +485,12 @@ static void every_tool_survives_every_interruption(void **state)
     app->settings->turning = false;
     Base base = { .heights = NULL };
     rebuild(&bench, &base);
-    for (int tool = 0; tool < app->roster->tool_count; tool++)
+    for (int tool = 0; tool < app->registry->tool_count; tool++)
         for (int which = 0; which < BREAKS; which++) {
             char where[120];
             double x0, y0, x1, y1;
             if (!is_tried(tool, which)) continue;
-            snprintf(where, sizeof where, "%s, %s", app->roster->tools[tool]->action,
+            snprintf(where, sizeof where, "%s, %s", app->registry->tools[tool]->action,
                      break_name(which));
             restore_window(&bench);
             wr_tool_choose(app, tool);
@@ -499,7 +499,7 @@ static void every_tool_survives_every_interruption(void **state)
             wr_view_to_pixel(app->view, 40, 24, &x1, &y1);
             broken_drag(&bench, x0, y0, (int)(x1 - x0), (int)(y1 - y0), which);
             /* a tool without a drag acts at the press */
-            const bool drags = app->roster->tools[tool]->drag != NULL;
+            const bool drags = app->registry->tools[tool]->drag != NULL;
             see_state(&bench, where, &base, drags && which == BREAK_KEYS);
             tries++;
         }

@@ -30,7 +30,7 @@ static void a_key_is_taken_from_its_owner(void **state)
     assert_string_equal(wr_keys_owner(map, key_of("Ctrl+Shift+Z")), "redo");
     wr_keymap_bind(map, "fill", key_of("Shift+F11")); /* and its old keys are removed */
     assert_null(wr_keys_owner(map, key_of("Ctrl+Y")));
-    wr_keys_remove(map, "fill");
+    wr_keys_unbind_all(map, "fill");
     assert_null(wr_keys_owner(map, key_of("Shift+F11")));
     assert_string_equal(wr_keys_label(map, "fill", label), "");
     wr_keys_free(map);

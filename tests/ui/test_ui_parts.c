@@ -7,7 +7,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "field/field.h"
-#include "field/seam.h"
+#include "field/seam_check.h"
 #include "system/clock.h"
 
 #include "ui/canvas/marching_ants.h"

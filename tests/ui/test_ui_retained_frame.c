@@ -9,7 +9,7 @@
 #include "ui/state/dialog.h"
 #include "ui/state/input_router.h"
 #include "ui/state/layout.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/settings.h"
 #include "ui/toolkit/dirty_rects.h"
 #include "ui/toolkit/gui.h"
@@ -387,7 +387,7 @@ static void the_picture_that_is_kept_has_the_pixels_of_one_drawn_whole(void **st
         hands(app, &r);
         act(app, tools[i]);
         seen.doing = "a tab";
-        app->settings->tab = (i + 1) % app->roster->tab_count;
+        app->settings->tab = (i + 1) % app->registry->tab_count;
         step(app);
         seen.doing = "a line";
         wr_app_run_line(app, i % 2 ? "pattern bricks" : "adjust offset du=13 dv=5");

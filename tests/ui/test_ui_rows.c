@@ -174,7 +174,7 @@ static void fill_again(Walk *walk)
 {
     wr_session_reset(walk->session);
     fill(walk);
-    for (const WrPart *const *p = walk->app->roster->parts; *p; p++)
+    for (const WrPart *const *p = walk->app->registry->parts; *p; p++)
         if ((*p)->another) (*p)->another(walk->app);
 }
 
@@ -188,7 +188,7 @@ static void back_to(Walk *walk, const Base *base)
     wr_app_try_end(app);
     if (wr_session_history_count(walk->session) < base->position) fill_again(walk);
     else if (wr_session_history_position(walk->session) != base->position &&
-             !wr_session_go(walk->session, base->position, &err))
+             !wr_session_history_go(walk->session, base->position, &err))
         fail_msg("%s: %s", walk->where, err.text);
     if (app->dialog->now != base->dialog && app->dialog->now != WR_DIALOG_NONE)
         wr_dialog_close(app);
@@ -510,7 +510,7 @@ static void take_state(Walk *walk, int which)
         walk_run(walk, states[which][i]);
         snprintf(walk->where, sizeof walk->where, "document %d: %.90s", which, states[which][i]);
     }
-    for (const WrPart *const *p = walk->app->roster->parts; *p; p++)
+    for (const WrPart *const *p = walk->app->registry->parts; *p; p++)
         if ((*p)->another) (*p)->another(walk->app);
     settle(walk);
     forget_messages(walk);
@@ -541,7 +541,7 @@ static void no_action_is_answered_by_an_error(void **state)
     for (int i = 0; i < (int)(sizeof states / sizeof *states); i++) {
         take_state(&walk, i);
         Base base = base_of(&walk);
-        for (const WrAction *a = walk.app->roster->actions; a->name; a++) {
+        for (const WrAction *a = walk.app->registry->actions; a->name; a++) {
             if (wr_session_history_count(walk.session) < base.position) take_state(&walk, i);
             if (!wr_action_can(walk.app, a)) continue;
             run_action(&walk, a->name, &base);

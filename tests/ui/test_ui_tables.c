@@ -1,10 +1,10 @@
-/* The roster of the window: every tool, action, dialog, tab, component and file purpose has its functions. */
+/* The registry of the window: every tool, action, dialog, tab, component and file purpose has its functions. */
 #include "test.h"
 
-#include "ui/app/roster_list.h"
+#include "ui/app/registry_list.h"
 #include "ui/state/action.h"
 #include "ui/state/dialog.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/tools/tool.h"
 #include "ui/state/action_list.h"
 #include "ui/generate/generate_state.h"
@@ -16,7 +16,7 @@
 
 static const WrAction *action(const char *name)
 {
-    for (const WrAction *a = wr_roster.actions; a->name; a++)
+    for (const WrAction *a = wr_registry.actions; a->name; a++)
         if (strcmp(a->name, name) == 0) return a;
     return NULL;
 }
@@ -24,7 +24,7 @@ static const WrAction *action(const char *name)
 static void every_action_has_a_word_of_its_own_and_runs(void **state)
 {
     (void)state;
-    for (const WrAction *a = wr_roster.actions; a->name; a++) {
+    for (const WrAction *a = wr_registry.actions; a->name; a++) {
         if (action(a->name) != a) fail_msg("action %s stands twice", a->name);
         if (!a->label || !a->run) fail_msg("action %s lacks its label, or does nothing", a->name);
     }
@@ -48,8 +48,8 @@ static void actions_of_families_are_there(void **state)
 static void every_tool_is_chosen_by_an_action(void **state)
 {
     (void)state;
-    for (int i = 0; i < wr_roster.tool_count; i++) {
-        const WrTool *tool = wr_roster.tools[i];
+    for (int i = 0; i < wr_registry.tool_count; i++) {
+        const WrTool *tool = wr_registry.tools[i];
         if (!tool) fail_msg("tool %d is none", i);
         if (!tool->action || !action(tool->action)) fail_msg("tool %d has no action", i);
         if (!tool->icon || !tool->help) fail_msg("tool %s lacks icon or help", tool->action);
@@ -60,11 +60,11 @@ static void dialogs_tabs_parts_and_files_are_whole(void **state)
 {
     (void)state;
     for (int i = 1; i < WR_DIALOG_COUNT; i++)
-        if (!wr_roster.dialogs[i].draw) fail_msg("dialog %d shows nothing", i);
+        if (!wr_registry.dialogs[i].draw) fail_msg("dialog %d shows nothing", i);
     for (int i = 0; i < WR_FILE_PURPOSES; i++)
-        if (!wr_roster.takes[i]) fail_msg("nobody takes files of purpose %d", i);
-    for (int i = 0; i < wr_roster.tab_count; i++) {
-        const WrTab *tab = &wr_roster.tabs[i];
+        if (!wr_registry.takes[i]) fail_msg("nobody takes files of purpose %d", i);
+    for (int i = 0; i < wr_registry.tab_count; i++) {
+        const WrTab *tab = &wr_registry.tabs[i];
         if (!tab->label || !tab->draw == !tab->fill) fail_msg("tab %d: one of the two draws it", i);
     }
 }

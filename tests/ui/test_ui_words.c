@@ -6,7 +6,7 @@
 #include "command/command_table.h"
 
 #include "shade/reflection.h"
-#include "ui/app/roster_list.h"
+#include "ui/app/registry_list.h"
 #include "ui/state/action_list.h"
 #include "ui/state/keys.h"
 #include "ui/panels/panel_search.h"
@@ -122,7 +122,7 @@ static void every_action_stands_in_a_menu(void **state)
     walk_frame(&walk);
     wr_menu_listed = NULL;
     int missing = 0;
-    for (const WrAction *a = walk.app->roster->actions; a->name; a++) {
+    for (const WrAction *a = walk.app->registry->actions; a->name; a++) {
         bool there = false;
         for (int i = 0; i < listed_count && !there; i++) there = strcmp(listed[i], a->name) == 0;
         if (!there) printf("%s (%s) is in no menu\n", a->name, a->label), missing++;
@@ -135,9 +135,9 @@ static bool menu_told[1000];
 
 static void note_help(const char *english)
 {
-    const WrRoster *roster = &wr_roster;
-    for (int i = 0; roster->actions[i].name; i++)
-        if (roster->helps[i] == english) menu_told[i] = true;
+    const WrRegistry *registry = &wr_registry;
+    for (int i = 0; registry->actions[i].name; i++)
+        if (registry->helps[i] == english) menu_told[i] = true;
 }
 
 /* A separate line with more information than the name, shown in menus. */
@@ -150,12 +150,12 @@ static void every_action_has_a_help_line(void **state)
     walk_frame(&walk);
     wr_words_requested = NULL;
     int lacking = 0;
-    const WrRoster *roster = walk.app->roster;
-    for (int i = 0; roster->actions[i].name; i++) {
-        const WrAction *a = &roster->actions[i];
+    const WrRegistry *registry = walk.app->registry;
+    for (int i = 0; registry->actions[i].name; i++) {
+        const WrAction *a = &registry->actions[i];
         const char *help = wr_action_help(walk.app, a);
         bool own = help && strlen(help) > 14 && strcmp(help, a->label) != 0 && menu_told[i];
-        for (int j = 0; j < i && own; j++) own = strcmp(help, roster->helps[j]) != 0;
+        for (int j = 0; j < i && own; j++) own = strcmp(help, registry->helps[j]) != 0;
         if (!own) printf("%s (%s): \"%s\"\n", a->name, a->label, help ? help : "nothing");
         lacking += !own;
     }

@@ -26,7 +26,7 @@
 #include "ui/state/input_router.h"
 #include "ui/state/layout.h"
 #include "ui/state/replace.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/session_view.h"
 #include "ui/state/settings.h"
 #include "ui/generate/generate_state.h"
@@ -148,11 +148,12 @@ static inline bool walk_name(Walk *walk, const char *format, const char *what)
 static inline bool walk_open_tab(Walk *walk, int which)
 {
     WrApp *app = walk->app;
-    if (which > app->roster->tab_count) return false;
+    if (which > app->registry->tab_count) return false;
     app->settings->tab = which;
     app->accuracy->inspector.shown = which % 2 == 1;
     return walk_name(walk, "tab %s",
-                     which < app->roster->tab_count ? app->roster->tabs[which].label : "Layers");
+                     which < app->registry->tab_count ? app->registry->tabs[which].label
+                                                      : "Layers");
 }
 
 static inline void walk_tabs(Walk *walk)
@@ -163,9 +164,9 @@ static inline void walk_tabs(Walk *walk)
 
 static inline bool walk_open_tool(Walk *walk, int which)
 {
-    if (which >= walk->app->roster->tool_count) return false;
+    if (which >= walk->app->registry->tool_count) return false;
     wr_tool_choose(walk->app, which);
-    return walk_name(walk, "tool %s", walk->app->roster->tools[which]->action);
+    return walk_name(walk, "tool %s", walk->app->registry->tools[which]->action);
 }
 
 static inline void walk_tools(Walk *walk)
@@ -194,7 +195,7 @@ static inline bool walk_opens_dialog(const WrAction *action)
 /* Open each dialog by its action, so that it has its data. */
 static inline bool walk_open_dialog(Walk *walk, int which)
 {
-    for (const WrAction *a = walk->app->roster->actions; a->name; a++) {
+    for (const WrAction *a = walk->app->registry->actions; a->name; a++) {
         if (!walk_opens_dialog(a) || which-- > 0) continue;
         walk->app->file->clean_revision = wr_session_revision(walk->session);
         wr_action_run(walk->app, a->name);

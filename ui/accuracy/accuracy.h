@@ -4,7 +4,7 @@
 #pragma once
 #include "ui/accuracy/accuracy_work.h"
 #include "ui/state/app_state.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/preview/preview.h"
 #include "ui/jobs/job.h"
 
@@ -145,7 +145,7 @@ void wr_accuracy_set_dial(WrApp *app, int side, int dial, double value);
 /* Set all dials to those of a ladder rung. */
 void wr_accuracy_take_rung(WrApp *app, int side, int rung);
 void wr_accuracy_b_from_a(WrApp *app);
-void wr_accuracy_swap(WrApp *app);
+void wr_accuracy_swap_ab(WrApp *app);
 /* The scene with the dials of A or B, without tolerance. The caller frees it. */
 WrScene *wr_accuracy_scene(const WrApp *app, int side);
 /* Make the finest dials chosen by the tolerance the scene's dials, and remove the tolerance. */

@@ -1,11 +1,11 @@
 /* Scheduling of measurements, and their results. */
 #include "ui/accuracy/accuracy.h"
-#include "ui/accuracy/accuracy_plan.h"
+#include "ui/accuracy/accuracy_schedule.h"
 #include "ui/accuracy/accuracy_work.h"
 #include "ui/state/app_state.h"
 #include "ui/state/layout.h"
 #include "ui/state/messages.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/session_view.h"
 #include "ui/patch/patch.h"
 #include "ui/preview/preview.h"
@@ -507,7 +507,7 @@ void wr_accuracy_b_from_a(WrApp *app)
     set_b(app, value);
 }
 
-void wr_accuracy_swap(WrApp *app)
+void wr_accuracy_swap_ab(WrApp *app)
 {
     double a[WR_DIAL_COUNT], b[WR_DIAL_COUNT];
     for (int d = 0; d < WR_DIAL_COUNT; d++) b[d] = wr_accuracy_dial(app, 1, d);

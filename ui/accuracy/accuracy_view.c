@@ -1,6 +1,6 @@
 /* Over the patch: two pictures to compare, maps of one quantity, their labels and scales. */
 #include "ui/accuracy/accuracy.h"
-#include "ui/accuracy/accuracy_plan.h"
+#include "ui/accuracy/accuracy_schedule.h"
 #include "ui/accuracy/accuracy_work.h"
 #include "ui/state/app_state.h"
 #include "ui/state/layout.h"

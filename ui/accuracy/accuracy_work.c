@@ -1,5 +1,5 @@
 #include "ui/accuracy/accuracy_work.h"
-#include "ui/accuracy/accuracy_plan.h"
+#include "ui/accuracy/accuracy_schedule.h"
 #include "ui/jobs/job.h"
 
 #include "accuracy/illusion.h"

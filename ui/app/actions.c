@@ -2,7 +2,7 @@
 #include "ui/app/actions.h"
 #include "ui/app/actions_look.h"
 #include "ui/accuracy/accuracy.h"
-#include "ui/app/roster_list.h"
+#include "ui/app/registry_list.h"
 #include "ui/canvas/canvas.h"
 #include "ui/canvas/view.h"
 #include "ui/state/action.h"
@@ -14,7 +14,7 @@
 #include "ui/state/input_router.h"
 #include "ui/state/layout.h"
 #include "ui/state/line.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/session_view.h"
 #include "ui/state/settings.h"
 #include "ui/generate/generate_state.h"
@@ -269,7 +269,7 @@ static void save(WrApp *app)
     [WR_ROW(WR_ACTION_##name)] = { #name, __VA_ARGS__, true, WR_ACTION_PAINTABLE }
 WR_ROWS(wr_actions);
 const WrAction wr_actions[] = {
-    EDIT(new, "New", wr_app_new, NULL, NULL),
+    EDIT(new, "New", wr_app_new_document, NULL, NULL),
     EDIT(open, "Open...", wr_app_open, NULL, NULL),
     EDIT(save, "Save", save, NULL, NULL),
     EDIT(save_as, "Save as...", wr_app_save_as, NULL, NULL),

@@ -3,7 +3,7 @@
 #include "ui/accuracy/accuracy_work.h"
 #include "ui/state/app_state.h"
 #include "ui/state/layout.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/settings.h"
 
 #include "base/text.h"
@@ -73,7 +73,7 @@ void wr_act_compare_take(WrApp *app)
 
 void wr_act_compare_swap(WrApp *app)
 {
-    wr_accuracy_swap(app);
+    wr_accuracy_swap_ab(app);
 }
 
 void wr_act_compare_hold(WrApp *app)

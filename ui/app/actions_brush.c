@@ -5,7 +5,7 @@
 #include "ui/state/dialog.h"
 #include "ui/state/keys.h"
 #include "ui/state/messages.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/settings.h"
 #include "ui/panels/panel_dynamics.h"
 #include "ui/tools/preset_browser.h"

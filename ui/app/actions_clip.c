@@ -163,17 +163,6 @@ void wr_act_cut(WrApp *app)
 
 /* ---- paste ---- */
 
-static bool save_bytes(const char *path, const char *bytes, size_t length, WrError *err)
-{
-    WrFileTarget target;
-    if (!wr_file_begin(&target, path, err)) return false;
-    if (!wr_file_put(&target, bytes, length, err)) {
-        wr_file_abort(&target);
-        return false;
-    }
-    return wr_file_commit(&target, err);
-}
-
 /* Write the system clipboard's content to a file: a picture of another program, or use the path it contains. *none: it
    holds nothing that can be pasted. */
 static bool find_picture(WrText *path, bool *none, WrError *err)
@@ -184,7 +173,7 @@ static bool find_picture(WrText *path, bool *none, WrError *err)
     size_t length;
     if (wr_clip_picture(&bytes, &length, &ending)) {
         bool good =
-            new_path(path, "", ending, err) && save_bytes(wr_text_get(path), bytes, length, err);
+            new_path(path, "", ending, err) && wr_file_write(wr_text_get(path), bytes, length, err);
         wr_free(bytes);
         return good;
     }

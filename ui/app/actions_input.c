@@ -3,7 +3,7 @@
 #include "ui/state/app_state.h"
 #include "ui/state/input_router.h"
 #include "ui/state/messages.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/settings.h"
 #include "ui/patch/patch_paint.h"
 #include "ui/input/pen_curve.h"

@@ -23,7 +23,7 @@
 #include "ui/state/layout.h"
 #include "ui/state/messages.h"
 #include "ui/state/replace.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/session_view.h"
 #include "ui/state/settings.h"
 #include "ui/generate/font_choice.h"
@@ -52,7 +52,7 @@
 #include "ui/jobs/files.h"
 #include "ui/jobs/job.h"
 #include "ui/jobs/edit_preview.h"
-#include "ui/app/roster_list.h"
+#include "ui/app/registry_list.h"
 #include "ui/canvas/view.h"
 #include "ui/state/busy_internal.h"
 #include "ui/panels/panel_adjust.h"
@@ -68,7 +68,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "export/film.h"
-#include "field/seam.h"
+#include "field/seam_check.h"
 #include "scene/scene.h"
 #include "system/clock.h"
 
@@ -231,7 +231,7 @@ static void handle(WrApp *app, const SDL_Event *event)
         if (event->drop.file) wr_app_open_path(app, event->drop.file);
         SDL_free(event->drop.file);
     } else if (event->type == SDL_RENDER_TARGETS_RESET || event->type == SDL_RENDER_DEVICE_RESET) {
-        for (const WrPart *const *p = app->roster->parts; *p; p++)
+        for (const WrPart *const *p = app->registry->parts; *p; p++)
             if ((*p)->forget) (*p)->forget(app);
     } else if (event->type == app->file_event) {
         WrFilePurpose purpose;
@@ -291,7 +291,7 @@ static void draw_divider(const SDL_Rect *d, bool hot)
 
 static void draw_views(WrApp *app)
 {
-    for (const WrPart *const *p = app->roster->parts; *p; p++)
+    for (const WrPart *const *p = app->registry->parts; *p; p++)
         if ((*p)->draw) (*p)->draw(app);
     draw_divider(&app->layout->divider, app->hand->grab == WR_GRAB_DIVIDER);
     draw_divider(&app->layout->panel_divider, app->hand->grab == WR_GRAB_PANELS);
@@ -348,7 +348,7 @@ static void draw(WrApp *app, double now)
 static bool works(WrApp *app)
 {
     bool any = wr_edit_preview_busy(app->trial, NULL, NULL);
-    for (const WrPart *const *p = app->roster->parts; *p; p++)
+    for (const WrPart *const *p = app->registry->parts; *p; p++)
         if ((*p)->works && (*p)->works(app)) any = true;
     return any;
 }
@@ -366,7 +366,7 @@ static int wait_time(WrApp *app, double now)
     if (wr_input_waits(app) && app->redraw == 0) return 0;
     if (wr_pen_replaying(app->pen)) next = now + 0.002;
     if (app->redraw > 0 && app->visible) next = app->drawn_at + frame_seconds(app);
-    for (const WrPart *const *p = app->roster->parts; *p; p++) {
+    for (const WrPart *const *p = app->registry->parts; *p; p++) {
         double due = (*p)->next_time ? (*p)->next_time(app) : 0.0;
         if (due > 0.0 && due < next) next = due;
     }
@@ -376,9 +376,9 @@ static int wait_time(WrApp *app, double now)
         next = app->drawn_at + BAR_SECONDS;
     bool young = app->messages->list.count > 0 &&
                  now - app->messages->list.data[app->messages->list.count - 1].since < 7.0;
-    bool alive = wr_gui_wants_text(app->gui) || wr_gui_busy(app->gui) || young;
+    bool alive = wr_gui_wants_text(app->gui) || wr_gui_has_pending_timer(app->gui) || young;
     if (alive && app->drawn_at + CARET_SECONDS < next) next = app->drawn_at + CARET_SECONDS;
-    if (wr_gui_busy(app->gui) && now + 0.05 < next) next = now + 0.05;
+    if (wr_gui_has_pending_timer(app->gui) && now + 0.05 < next) next = now + 0.05;
     if (next > 1e299) return -1;
     double ms = ceil((next - now) * 1e3);
     return ms < 0.0 ? 0 : ms > 60000.0 ? 60000 : (int)ms;
@@ -429,8 +429,8 @@ static void take_events(WrApp *app)
     /* Pen events follow the waiting events. */
     if (!wr_input_waits(app) && take_pens(app)) came = true;
     if (came) return;
-    if (wr_gui_wants_text(app->gui) || wr_gui_busy(app->gui) || app->messages->list.count > 0 ||
-        app->busy || works(app)) {
+    if (wr_gui_wants_text(app->gui) || wr_gui_has_pending_timer(app->gui) ||
+        app->messages->list.count > 0 || app->busy || works(app)) {
         if (app->redraw == 0) app->redraw = 1;
     }
 }
@@ -444,7 +444,7 @@ void wr_app_step(WrApp *app)
     if (!app->busy) wr_app_compact_journal(app);
     wr_strokes_work(app);
     wr_deferred_run(app);
-    for (const WrPart *const *p = app->roster->parts; *p; p++)
+    for (const WrPart *const *p = app->registry->parts; *p; p++)
         if ((*p)->update) (*p)->update(app);
     const double now = wr_clock_seconds();
     if (app->redraw > 0 && app->visible && now >= app->drawn_at + frame_seconds(app) - 0.0005) {
@@ -558,6 +558,6 @@ WrApp *wr_store_new(void)
     app->stamp = &store->stamp;
     app->dialog = &store->dialog;
     app->file = &store->file;
-    app->roster = &wr_roster;
+    app->registry = &wr_registry;
     return app;
 }

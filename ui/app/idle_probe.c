@@ -88,7 +88,7 @@ static bool is_calm(WrApp *app, bool busy)
                  wr_preview_picture(app->preview)->serial != p->serial;
     return !busy && !(patch && app->layout->patch.w > 0) && !(app->redraw > 0 && app->visible) &&
            !wr_strokes_waits(app) && !wr_accuracy_pending(app) &&
-           !(wr_gui_busy(app->gui) && !held) && !wr_pen_replaying(app->pen) &&
+           !(wr_gui_has_pending_timer(app->gui) && !held) && !wr_pen_replaying(app->pen) &&
            wr_pen_waiting(app->pen) == 0 && !wr_input_waits(app) && !wr_deferred_waits(app, NULL);
 }
 

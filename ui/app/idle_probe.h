@@ -3,7 +3,7 @@
    every event that the X server had at the request is handled and no computation or drawing is left. */
 #pragma once
 #include "ui/state/app_state.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 
 #include <SDL.h>
 #include <stdbool.h>

@@ -11,7 +11,7 @@
 #include "ui/state/input_router.h"
 #include "ui/state/keys.h"
 #include "ui/state/layout.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/settings.h"
 #include "ui/state/session_view.h"
 #include "ui/generate/generate_state.h"
@@ -71,7 +71,7 @@ static bool blocked(const WrApp *app)
 /* True if the open dialog has a visible effect on the canvas: the views may then be panned and rotated. */
 static bool shows_effect(const WrApp *app)
 {
-    return blocked(app) && app->roster->dialogs[app->dialog->now].shows_effect;
+    return blocked(app) && app->registry->dialogs[app->dialog->now].shows_effect;
 }
 
 static bool can_look(const WrApp *app, int button)

@@ -7,7 +7,7 @@
 #include "ui/state/app_state.h"
 #include "ui/state/input_router.h"
 #include "ui/state/layout.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/settings.h"
 #include "ui/patch/patch.h"
 #include "ui/tools/stroke_input.h"

@@ -17,5 +17,5 @@ void wr_app_draw_parts(WrApp *app, bool views);
 
 /* ---- allocation of the window's state ---- */
 
-/* State with all members zero except the roster and the pointers to each component. wr_free frees it as a whole. */
+/* State with all members zero except the registry and the pointers to each component. wr_free frees it as a whole. */
 WrApp *wr_store_new(void);

@@ -6,9 +6,9 @@
 #include "ui/state/document.h"
 #include "ui/state/input_router.h"
 #include "ui/state/layout.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/settings.h"
-#include "ui/toolkit/desktop.h"
+#include "ui/toolkit/desktop_scale.h"
 #include "ui/toolkit/display.h"
 #include "ui/toolkit/gui.h"
 

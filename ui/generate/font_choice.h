@@ -2,7 +2,7 @@
    samples are loaded in the background, and only visible samples are rendered. */
 #pragma once
 #include "ui/state/app_state.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/generate/generate_state.h"
 
 #include "image/font_list.h"

@@ -2,7 +2,7 @@
    are rendered in the background, one after the other, while it is open. */
 #pragma once
 #include "ui/state/app_state.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 
 typedef struct WrGallery WrGallery;
 

@@ -8,7 +8,7 @@
 #include "ui/state/busy.h"
 #include "ui/state/dialog.h"
 #include "ui/state/input_router.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/session_view.h"
 #include "ui/tools/tool.h"
 #include "ui/jobs/edit_preview.h"

@@ -3,7 +3,7 @@
    table of generators; no generator is named here. */
 #pragma once
 #include "ui/state/app_state.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/generate/generate_presets.h"
 #include "ui/tools/tool.h"
 

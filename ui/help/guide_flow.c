@@ -1,5 +1,5 @@
 #include "ui/help/guide_flow.h"
-#include "ui/toolkit/gui_sdl.h"
+#include "ui/toolkit/gui_sdl_renderer.h"
 #include "ui/jobs/job.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/gui_page.h"

@@ -3,7 +3,7 @@
 #include "ui/state/action_list.h"
 #include "ui/state/app_state.h"
 #include "ui/state/keys.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/toolkit/words.h"
 #include "ui/help/guide.h"
 
@@ -155,7 +155,7 @@ static bool is_told(const char *action)
 static void add_others(const WrApp *app, WrText *text)
 {
     WrText keys = { 0 };
-    for (const WrAction *a = app->roster->actions; a->name; a++) {
+    for (const WrAction *a = app->registry->actions; a->name; a++) {
         wr_text_clear(&keys);
         wr_keys_list(app->keys, a->name, &keys);
         if (keys.length > 0 && !is_told(a->name)) add_row(text, wr_text_get(&keys), a->label);

@@ -1,6 +1,6 @@
 #include "ui/jobs/files.h"
 #include "ui/jobs/portal.h"
-#include "ui/toolkit/desktop.h"
+#include "ui/toolkit/desktop_scale.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"

@@ -190,7 +190,7 @@ static void measure(WrSheetLook *look, WrPool *pool)
         const WrSetMap *map = &look->set->maps.data[i];
         if (!map->kind->write)
             look->bytes +=
-                wr_export_bytes(map->kind, look->width, look->height, wr_sheet_depth(map));
+                wr_export_estimate_bytes(map->kind, look->width, look->height, wr_sheet_depth(map));
     }
 }
 
@@ -219,7 +219,7 @@ const WrJobKind wr_sheet_look_kind = { run_look, drop_look };
 
 /* ---- files ---- */
 
-WrSheetWrite *wr_sheet_write_new(WrDocument *document, const WrSheetRequest *ask)
+WrSheetWrite *wr_sheet_write_work_new(WrDocument *document, const WrSheetRequest *ask)
 {
     WrSheetWrite *write = wr_alloc(1, sizeof *write);
     write->document = document;

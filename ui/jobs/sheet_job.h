@@ -46,5 +46,5 @@ typedef struct WrSheetWrite {
 extern const WrJobKind wr_sheet_look_kind, wr_sheet_write_kind;
 WrSheetLook *wr_sheet_look_new(WrDocument *document, const WrSheetRequest *ask);
 void wr_sheet_look_free(WrSheetLook *look); /* NULL is allowed */
-WrSheetWrite *wr_sheet_write_new(WrDocument *document, const WrSheetRequest *ask);
+WrSheetWrite *wr_sheet_write_work_new(WrDocument *document, const WrSheetRequest *ask);
 void wr_sheet_write_free(WrSheetWrite *write);

@@ -2,7 +2,7 @@
 #pragma once
 #include "ui/canvas/view.h"
 #include "ui/state/app_state.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/toolkit/gui.h"
 #include "ui/panels/points_pad.h"
 
@@ -57,7 +57,7 @@ bool wr_levels_pad(WrApp *app);
 bool wr_curves_pad(WrApp *app);
 /* Histogram of the heights that the dialog changes; valid until the next call. */
 const WrHeightCounts *wr_height_counts(WrApp *app);
-/* Position of a height in the pad, in pixels of the window. */
+/* Draws the histogram into the pad. span: heights at its left and right edge. */
 void wr_height_bars(const WrPad *pad, WrHeightSpan span, const WrHeightCounts *h);
 
 /* ---- actions "adjust_NAME" and "filter_NAME"; see WrActionFamily ---- */

@@ -7,7 +7,7 @@
 #include "ui/state/input_router.h"
 #include "ui/state/keys.h"
 #include "ui/state/line.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/session_view.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"

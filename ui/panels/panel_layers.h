@@ -2,7 +2,7 @@
 #pragma once
 #include "ui/panels/thumb_list.h"
 #include "ui/state/app_state.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 
 #include "base/array.h"
 #include "document/document.h"

@@ -96,7 +96,7 @@ void wr_dialog_new(WrApp *app)
     wr_gui_tip("Its greys become heights, and the table gets its size and shape");
     if (wr_dialog_buttons(app, "Make it", true) > 0) {
         WrText lines = { 0 };
-        wr_new_lines(form, wr_document_wrap_name(form->wrap), &lines);
+        wr_new_document_lines(form, wr_document_wrap_name(form->wrap), &lines);
         wr_deferred(app, wr_app_new_of, wr_text_get(&lines));
         wr_text_fini(&lines);
     }

@@ -6,7 +6,7 @@
 #include "ui/state/busy.h"
 #include "ui/state/app_state.h"
 #include "ui/state/line.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/scene_line.h"
 #include "ui/state/session_view.h"
 #include "ui/toolkit/gui.h"

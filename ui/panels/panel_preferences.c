@@ -4,7 +4,7 @@
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
 #include "ui/state/keys.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/search.h"
 #include "ui/state/settings.h"
 #include "ui/toolkit/gui.h"
@@ -164,7 +164,7 @@ static void wait_for_key(WrApp *app)
     p->waits[0] = '\0';
     p->key = (WrKey){ SDLK_UNKNOWN, 0 };
     if ((key.code == SDLK_BACKSPACE || key.code == SDLK_DELETE) && key.mods == 0) {
-        wr_keys_remove(app->keys, action);
+        wr_keys_unbind_all(app->keys, action);
         settle(app, action, NULL, NULL);
     } else {
         give(app, action, key);
@@ -209,7 +209,7 @@ static void key_list(WrApp *app)
     wr_gui_hint_field("##find", "An action, or a key such as Ctrl+", 0, p->query, sizeof p->query);
     wr_gui_list_begin("##keys", wr_gui_px(ROW * ROWS));
     wr_gui_space(-6);
-    for (const WrAction *a = app->roster->actions; a->name; a++)
+    for (const WrAction *a = app->registry->actions; a->name; a++)
         if (is_wanted(app, a)) key_row(app, shown++, a);
     if (shown == 0) wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "No action has these words.");
     wr_gui_list_end();

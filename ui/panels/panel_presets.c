@@ -3,7 +3,7 @@
 #include "ui/state/scene_line.h"
 #include "ui/state/session_view.h"
 #include "ui/toolkit/gui.h"
-#include "ui/toolkit/gui_sdl.h"
+#include "ui/toolkit/gui_sdl_renderer.h"
 #include "ui/toolkit/theme.h"
 
 #include "base/error.h"

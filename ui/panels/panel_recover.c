@@ -120,7 +120,7 @@ static void recover(WrApp *app, const char *journal, bool beyond)
     if (wr_busy_run(app, WR_BUSY_ANOTHER, "Recovering", recover_work, &call, &err)) {
         app->file->starter = false;
         wr_app_changed_document(app);
-        wr_app_say_lines(app, wr_text_get(&call.recovered.report));
+        wr_app_say_each_line(app, wr_text_get(&call.recovered.report));
         if (!call.recovered.removed) ask_about_rest(app, &call);
     } else {
         wr_busy_fail(app, "recovering", &err);

@@ -4,7 +4,7 @@
 #include "ui/state/busy.h"
 #include "ui/state/app_state.h"
 #include "ui/state/layout.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/settings.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
@@ -48,8 +48,8 @@ static void lower(WrApp *app)
 
 void wr_panel_right(WrApp *app)
 {
-    const WrTab *tabs = app->roster->tabs;
-    const int own = app->roster->tab_count;
+    const WrTab *tabs = app->registry->tabs;
+    const int own = app->registry->tab_count;
     const char *labels[MAX_TABS + 1];
     app->accuracy->error_open = app->accuracy->plot_open = false;
     if (app->layout->panel.w <= 0) return;

@@ -7,7 +7,7 @@
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
 #include "ui/state/keys.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/search.h"
 #include "ui/generate/generate_state.h"
 #include "ui/toolkit/gui.h"
@@ -59,7 +59,7 @@ static int find_actions(const WrApp *app, Found found[FOUND_MAX])
 {
     int count = 0;
     const char *query = app->finder->text;
-    for (const WrAction *a = app->roster->actions; a->name; a++)
+    for (const WrAction *a = app->registry->actions; a->name; a++)
         if (strcmp(a->name, WR_ACT(search)) != 0) {
             Found one = { .help = wr_action_help(app, a) };
             snprintf(one.name, sizeof one.name, "%.60s", a->name);

@@ -6,7 +6,7 @@
 #include "ui/state/messages.h"
 #include "ui/state/session_view.h"
 #include "ui/toolkit/words.h"
-#include "ui/toolkit/gui_sdl.h"
+#include "ui/toolkit/gui_sdl_renderer.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
 #include "ui/toolkit/gui.h"
@@ -222,7 +222,7 @@ static void sheet_write(WrApp *app, bool loud)
     if (loud) keep(app);
     wr_job_start(
         sheet->write,
-        wr_sheet_write_new(wr_document_share(wr_session_document(app->session)), &sheet->ask));
+        wr_sheet_write_work_new(wr_document_share(wr_session_document(app->session)), &sheet->ask));
     wr_app_redraw(app);
 }
 
@@ -232,7 +232,7 @@ static void take_write(WrApp *app)
     WrSheetWrite *write = sheet->write ? wr_job_take(sheet->write) : NULL;
     if (!write) return;
     if (write->ok) {
-        if (sheet->loud) wr_app_say_lines(app, wr_text_get(&write->report));
+        if (sheet->loud) wr_app_say_each_line(app, wr_text_get(&write->report));
         wr_app_say(app,
                    write->files == 1 ? "%s: wrote %d file to %s in %.2g s%s"
                                      : "%s: wrote %d files to %s in %.2g s%s",
@@ -454,7 +454,8 @@ static void facts_of(const WrSheetLook *look, int i, char *text, size_t size)
         snprintf(text, size, "%s", wr_words(map->kind->label));
         return;
     }
-    add_bytes(wr_export_bytes(map->kind, look->width, look->height, depth), bytes, sizeof bytes);
+    add_bytes(wr_export_estimate_bytes(map->kind, look->width, look->height, depth), bytes,
+              sizeof bytes);
     used += (size_t)snprintf(text, size, "%d \xc3\x97 %d, %s", look->width, look->height,
                              depth == 8    ? wr_words("8 bits")
                              : depth == 16 ? wr_words("16 bits")

@@ -2,7 +2,7 @@
    pause in editing. */
 #pragma once
 #include "ui/state/app_state.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/jobs/sheet_job.h"
 
 typedef struct WrSheetState {

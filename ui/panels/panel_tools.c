@@ -4,7 +4,7 @@
 #include "ui/state/app_state.h"
 #include "ui/state/keys.h"
 #include "ui/state/layout.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/generate/generate_state.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
@@ -29,7 +29,7 @@ typedef struct Button {
 static double pitch_of(const WrApp *app)
 {
     const double room = app->layout->strip.h / wr_gui_scale() - 12;
-    return fmin(WR_TOOL_MAX, floor(room / (app->roster->tool_count + WR_STRIP_MORE)));
+    return fmin(WR_TOOL_MAX, floor(room / (app->registry->tool_count + WR_STRIP_MORE)));
 }
 
 /* Generator families with a button of their own. */
@@ -42,14 +42,14 @@ _Static_assert(sizeof own / sizeof *own + 1 == WR_STRIP_MORE, "and the eraser");
 /* The current family, or "". */
 static const char *family_now(const WrApp *app)
 {
-    const bool generates = strcmp(app->roster->tools[app->tool]->action, WR_ACT(generate)) == 0;
+    const bool generates = strcmp(app->registry->tools[app->tool]->action, WR_ACT(generate)) == 0;
     const WrGenerator *generator = app->generate->generator;
     return generates && generator ? generator->family : "";
 }
 
 static Button tool_button(const WrApp *app, int i)
 {
-    const WrTool *tool = app->roster->tools[i];
+    const WrTool *tool = app->registry->tools[i];
     const WrAction *action = wr_action_find(app, tool->action);
     bool on = i == app->tool;
     for (int k = 0; k < WR_LENGTH(own) && strcmp(tool->action, WR_ACT(generate)) == 0; k++)
@@ -76,9 +76,9 @@ static Button family_button(const WrApp *app, int k)
 static int list(const WrApp *app, Button *buttons)
 {
     int count = 0;
-    for (int i = 0; i < app->roster->tool_count; i++) {
+    for (int i = 0; i < app->registry->tool_count; i++) {
         buttons[count++] = tool_button(app, i);
-        const char *action = app->roster->tools[i]->action;
+        const char *action = app->registry->tools[i]->action;
         if (strcmp(action, WR_ACT(brush)) == 0) buttons[count++] = eraser_button(app);
         for (int k = 0; k < WR_LENGTH(own) && strcmp(action, WR_ACT(stamp)) == 0; k++)
             buttons[count++] = family_button(app, k);
@@ -103,7 +103,7 @@ void wr_panel_tools(WrApp *app)
 {
     if (app->layout->strip.w <= 0) return;
     Button buttons[BUTTONS_MAX];
-    WR_ASSERT(app->roster->tool_count + WR_STRIP_MORE <= BUTTONS_MAX);
+    WR_ASSERT(app->registry->tool_count + WR_STRIP_MORE <= BUTTONS_MAX);
     const int count = list(app, buttons);
     wr_gui_area_begin("##tools", WR_AREA_BAR, app->layout->strip, WR_COLOUR_BAR);
     int columns = app->layout->strip.w > wr_gui_px(60) ? 2 : 1;

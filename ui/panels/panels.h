@@ -1,4 +1,4 @@
-/* panels.h - the panels and dialogs of the roster. */
+/* panels.h - the panels and dialogs of the registry. */
 #pragma once
 #include "ui/canvas/outline.h"
 #include "ui/state/app_state.h"

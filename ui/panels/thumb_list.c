@@ -2,7 +2,7 @@
 #include "ui/canvas/canvas_colors.h"
 #include "ui/state/app_state.h"
 #include "ui/toolkit/gui.h"
-#include "ui/toolkit/gui_sdl.h"
+#include "ui/toolkit/gui_sdl_renderer.h"
 
 #include "base/array.h"
 #include "command/session.h"

@@ -1,7 +1,7 @@
 /* patch.h - the patch view: requests to the preview and their timing, rotation, lights, camera. */
 #pragma once
 #include "ui/state/app_state.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/patch/patch_cube.h"
 #include "ui/patch/patch_objects.h"
 #include "ui/preview/preview.h"

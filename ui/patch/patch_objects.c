@@ -22,7 +22,7 @@
 
 /* ---- picking ---- */
 
-const WrPatchPicks *wr_patch_picks(WrApp *app)
+const WrObjectPicks *wr_patch_picks(WrApp *app)
 {
     WrPatchPaint *p = app->paint;
     const SDL_Rect *room = &app->layout->patch;
@@ -31,18 +31,18 @@ const WrPatchPicks *wr_patch_picks(WrApp *app)
     const bool same = p->picks && p->scene == scene && p->turn_deg == turn &&
                       p->room.w == room->w && p->room.h == room->h;
     if (same || room->w <= 0) return room->w > 0 ? p->picks : NULL;
-    wr_patch_picks_forget(app);
-    p->picks = wr_patch_picks_new(scene, turn, room->w, room->h, NULL);
+    wr_object_picks_forget(app);
+    p->picks = wr_object_picks_new(scene, turn, room->w, room->h, NULL);
     p->scene = wr_scene_share(scene);
     p->turn_deg = turn;
     p->room = *room;
     return p->picks;
 }
 
-void wr_patch_picks_forget(WrApp *app)
+void wr_object_picks_forget(WrApp *app)
 {
     WrPatchPaint *p = app->paint;
-    wr_patch_picks_free(p->picks);
+    wr_object_picks_free(p->picks);
     if (p->scene) wr_scene_free(p->scene);
     p->picks = NULL;
     p->scene = NULL;
@@ -59,12 +59,12 @@ static void use_layer(WrApp *app)
 bool wr_patch_choose(WrApp *app, const WrPointer *at)
 {
     const SDL_Rect *room = &app->layout->patch;
-    const WrPatchPicks *picks = wr_patch_picks(app);
+    const WrObjectPicks *picks = wr_patch_picks(app);
     const WrScene *scene = wr_app_scene(app);
     char buffer[WR_OBJECT_LABEL];
     WrPatchSpot spot;
     const int object =
-        picks ? wr_patch_picks_at(picks, at->x - room->x, at->y - room->y, &spot) : -1;
+        picks ? wr_object_picks_at(picks, at->x - room->x, at->y - room->y, &spot) : -1;
     if (object < 0) return false;
     if (object != scene->chosen) {
         WrText line = { 0 };

@@ -15,8 +15,8 @@ typedef enum WrHandle {
 } WrHandle;
 
 /* Pick buffers for the displayed picture, rebuilt for another picture. NULL: none. Borrowed. */
-const WrPatchPicks *wr_patch_picks(WrApp *app);
-void wr_patch_picks_forget(WrApp *app);
+const WrObjectPicks *wr_patch_picks(WrApp *app);
+void wr_object_picks_forget(WrApp *app);
 /* Make the object under the pointer the active one, and its layer the active layer if it has one of its own. False if
    there is no object. */
 bool wr_patch_choose(WrApp *app, const WrPointer *at);

@@ -37,23 +37,23 @@
 /* Picking for the active object. */
 static const WrPatchPick *picker(WrApp *app)
 {
-    const WrPatchPicks *picks = wr_patch_picks(app);
-    return picks ? wr_patch_picks_of(picks, wr_app_scene(app)->chosen) : NULL;
+    const WrObjectPicks *picks = wr_patch_picks(app);
+    return picks ? wr_object_picks_of(picks, wr_app_scene(app)->chosen) : NULL;
 }
 
 void wr_patch_paint_free(WrApp *app)
 {
-    wr_patch_picks_forget(app);
+    wr_object_picks_forget(app);
 }
 
 /* Point of the active object under the pixel, if visible. */
 static bool spot_under(WrApp *app, double x, double y, WrPatchSpot *spot)
 {
-    const WrPatchPicks *picks = wr_patch_picks(app);
+    const WrObjectPicks *picks = wr_patch_picks(app);
     const SDL_Rect *room = &app->layout->patch;
     return picks && x >= room->x && x < room->x + room->w && y >= room->y &&
            y < room->y + room->h &&
-           wr_patch_picks_at(picks, x - room->x, y - room->y, spot) == wr_app_scene(app)->chosen;
+           wr_object_picks_at(picks, x - room->x, y - room->y, spot) == wr_app_scene(app)->chosen;
 }
 
 bool wr_patch_paint_uv(WrApp *app, const WrPointer *at, double *u, double *v)

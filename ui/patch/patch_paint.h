@@ -9,9 +9,9 @@
 
 /* State of painting on the patch (patch_paint.c). */
 typedef struct WrPatchPaint {
-    bool on;             /* dragging over the patch paints instead of rotating it */
-    WrPatchPicks *picks; /* owned */
-    WrScene *scene;      /* scene for which they were made; shared, owned */
+    bool on;              /* dragging over the patch paints instead of rotating it */
+    WrObjectPicks *picks; /* owned */
+    WrScene *scene;       /* scene for which they were made; shared, owned */
     double turn_deg;
     SDL_Rect room;
     bool inside; /* the last step was on the object */

@@ -351,15 +351,15 @@ bool wr_patch_pick_slopes(const WrPatchPick *pick, const WrPatchSpot *at, double
 
 /* ---- picking among all objects ---- */
 
-struct WrPatchPicks {
+struct WrObjectPicks {
     WrPatchPick *pick[WR_OBJECTS_MAX]; /* one per object; NULL: hidden. Owned */
     int count;
 };
 
-WrPatchPicks *wr_patch_picks_new(const WrScene *scene, double turn_deg, int width, int height,
-                                 WrError *err)
+WrObjectPicks *wr_object_picks_new(const WrScene *scene, double turn_deg, int width, int height,
+                                   WrError *err)
 {
-    WrPatchPicks *picks = wr_alloc(1, sizeof *picks);
+    WrObjectPicks *picks = wr_alloc(1, sizeof *picks);
     picks->count = wr_scene_object_count(scene);
     for (int i = 0; i < picks->count; i++) {
         const double aspect = height > 0 ? (double)width / height : 1;
@@ -368,20 +368,20 @@ WrPatchPicks *wr_patch_picks_new(const WrScene *scene, double turn_deg, int widt
         picks->pick[i] = wr_patch_pick_new(part, turn_deg, width, height, err);
         wr_scene_free(part);
         if (picks->pick[i]) continue;
-        wr_patch_picks_free(picks);
+        wr_object_picks_free(picks);
         return NULL;
     }
     return picks;
 }
 
-void wr_patch_picks_free(WrPatchPicks *picks)
+void wr_object_picks_free(WrObjectPicks *picks)
 {
     if (!picks) return;
     for (int i = 0; i < picks->count; i++) wr_patch_pick_free(picks->pick[i]);
     wr_free(picks);
 }
 
-int wr_patch_picks_at(const WrPatchPicks *picks, double x, double y, WrPatchSpot *out)
+int wr_object_picks_at(const WrObjectPicks *picks, double x, double y, WrPatchSpot *out)
 {
     int found = -1;
     for (int i = 0; i < picks->count; i++) {
@@ -394,7 +394,7 @@ int wr_patch_picks_at(const WrPatchPicks *picks, double x, double y, WrPatchSpot
     return found;
 }
 
-const WrPatchPick *wr_patch_picks_of(const WrPatchPicks *picks, int object)
+const WrPatchPick *wr_object_picks_of(const WrObjectPicks *picks, int object)
 {
     return object >= 0 && object < picks->count ? picks->pick[object] : NULL;
 }

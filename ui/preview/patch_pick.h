@@ -38,13 +38,13 @@ bool wr_patch_pick_slopes(const WrPatchPick *pick, const WrPatchSpot *at, double
 
 /* The object under a pixel of the patch, and the point on it. No window needed. */
 
-typedef struct WrPatchPicks WrPatchPicks;
+typedef struct WrObjectPicks WrObjectPicks;
 
 /* wr_patch_pick_new for all visible objects. */
-WrPatchPicks *wr_patch_picks_new(const WrScene *scene, double turn_deg, int width, int height,
-                                 WrError *err);
-void wr_patch_picks_free(WrPatchPicks *picks); /* NULL is allowed */
+WrObjectPicks *wr_object_picks_new(const WrScene *scene, double turn_deg, int width, int height,
+                                   WrError *err);
+void wr_object_picks_free(WrObjectPicks *picks); /* NULL is allowed */
 /* Index of the object visible at (x, y), and the point on it; -1: none. */
-int wr_patch_picks_at(const WrPatchPicks *picks, double x, double y, WrPatchSpot *out);
+int wr_object_picks_at(const WrObjectPicks *picks, double x, double y, WrPatchSpot *out);
 /* Picking of that object; NULL: hidden. Borrowed. */
-const WrPatchPick *wr_patch_picks_of(const WrPatchPicks *picks, int object);
+const WrPatchPick *wr_object_picks_of(const WrObjectPicks *picks, int object);

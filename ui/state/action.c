@@ -3,7 +3,7 @@
 #include "ui/state/busy.h"
 #include "ui/state/app_state.h"
 #include "ui/state/messages.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/session_view.h"
 
 #include "base/array.h"
@@ -17,14 +17,14 @@
 
 const WrAction *wr_action_find(const WrApp *app, const char *name)
 {
-    for (const WrAction *a = app->roster->actions; a->name; a++)
+    for (const WrAction *a = app->registry->actions; a->name; a++)
         if (strcmp(a->name, name) == 0) return a;
     return NULL;
 }
 
 const char *wr_action_help(const WrApp *app, const WrAction *action)
 {
-    return app->roster->helps[action - app->roster->actions];
+    return app->registry->helps[action - app->registry->actions];
 }
 
 /* Checks the active layer; false, with the reason. */
@@ -58,7 +58,7 @@ void wr_action_run(WrApp *app, const char *name)
 {
     const WrAction *action = wr_action_find(app, name);
     if (action && action->edits && wr_busy_refuse(app)) return;
-    for (WrActionFamily *const *f = app->roster->families; !action && *f; f++)
+    for (WrActionFamily *const *f = app->registry->families; !action && *f; f++)
         if ((*f)(app, name)) break;
     WrError err;
     if (action && !layer_fits(app, action, &err)) wr_app_say_why(app, &err);

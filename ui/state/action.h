@@ -1,4 +1,4 @@
-/* action.h - named actions, used by menus, keys, buttons and the search. The rows are in the roster. */
+/* action.h - named actions, used by menus, keys, buttons and the search. The rows are in the registry. */
 #pragma once
 #include "ui/state/app_state.h"
 

@@ -50,7 +50,7 @@ typedef struct WrPreview WrPreview;
 typedef struct WrRecovery WrRecovery;
 typedef struct WrReplace WrReplace;
 typedef struct WrIdleProbe WrIdleProbe;
-typedef struct WrRoster WrRoster;
+typedef struct WrRegistry WrRegistry;
 typedef struct WrScene WrScene;
 typedef struct WrSeam WrSeam;
 typedef struct WrSelectState WrSelectState;
@@ -72,7 +72,7 @@ typedef struct WrWaits WrWaits;
 /* State of the window, which owns the pointed-to objects unless stated otherwise. Lengths are pixels of the window,
    times seconds of system/clock.h. */
 struct WrApp {
-    const WrRoster *roster;      /* borrowed: lists of the window's components */
+    const WrRegistry *registry;  /* borrowed: lists of the window's components */
     const WrAppOptions *options; /* borrowed */
     WrSession *session;          /* borrowed; a snapshot while a command runs in the background */
     SDL_Window *window;

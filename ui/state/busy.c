@@ -6,7 +6,7 @@
 #include "ui/state/document.h"
 #include "ui/state/input_router.h"
 #include "ui/state/messages.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/words.h"
 #include "ui/jobs/job.h"
@@ -78,7 +78,7 @@ void wr_busy_wait(WrApp *app)
     WrBusy *busy = app->busy;
     while (!is_done(busy))
         if (app->in_frame) SDL_Delay(LOOKS_MS);
-        else app->roster->step(app);
+        else app->registry->step(app);
 }
 
 /* Handle delayed events: the result of the file dialog, then a request to close, which offers to save unsaved work. */
@@ -222,7 +222,7 @@ void wr_busy_settle(WrApp *app)
     if (app->in_frame || app->waits->running) return;
     /* Work with a waiting caller is finished by that caller, not here. */
     while (app->busy ? !wr_busy_refuses(app) && app->busy->after : app->waits->items.count > 0) {
-        if (app->busy) app->roster->step(app);
+        if (app->busy) app->registry->step(app);
         wr_busy_update(app);
     }
 }
@@ -290,7 +290,7 @@ bool wr_busy_look(WrApp *app, const SDL_Event *event)
     if (!app->busy || app->dialog->now != WR_DIALOG_NONE) return false;
     const bool begins = event->type == SDL_MOUSEBUTTONDOWN || event->type == SDL_MOUSEWHEEL;
     if (begins && wr_gui_owns_point(app->gui, app->hand->x, app->hand->y)) return false;
-    for (const WrPart *const *p = app->roster->parts; *p; p++)
+    for (const WrPart *const *p = app->registry->parts; *p; p++)
         if ((*p)->look && (*p)->look(app, event)) return true;
     return false;
 }

@@ -3,7 +3,7 @@
 #include "ui/state/app_state.h"
 #include "ui/state/input_router.h"
 #include "ui/state/layout.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
@@ -100,7 +100,7 @@ void wr_panel_dialogs(WrApp *app)
 {
     WrDialog was = app->dialog->now;
     bool fresh = app->dialog->fresh;
-    if (was != WR_DIALOG_NONE) app->roster->dialogs[was].draw(app);
+    if (was != WR_DIALOG_NONE) app->registry->dialogs[was].draw(app);
     if (app->dialog->now == was && fresh) app->dialog->fresh = false;
     if (app->dialog->now == WR_DIALOG_NONE && was != WR_DIALOG_NONE) wr_app_redraw(app);
 }

@@ -1,4 +1,4 @@
-/* dialog.h - the open dialog, and helpers shared by most dialogs. Each dialog's content is a row of the roster. */
+/* dialog.h - the open dialog, and helpers shared by most dialogs. Each dialog's content is a row of the registry. */
 #pragma once
 #include "ui/state/app_state.h"
 

@@ -9,7 +9,7 @@
 #include "ui/state/action.h"
 #include "ui/state/messages.h"
 #include "ui/state/replace.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/session_view.h"
 #include "ui/state/settings.h"
 #include "ui/jobs/files.h"
@@ -50,7 +50,7 @@ void wr_app_changed_document(WrApp *app)
     wr_app_try_end(app);
     wr_free(app->file->picture);
     app->file->picture = NULL;
-    for (const WrPart *const *p = app->roster->parts; *p; p++)
+    for (const WrPart *const *p = app->registry->parts; *p; p++)
         if ((*p)->another) (*p)->another(app);
     wr_app_live_end(app);
     app->view_placed = false;
@@ -372,7 +372,7 @@ static void ask_first(WrApp *app, WrAfter after, const char *path)
     else wr_app_go_on(app);
 }
 
-void wr_app_new(WrApp *app)
+void wr_app_new_document(WrApp *app)
 {
     ask_first(app, WR_AFTER_NEW, NULL);
 }
@@ -493,7 +493,7 @@ void wr_app_file_chosen(WrApp *app, WrFilePurpose purpose, const char *path)
 {
     bool asks = wr_files_writes(purpose) && !wr_files_agreed(app->files) &&
                 wr_replace_confirm(app, WR_REPLACE_CHOSEN, purpose, path);
-    if (!asks) wr_deferred(app, app->roster->takes[purpose], path); /* may take long */
+    if (!asks) wr_deferred(app, app->registry->takes[purpose], path); /* may take long */
 }
 
 void wr_file_take_open(WrApp *app, const char *path)

@@ -52,7 +52,7 @@ void wr_app_start_ahead(WrApp *app);
 /* Open the starter, or the requested document, which may continue in the background. False: it cannot be opened. */
 bool wr_app_start(WrApp *app, WrError *err);
 void wr_app_start_end(WrApp *app); /* wait for the thread; may be called at any time */
-void wr_app_new(WrApp *app);
+void wr_app_new_document(WrApp *app);
 void wr_app_open(WrApp *app);
 void wr_app_open_path(WrApp *app, const char *path); /* with the question about unsaved work */
 /* New document by command lines, with the question about unsaved work. */

@@ -4,7 +4,7 @@
 #include "ui/state/keys.h"
 #include "ui/state/layout.h"
 #include "ui/state/messages.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/settings.h"
 #include "ui/toolkit/gui.h"
 
@@ -35,7 +35,7 @@ void wr_app_make_layout(WrApp *app)
                          .scale = wr_gui_scale(),
                          .divider = app->settings->divider,
                          .views = app->settings->views,
-                         .tools = app->roster->tool_count + WR_STRIP_MORE,
+                         .tools = app->registry->tool_count + WR_STRIP_MORE,
                          .panels = app->settings->panels,
                          .lower = app->settings->lower };
     *app->layout = wr_layout_make(&in);

@@ -292,7 +292,7 @@ const char *wr_keys_owner(const WrKeyMap *map, WrKey key)
     return find(map, key.code, key.mods);
 }
 
-void wr_keys_remove(WrKeyMap *map, const char *action)
+void wr_keys_unbind_all(WrKeyMap *map, const char *action)
 {
     drop_action(&map->bindings, action);
 }

@@ -48,7 +48,7 @@ void wr_keys_list(const WrKeyMap *map, const char *action, WrText *out);
 const char *wr_keys_owner(const WrKeyMap *map, WrKey key);
 /* Make the key the only one of the action, and remove it from others. */
 void wr_keymap_bind(WrKeyMap *map, const char *action, WrKey key);
-void wr_keys_remove(WrKeyMap *map, const char *action); /* remove all keys of the action */
+void wr_keys_unbind_all(WrKeyMap *map, const char *action); /* remove all keys of the action */
 /* The text of a key file with the action's line replaced by the map's; other lines and comments are unchanged. */
 void wr_keys_edit(const WrKeyMap *map, const char *action, const char *text, WrText *out);
 /* True if the key can be assigned alone: not a modifier, lock or Escape key. */

@@ -145,7 +145,7 @@ static void starter_line(const char *line, double scale, WrText *out)
     wr_text_add(out, "\n");
 }
 
-void wr_new_lines(const WrNewForm *form, const char *wrap, WrText *out)
+void wr_new_document_lines(const WrNewForm *form, const char *wrap, WrText *out)
 {
     double w = rint(form->width), h = rint(form->height);
     const char *line = wr_starters[form->starter].line;

@@ -49,6 +49,6 @@ void wr_new_sides(int aspect, double longer, double *width, double *height);
 bool wr_new_surface(int kind);
 /* Append the document's lines, each with its line end. The number of repeats on the surface is the integer that best
  * keeps the cell's shape. wrap: name of the form's edge mode. */
-void wr_new_lines(const WrNewForm *form, const char *wrap, WrText *out);
+void wr_new_document_lines(const WrNewForm *form, const char *wrap, WrText *out);
 /* Append the lines of a surface with the aspect ratio of a picture of that size (texels). */
 void wr_new_picture_lines(int width, int height, WrText *out);

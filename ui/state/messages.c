@@ -40,7 +40,7 @@ void wr_app_say(WrApp *app, const char *format, ...)
     add(app, text, false);
 }
 
-void wr_app_say_lines(WrApp *app, const char *text)
+void wr_app_say_each_line(WrApp *app, const char *text)
 {
     for (const char *at = text; *at;) {
         size_t length = strcspn(at, "\n");

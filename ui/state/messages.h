@@ -21,7 +21,7 @@ typedef struct WrMessages {
 } WrMessages;
 
 void wr_app_say(WrApp *app, const char *format, ...) __attribute__((format(printf, 2, 3)));
-void wr_app_say_lines(WrApp *app, const char *text); /* each line as a separate message */
+void wr_app_say_each_line(WrApp *app, const char *text); /* each line as a separate message */
 /* Show as a note why an action is not available. */
 void wr_app_say_why(WrApp *app, const WrError *err);
 void wr_app_fail(WrApp *app, const WrError *err);

@@ -5,7 +5,7 @@
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
 #include "ui/state/document.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
@@ -73,7 +73,7 @@ static void go_ahead(WrApp *app)
 {
     const WrReplace *replace = app->replace;
     wr_dialog_close(app);
-    wr_deferred(app, app->roster->takes[replace->purpose], replace->path);
+    wr_deferred(app, app->registry->takes[replace->purpose], replace->path);
 }
 
 void wr_dialog_replace(WrApp *app)

@@ -5,7 +5,7 @@
 #include "ui/state/action.h"
 #include "ui/state/line_words.h"
 #include "ui/state/messages.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/session_view.h"
 #include "ui/jobs/edit_preview.h"
 
@@ -50,7 +50,7 @@ static void is_done(WrApp *app, void *ctx, bool ok, const WrError *err)
     else wr_busy_fail(app, line->words, err);
     wr_app_try_end(app);
     wr_app_take_notes(app);
-    if (ok && line->notes) wr_app_say_lines(app, line->notes);
+    if (ok && line->notes) wr_app_say_each_line(app, line->notes);
     wr_app_title(app);
     wr_app_redraw(app);
     free_line(line);

@@ -1,7 +1,7 @@
 #include "ui/state/scene_line.h"
 #include "ui/state/busy.h"
 #include "ui/state/app_state.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/session_view.h"
 
 #include "base/text.h"

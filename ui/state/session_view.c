@@ -42,7 +42,7 @@ const WrField *wr_app_canvas_field(const WrApp *app)
         return mask ? mask : layer->mask;
     }
     const bool worn = !app->trying && !wr_document_shows(document, document->active) &&
-                      document->solo < 0 && wr_scene_wears(document->scene, layer->name);
+                      document->solo < 0 && wr_scene_uses_layer(document->scene, layer->name);
     return worn ? layer->heights : wr_app_field(app);
 }
 

@@ -1,5 +1,5 @@
 #include "ui/toolkit/display.h"
-#include "ui/toolkit/desktop.h"
+#include "ui/toolkit/desktop_scale.h"
 
 #include "base/enum_rows.h"
 #include "base/text.h"

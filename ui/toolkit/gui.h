@@ -1,5 +1,5 @@
 /* gui.h - widgets and 2D drawing of the window, as a plain C interface. Only the gui_imgui*.cpp files use Dear ImGui,
-   and only gui_sdl.c draws its triangles with SDL. Immediate mode: between frame_begin and frame_end the panels call
+   and only gui_sdl_renderer.c draws its triangles with SDL. Immediate mode: between frame_begin and frame_end the panels call
    their widgets, and each call returns its result at once. One thread; one WrGui at a time.
 
    Sizes are pixels of the window unless a name contains `units`: a unit is a pixel at scale 1. */
@@ -41,7 +41,7 @@ bool wr_gui_type_now(WrGui *gui);
 bool wr_gui_holds_mouse(const WrGui *gui); /* a widget is being dragged */
 bool wr_gui_wants_text(const WrGui *gui);  /* a text field has the keyboard focus */
 /* True if a widget waits for a time (a possible double click, a tip): draw again soon. */
-bool wr_gui_busy(const WrGui *gui);
+bool wr_gui_has_pending_timer(const WrGui *gui);
 /* True if the last frame does not show the effect of all events: a short press, a list or dialog that opens over
    several frames, a background being dimmed. Draw again now. */
 bool wr_gui_unsettled(const WrGui *gui);
@@ -243,7 +243,7 @@ bool wr_gui_field_left(void);
 /* A progress bar; fraction 0..1, below 0: unknown. width <= 0: the rest of the row. */
 void wr_gui_progress(double width, double fraction);
 /* A dark square with coloured sides (left, right, top, bottom); for a tip. */
-void wr_gui_square(const char *id, double units, const WrColour sides[4]);
+void wr_gui_edge_colours_square(const char *id, double units, const WrColour sides[4]);
 
 /* ---- rows that contain widgets: between begin and end, wr_gui_row_at sets the next position ---- */
 typedef struct WrRow {

@@ -293,7 +293,7 @@ extern "C" bool wr_gui_wants_text(const WrGui *)
                               : g.WantTextInputNextFrame == 1 && g.ActiveId != 0;
 }
 
-extern "C" bool wr_gui_busy(const WrGui *gui)
+extern "C" bool wr_gui_has_pending_timer(const WrGui *gui)
 {
     return gui->armed != 0 || gui->tip_waits;
 }

@@ -164,7 +164,7 @@ int wr_gui_focus_arrows(ImGuiID id, bool both);
 /* gui_imgui_words.cpp. A text translated, up to ##; and a label for ImGui: translated text with the English one as
    identifier. */
 const char *wr_gui_said(const char *text);
-bool wr_gui_stands_in(const char *name);
+bool wr_gui_popup_stand_in(const char *name);
 const char *wr_gui_labelled(const char *label, char (&buffer)[320]);
 /* Report the width of a text and its available room to tests; of the last item's text, if its window is visible. */
 void wr_gui_fits(const char *text, float width, float room);

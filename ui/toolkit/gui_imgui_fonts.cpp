@@ -1,6 +1,6 @@
 /* Fonts and letter spacing: Inter if installed, else a fallback; icons from Material Design. */
 #include "ui/toolkit/gui_imgui.h"
-#include "ui/toolkit/gui_sdl.h"
+#include "ui/toolkit/gui_sdl_renderer.h"
 
 #include <string.h>
 

@@ -44,7 +44,7 @@ try {
     if (wr_gui_reports_all) ImGui::MenuItem(shown);
     if (!wr_gui_reports_all) wr_gui_fits_window(label);
     ImGui::PopStyleVar();
-    return open || wr_gui_stands_in(label);
+    return open || wr_gui_popup_stand_in(label);
 }
 WR_CAUGHT(false)
 
@@ -76,7 +76,7 @@ extern "C" void wr_gui_popup_open(const char *id)
 extern "C" bool wr_gui_popup_begin(const char *id)
 try {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(12), px(10)));
-    bool open = wr_gui_reports_all ? wr_gui_stands_in(id) : ImGui::BeginPopup(id);
+    bool open = wr_gui_reports_all ? wr_gui_popup_stand_in(id) : ImGui::BeginPopup(id);
     ImGui::PopStyleVar();
     return open;
 }

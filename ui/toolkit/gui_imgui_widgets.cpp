@@ -753,7 +753,7 @@ try {
 }
 WR_CAUGHT()
 
-extern "C" void wr_gui_square(const char *id, double units, const WrColour sides[4])
+extern "C" void wr_gui_edge_colours_square(const char *id, double units, const WrColour sides[4])
 try {
     float side = px(units), gap = px(6), line = px(2);
     ImVec2 at = ImGui::GetCursorScreenPos();

@@ -21,7 +21,7 @@ const char *wr_gui_said(const char *text)
 }
 
 /* Test mode: stand-in for a popup that is not open. */
-bool wr_gui_stands_in(const char *name)
+bool wr_gui_popup_stand_in(const char *name)
 {
     if (!wr_gui_reports_all) return false;
     ImGui::SetNextWindowPos(ImVec2(0, 0));

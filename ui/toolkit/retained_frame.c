@@ -99,6 +99,8 @@ typedef struct Words {
     uint32_t word[32];
     int count;
 } Words;
+_Static_assert(9 * sizeof(uint32_t) + 3 * sizeof(WrGuiVertex) <= 32 * sizeof(uint32_t),
+               "a textured triangle is longer than Words");
 
 static void say(Words *words, uint32_t word)
 {

@@ -2,7 +2,7 @@
    where each pixel is expensive, only regions that changed since the previous frame are drawn and presented at the
    end. With other renderers the whole frame is drawn. Window thread only. */
 #pragma once
-#include "ui/toolkit/gui_sdl.h"
+#include "ui/toolkit/gui_sdl_renderer.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -3,7 +3,7 @@
 #include "ui/state/app_state.h"
 #include "ui/state/messages.h"
 #include "ui/state/replace.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/settings.h"
 #include "ui/tools/stroke_input.h"
 #include "ui/tools/symmetry.h"

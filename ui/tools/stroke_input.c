@@ -8,7 +8,7 @@
 #include "ui/state/input_router.h"
 #include "ui/state/keys.h"
 #include "ui/state/messages.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/session_view.h"
 #include "ui/state/settings.h"
 #include "ui/tools/brush_command_text.h"

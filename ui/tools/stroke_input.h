@@ -1,7 +1,7 @@
 /* stroke_input.h - strokes by the pointer, drawn for a few milliseconds per frame. */
 #pragma once
 #include "ui/state/app_state.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/input/stroke_smoothing.h"
 #include "ui/toolkit/gui.h"
 

@@ -3,11 +3,11 @@
 #include "ui/tools/thumbs.h"
 #include "ui/canvas/canvas_colors.h"
 #include "ui/state/app_state.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/tools/preset_browser.h"
 #include "ui/tools/tool_stamp.h"
 #include "ui/jobs/job.h"
-#include "ui/toolkit/gui_sdl.h"
+#include "ui/toolkit/gui_sdl_renderer.h"
 
 #include "base/array.h"
 #include "base/error.h"
@@ -140,7 +140,7 @@ static void paint_sample(const WrBrush *of, WrField *field)
                             .seconds = t };
         wr_stroke_add(stroke, sample);
     }
-    wr_stroke_free(stroke);
+    wr_stroke_finish(stroke);
 }
 
 /* Shading from the upper left, to show the relief. */

@@ -1,7 +1,7 @@
 /* thumbs.h - thumbnails of presets and stamps, made on a separate thread. */
 #pragma once
 #include "ui/state/app_state.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 
 #include <SDL.h>
 

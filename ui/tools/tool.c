@@ -1,7 +1,7 @@
 /* The current tool. */
 #include "ui/tools/tool.h"
 #include "ui/state/app_state.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/settings.h"
 #include "ui/tools/preset_browser.h"
 
@@ -11,20 +11,20 @@
 
 const WrTool *wr_tool_now(const WrApp *app)
 {
-    return app->roster->tools[app->tool];
+    return app->registry->tools[app->tool];
 }
 
 int wr_tool_find(const WrApp *app, const char *action)
 {
-    for (int i = 0; i < app->roster->tool_count; i++)
-        if (strcmp(app->roster->tools[i]->action, action) == 0) return i;
+    for (int i = 0; i < app->registry->tool_count; i++)
+        if (strcmp(app->registry->tools[i]->action, action) == 0) return i;
     return -1;
 }
 
 /* When a tool with its own brush mode is left, the brush's mode is restored. */
 void wr_tool_choose(WrApp *app, int index)
 {
-    const WrTool *old = wr_tool_now(app), *tool = app->roster->tools[index];
+    const WrTool *old = wr_tool_now(app), *tool = app->registry->tools[index];
     wr_input_router_let_go(app);
     if (index == app->tool) return;
     if (old->leave) old->leave(app);

@@ -1,7 +1,7 @@
-/* tool.h - interface of a tool in the tool strip, and the current tool. The tools' rows are listed in the roster. */
+/* tool.h - interface of a tool in the tool strip, and the current tool. The tools' rows are listed in the registry. */
 #pragma once
 #include "ui/state/app_state.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 
 #include <SDL.h>
 #include <stdbool.h>
@@ -27,7 +27,7 @@ struct WrTool {
 };
 
 const WrTool *wr_tool_now(const WrApp *app);
-int wr_tool_find(const WrApp *app, const char *action); /* index in the roster, or -1 */
+int wr_tool_find(const WrApp *app, const char *action); /* index in the registry, or -1 */
 /* Make it the current tool; the previous one is left and its operation ended. */
 void wr_tool_choose(WrApp *app, int index);
 

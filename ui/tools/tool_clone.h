@@ -1,6 +1,6 @@
 /* tool_clone.h - source of cloned heights. */
 #pragma once
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 
 #include <stdbool.h>
 

@@ -11,7 +11,7 @@
 #include "ui/state/keys.h"
 #include "ui/state/line.h"
 #include "ui/state/messages.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/session_view.h"
 #include "ui/state/settings.h"
 #include "ui/toolkit/gui.h"

@@ -1,7 +1,7 @@
 /* tool_stamp.h - stamp tool: a picture, or the round brush, applied once. */
 #pragma once
 #include "ui/state/app_state.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/jobs/edit_preview.h"
 
 #include "base/array.h"

@@ -14,7 +14,7 @@
 #include "ui/tools/option_row.h"
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_rows.h"
-#include "ui/views/grid.h"
+#include "ui/views/snap_grid.h"
 #include "ui/views/marks.h"
 
 #include "base/exactmath.h"

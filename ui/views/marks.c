@@ -5,7 +5,7 @@
 #include "ui/canvas/view.h"
 #include "ui/state/app_state.h"
 #include "ui/state/layout.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/state/session_view.h"
 #include "ui/state/settings.h"
 #include "ui/toolkit/gui.h"

@@ -4,7 +4,7 @@
 #include "ui/canvas/outline.h"
 #include "ui/canvas/view.h"
 #include "ui/state/app_state.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/toolkit/theme.h"
 
 #include "base/array.h"

@@ -12,7 +12,7 @@
 #include "base/text.h"
 #include "command/session.h"
 #include "field/field.h"
-#include "field/seam.h"
+#include "field/seam_check.h"
 #include "scene/scene.h"
 
 #include <SDL.h>
@@ -78,7 +78,7 @@ void wr_panel_seam_meter(WrApp *app)
     WrText tip = { 0 };
     wr_gui_overlay_begin("##seam", room->x + room->w - wr_gui_px(12), room->y + wr_gui_px(12), 1,
                          0);
-    wr_gui_square("seam", 26, sides);
+    wr_gui_edge_colours_square("seam", 26, sides);
     wr_text_addf(&tip, wr_words("Left and right edge: %s"), word_of(&seam->u));
     add_numbers(&tip, &seam->u);
     wr_text_addf(&tip, wr_words("\nTop and bottom edge: %s"), word_of(&seam->v));

@@ -426,7 +426,7 @@ static void map_samples(const WrRefiner *r, const unsigned char at[2], int k)
 {
     if (!r->job->map) return;
     uint8_t *map = &r->job->map[wr_tile_place(r->job, r->part.x + at[0], r->part.y + at[1])];
-    *map = (uint8_t)(*map % WR_MAP_SAMPLES | wr_tile_map_samples(k));
+    *map = (uint8_t)(*map % WR_MAP_SAMPLES | wr_tile_encode_samples(k));
 }
 
 static void finish_rooks(const WrRefiner *r, int first, int count)

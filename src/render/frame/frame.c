@@ -493,7 +493,7 @@ static void want_codes(WrRenderer *renderer, const WrFrameCodes *codes, WrTileJo
 {
     job->codes = renderer->codes;
     job->rgba = NULL;
-    job->coder.tone = wr_tone_curve(&codes->tone);
+    job->coder.tone = wr_tone_curve_params(&codes->tone);
     wr_backdrop_update(&renderer->backdrop, codes, renderer->radius, job->width, job->height,
                        job->top, job->rows, &job->coder, renderer->pool);
     job->backdrop = &renderer->backdrop;

@@ -102,7 +102,8 @@ void wr_codes_to_rgb(const uint32_t *codes, size_t count, uint8_t *out)
 static WrPixelEncoder coder_of(ResolveJob *job, const WrTone *tone)
 {
     wr_code_bins_fill(job->bins);
-    return (WrPixelEncoder){ wr_kernels_get(NULL, false, NULL), job->bins, wr_tone_curve(tone) };
+    return (WrPixelEncoder){ wr_kernels_get(NULL, false, NULL), job->bins,
+                             wr_tone_curve_params(tone) };
 }
 
 WrFrameCodes wr_frame_codes_of(const WrScene *scene, bool wanted)

@@ -556,7 +556,7 @@ static void tile_start_map(const WrTileJob *job, WrTilePart whole, WrTileScratch
     scratch->mapped = whole;
     for (int y = whole.y; y < whole.y + whole.h; y++)
         memset(job->map + wr_tile_place(job, whole.x, y),
-               WR_MAP_RENDERED | wr_tile_map_samples(all), (size_t)whole.w);
+               WR_MAP_RENDERED | wr_tile_encode_samples(all), (size_t)whole.w);
 }
 
 /* Clips the run at *from to the pixels from a to b, with one more at each end. */

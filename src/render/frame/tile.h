@@ -223,7 +223,7 @@ static inline bool wr_tile_exact(const WrTileJob *job)
 }
 
 /* Samples a side, encoded for the cost map. */
-static inline uint8_t wr_tile_map_samples(int k)
+static inline uint8_t wr_tile_encode_samples(int k)
 {
     int level = 0;
     while (1 << level < k) level++;

@@ -142,7 +142,7 @@ bool wr_reference_probe(const WrField *field, const WrScene *scene, int width, i
     if (probe.hit) {
         WrSurfacePoint *at = &probe.at;
         probe.u = hit.u, probe.v = hit.v, probe.face = hit.face;
-        wr_reference_view_at(view, &hit, at);
+        wr_reference_surface_point(view, &hit, at);
         wr_scene_height(scene, field, hit.u, hit.v, &probe.f, &probe.fu, &probe.fv);
         wr_reference_add_map(&looker.stage, &hit, at, &probe.fu, &probe.fv);
         probe.d = wr_bump_d(at->n_unit, at->pu, at->pv, probe.fu, probe.fv);
@@ -232,7 +232,7 @@ static void map_row(int y, int worker, void *ctx)
         out[x] = NAN;
         if (!hit_surface(looker, &ray, &hit)) continue;
         WrSurfacePoint at;
-        wr_reference_view_at(view, &hit, &at);
+        wr_reference_surface_point(view, &hit, &at);
         if (job->map == WR_MAP_LEVEL) {
             out[x] = level_at(looker, &at, &hit, &ray);
             continue;

@@ -1001,8 +1001,8 @@ static bool hit_faces(const WrReferenceView *view, const WrReferenceRay *ray, Wr
     return found;
 }
 
-void wr_reference_view_at(const WrReferenceView *view, const WrReferenceHit *hit,
-                          WrSurfacePoint *out)
+void wr_reference_surface_point(const WrReferenceView *view, const WrReferenceHit *hit,
+                                WrSurfacePoint *out)
 {
     if (!view->info->held) {
         wr_surface_at(view->shape, hit->face, hit->u, hit->v, out);

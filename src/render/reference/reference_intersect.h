@@ -195,8 +195,8 @@ WrReferenceRay wr_reference_view_ray(const WrReferenceView *view, double x, doub
 void wr_reference_view_spread(const WrReferenceView *view, WrReferenceRay *per_x,
                               WrReferenceRay *per_y);
 /* The surface's point there; for a mesh as reference_mesh_at. */
-void wr_reference_view_at(const WrReferenceView *view, const WrReferenceHit *hit,
-                          WrSurfacePoint *out);
+void wr_reference_surface_point(const WrReferenceView *view, const WrReferenceHit *hit,
+                                WrSurfacePoint *out);
 /* Nearest visible point of the surface on the ray, beyond the near plane. */
 bool wr_reference_view_hit(const WrReferenceView *view, const WrReferenceRay *ray,
                            WrReferenceHit *hit);

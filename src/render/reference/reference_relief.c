@@ -875,7 +875,7 @@ static void note(const Walk *walk, const WrReferenceRay *ray, const WrReferenceH
     const WrReferenceStage *stage = walk->stage;
     WrSurfacePoint at;
     double f, fu, fv, from[2], to[2], bumped[3], displaced[3];
-    wr_reference_view_at(&stage->view, hit, &at);
+    wr_reference_surface_point(&stage->view, hit, &at);
     wr_reference_height(stage, hit->u, hit->v, &f, &fu, &fv);
     wr_reference_add_map(stage, hit, &at, &fu, &fv);
     light_of(stage, at, hit, wr_reference_normal(stage->scene->bump, &at, f, fu, fv), bumped);
@@ -945,9 +945,7 @@ bool wr_reference_displacement_difference(const WrReferenceRequest *request, WrP
     return good;
 }
 
-/* ---- parallax ---- */
-
-/* ---- shell ---- */
+/* ---- parallax through a shell ---- */
 
 /* Parallax of round bases for the reference: a ray through the shell that contains the relief, by short even
    steps; its height above the base has a closed form. */
@@ -1238,7 +1236,7 @@ static bool go_on(const WrReferenceStage *stage, const WrReferenceRay *ray, WrRe
     hit->s += t;
     hit->u = within(info->closed_u, w.u + t * w.a), hit->v = within(info->closed_v, w.v + t * w.b);
     const WrVec3 p = v3_mad(at->p, ray->d, t);
-    wr_reference_view_at(&stage->view, hit, at);
+    wr_reference_surface_point(&stage->view, hit, at);
     at->p = p;
     return true;
 }
@@ -1248,11 +1246,11 @@ bool wr_reference_parallax(const WrReferenceStage *stage, const WrReferenceRay *
 {
     if (!wr_parallax_has_shell(stage->view.shape)) {
         if (!wr_reference_view_hit(&stage->view, ray, hit)) return false;
-        wr_reference_view_at(&stage->view, hit, at);
+        wr_reference_surface_point(&stage->view, hit, at);
         return go_on(stage, ray, hit, at, side);
     }
     if (!reference_shell(stage, ray, hit, side)) return false;
-    wr_reference_view_at(&stage->view, hit, at);
+    wr_reference_surface_point(&stage->view, hit, at);
     at->p = v3_mad(ray->q, ray->d, hit->s);
     return true;
 }

@@ -115,7 +115,7 @@ static double reference_cast_share(const WrReferenceStage *stage, const WrSurfac
     const double far = away * view->size;
     /* with parallax, the point on the base, which is the shadow caster */
     WrSurfacePoint foot = *at;
-    if (stage->parallax) wr_reference_view_at(view, hit, &foot);
+    if (stage->parallax) wr_reference_surface_point(view, hit, &foot);
     const WrVec3 p = wr_place_world(&view->place, foot.p);
     const WrVec3 from = v3_mad(p, n, ABOVE * view->place.radius * view->size);
     if (!(radius > 0)) return is_blocked(stage, from, n, to, far) ? 0 : 1;
@@ -1212,7 +1212,7 @@ static bool hit_stage(const WrReferenceStage *stage, const WrReferenceRay *ray, 
     const bool met = stage->raised.count > 0 ? wr_reference_raised_hit(&stage->raised, ray, hit)
                                              : wr_reference_view_hit(&stage->view, ray, hit);
     if (!met) return false;
-    wr_reference_view_at(&stage->view, hit, at);
+    wr_reference_surface_point(&stage->view, hit, at);
     *side = wr_reference_side(&stage->view, at);
     return true;
 }

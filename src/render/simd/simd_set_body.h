@@ -13,7 +13,7 @@
 #include "render/simd/simd_light_body.h"
 #include "render/simd/simd_sphere_body.h"
 #include "render/simd/simd_fetch_body.h"
-#include "render/simd/simd_sphere_filter_body.h"
+#include "render/simd/simd_sphere_slope_filter_body.h"
 #include "render/simd/simd_encode_body.h"
 
 const WrWide WR_SET_TABLE = { narrow,       wide_shade,     wide_smooth,       wide_paint,

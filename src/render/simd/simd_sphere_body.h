@@ -1,4 +1,5 @@
-/* simd_sphere_body.h - SIMD u and v of a sphere from n. Part of simd_set_body.h. */
+/* simd_sphere_body.h - SIMD spheres seen from outside: u and v, chords of rows without bumps, hits and frames, n' from
+   slopes. Part of simd_set_body.h. */
 
 /* ---- u and v ---- */
 
@@ -32,7 +33,7 @@ static void put_parameters(WrStrip *strip)
         put_parameters_of(W_LOAD3(strip, n, i), w_all(1.0f), strip, i);
 }
 
-/* ---- rows ---- */
+/* ---- chords of a row ---- */
 
 /* SIMD evaluation of sphere rows (sphere_rows.h). Part of simd_set_body.h. */
 

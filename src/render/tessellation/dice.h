@@ -1,6 +1,5 @@
-/* dice.h - F of a displaced surface, prepared for many single evaluations.
-   Private to the renderer. With a fitted spline each evaluation would compute the nearby coefficients again;
-   here they are computed once. */
+/* dice.h - dicing of displaced surfaces into facets, and their F prepared for many single evaluations.
+   Private to the renderer. */
 #pragma once
 #include "scene/scene.h"
 #include "surface/triangles.h"
@@ -9,6 +8,8 @@
 #include <stdint.h>
 
 /* ---- heights ---- */
+
+/* With a fitted spline each evaluation of F would compute the nearby coefficients again; here they are computed once. */
 
 typedef struct WrError WrError;
 typedef struct WrField WrField;

@@ -1,9 +1,9 @@
-/* roster_list.h - the complete roster and the table of actions. */
+/* registry_list.h - the complete registry and the table of actions. */
 #pragma once
 #include "ui/state/action.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 
-extern const WrRoster wr_roster;
+extern const WrRegistry wr_registry;
 extern const WrAction wr_actions[]; /* the last row has name NULL */
 /* WR_ACTION_COUNT entries, in the order of WR_ACTIONS */
 extern const char *const wr_action_helps[];

@@ -1,4 +1,4 @@
-#include "ui/views/grid.h"
+#include "ui/views/snap_grid.h"
 #include "ui/canvas/view.h"
 #include "ui/state/settings.h"
 #include "ui/toolkit/gui.h"

@@ -1,4 +1,4 @@
-/* simd_sphere_filter_body.h - SIMD slopes of a sphere filtered over each pixel's footprint, with one isotropic fetch as
+/* simd_sphere_slope_filter_body.h - SIMD slopes of a sphere filtered over each pixel's footprint, with one isotropic fetch as
    in kern_filter_body.h. Part of simd_set_body.h.
 
    Footprints are those of kern_filter_body.h, simplified for a sphere: Pu and Pv are perpendicular, 2 pi flat

@@ -1,4 +1,4 @@
-/* grid.h - snapping grid over the canvas, with equal parts of the cell and a ruler along its edges. */
+/* snap_grid.h - snapping grid over the canvas, with equal parts of the cell and a ruler along its edges. */
 #pragma once
 #include "ui/canvas/view.h"
 #include "ui/state/app_state.h"

@@ -1,5 +1,5 @@
-/* Calls to all components of the window through the roster. */
-#include "ui/state/roster.h"
+/* Calls to all components of the window through the registry. */
+#include "ui/state/registry.h"
 #include "ui/state/app_state.h"
 #include "ui/state/settings.h"
 
@@ -7,8 +7,8 @@
 
 int wr_tab_find(const WrApp *app, const char *label)
 {
-    for (int i = 0; i < app->roster->tab_count; i++)
-        if (strcmp(app->roster->tabs[i].label, label) == 0) return i;
+    for (int i = 0; i < app->registry->tab_count; i++)
+        if (strcmp(app->registry->tabs[i].label, label) == 0) return i;
     return 0;
 }
 
@@ -20,13 +20,13 @@ void wr_tab_show(WrApp *app, const char *label)
 
 void wr_input_router_let_go(WrApp *app)
 {
-    for (const WrPart *const *p = app->roster->parts; *p; p++)
+    for (const WrPart *const *p = app->registry->parts; *p; p++)
         if ((*p)->let_go) (*p)->let_go(app);
 }
 
 void wr_app_settle(WrApp *app)
 {
     wr_input_router_let_go(app);
-    for (const WrPart *const *p = app->roster->parts; *p; p++)
+    for (const WrPart *const *p = app->registry->parts; *p; p++)
         if ((*p)->settle) (*p)->settle(app);
 }

@@ -1,4 +1,4 @@
-/* roster.h - lists of the window's tools, actions, dialogs, tabs and components, assembled only in app/roster_list.c.
+/* registry.h - lists of the window's tools, actions, dialogs, tabs and components, assembled only in app/registry_list.c.
    Lower modules access higher ones only through these lists, so a new component is one file and one row. */
 #pragma once
 #include "ui/state/app_state.h"
@@ -46,7 +46,7 @@ typedef struct WrPart {
 /* Handler of a chosen file, one for each purpose. */
 typedef void WrFileTake(WrApp *app, const char *path);
 
-struct WrRoster {
+struct WrRegistry {
     const WrTool *const *tools;
     int tool_count;
     const WrAction *actions;         /* the last row has name NULL */

@@ -1,4 +1,4 @@
-#include "ui/toolkit/gui_sdl.h"
+#include "ui/toolkit/gui_sdl_renderer.h"
 
 #include <SDL.h>
 #include <math.h>

@@ -1,5 +1,5 @@
 /* Seams of a cell: the test of a table, and the certificate of smoothness. */
-#include "field/seam.h"
+#include "field/seam_check.h"
 
 #include "base/memory.h"
 #include "base/text.h"
@@ -290,7 +290,7 @@ void wr_seam_text(const WrSeamEdge *edge, WrText *text)
 
 /* ---- seam continuity: constants ---- */
 
-/* ratio of Catmull-Rom's largest jump between texel centres to that at the centres; see seam.h */
+/* ratio of Catmull-Rom's largest jump between texel centres to that at the centres; see seam_check.h */
 #define CATMULL_BETWEEN 1.25
 #define FORMULA_SAMPLES 1024 /* samples along an edge */
 

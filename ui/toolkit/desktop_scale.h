@@ -1,4 +1,4 @@
-/* desktop.h - scale of the desktop, and the system's identifier of a window. */
+/* desktop_scale.h - scale of the desktop, and the system's identifier of a window. */
 #pragma once
 #include <SDL.h>
 #include <stddef.h>

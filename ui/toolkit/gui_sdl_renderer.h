@@ -1,4 +1,4 @@
-/* gui_sdl.h - drawing of the widgets' triangles with an SDL_Renderer. */
+/* gui_sdl_renderer.h - drawing of the widgets' triangles with an SDL_Renderer. */
 #pragma once
 #include <SDL.h>
 #include <stdbool.h>

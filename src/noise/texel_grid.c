@@ -1,4 +1,4 @@
-#include "noise/grid.h"
+#include "noise/texel_grid.h"
 
 #include "base/error.h"
 #include "noise/noise_internal.h"
@@ -19,7 +19,7 @@ static void noise_band_sheared(const WrOctave *octave, const WrNoiseGrid *grid, 
    (hashed once for all texel rows between them), a blend along y at each lattice point, and a blend along x at
    each texel. */
 
-/* One octave over a piece of a grid (grid.h), using the loops of octave_kernels.h. */
+/* One octave over a piece of a grid (texel_grid.h), using the loops of octave_kernels.h. */
 
 static uint32_t reduced_index(double whole, int period)
 {

@@ -1,5 +1,5 @@
-/* The roster: all dialogs, tabs, components and file purposes. */
-#include "ui/app/roster_list.h"
+/* The registry: all dialogs, tabs, components and file purposes. */
+#include "ui/app/registry_list.h"
 #include "ui/accuracy/accuracy.h"
 #include "ui/app/canvas_view.h"
 #include "ui/app/input_targets.h"
@@ -8,7 +8,7 @@
 #include "ui/state/dialog.h"
 #include "ui/state/document.h"
 #include "ui/state/replace.h"
-#include "ui/state/roster.h"
+#include "ui/state/registry.h"
 #include "ui/generate/font_choice.h"
 #include "ui/generate/generate_presets.h"
 #include "ui/generate/generate_state.h"
@@ -118,14 +118,14 @@ static const WrTool *const tools[] = {
     &wr_tool_transform,     &wr_tool_pan,         &wr_tool_zoom,
 };
 
-const WrRoster wr_roster = { .tools = tools,
-                             .tool_count = WR_LENGTH(tools),
-                             .actions = wr_actions,
-                             .helps = wr_action_helps,
-                             .families = families,
-                             .dialogs = dialogs,
-                             .tabs = tabs,
-                             .tab_count = WR_LENGTH(tabs),
-                             .parts = parts,
-                             .takes = takes,
-                             .step = wr_app_step };
+const WrRegistry wr_registry = { .tools = tools,
+                                 .tool_count = WR_LENGTH(tools),
+                                 .actions = wr_actions,
+                                 .helps = wr_action_helps,
+                                 .families = families,
+                                 .dialogs = dialogs,
+                                 .tabs = tabs,
+                                 .tab_count = WR_LENGTH(tabs),
+                                 .parts = parts,
+                                 .takes = takes,
+                                 .step = wr_app_step };

@@ -1,4 +1,4 @@
-#include "ui/accuracy/accuracy_plan.h"
+#include "ui/accuracy/accuracy_schedule.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
-/* Fallback for desktop_x11.c on systems without X. */
-#include "ui/toolkit/desktop.h"
+/* Fallback for desktop_scale_x11.c on systems without X. */
+#include "ui/toolkit/desktop_scale.h"
 
 double wr_desktop_dpi(SDL_Window *window)
 {

@@ -1,4 +1,4 @@
-/* accuracy_plan.h - schedule of the Accuracy panel's measurements: never during input or rotation, a moment after the
+/* accuracy_schedule.h - schedule of the Accuracy panel's measurements: never during input or rotation, a moment after the
    last change, the error before the ladder. Pure; tested without a window. */
 #pragma once
 #include <stdbool.h>

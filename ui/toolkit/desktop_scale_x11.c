@@ -1,5 +1,5 @@
 /* The desktop's scale, read from the X server that SDL is connected to. */
-#include "ui/toolkit/desktop.h"
+#include "ui/toolkit/desktop_scale.h"
 
 #include <SDL_syswm.h>
 #include <X11/Xatom.h>

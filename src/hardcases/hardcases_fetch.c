@@ -212,16 +212,17 @@ static bool quantised(WrHardMeasurement *g, WrPixelType type, WrError *err)
         WrField *coarse = through_codes(field, type, &worst);
         const double quantum = sizes[s] / (2.0 * last);
         WrHardLook look;
-        wr_hard_off(g, WR_HARD_DOUBLE, worst * 2.0 * last);
+        wr_hard_record_error(g, WR_HARD_DOUBLE, worst * 2.0 * last);
         good = wr_hard_look_init(g, &look, coarse, WR_SCHEME_CENTRAL, 1, 1, err);
         for (int k = 0; k < 400 && good; k++) {
             const float u = wr_hard_float(g), v = wr_hard_float(g);
             const double want = wr_hard_sample(field, WR_SCHEME_CENTRAL, (double)u, (double)v).fu;
             const double got = wr_hard_sample(coarse, WR_SCHEME_CENTRAL, (double)u, (double)v).fu;
-            wr_hard_off(g, WR_HARD_DOUBLE, fabs(got - want) / quantum);
+            wr_hard_record_error(g, WR_HARD_DOUBLE, fabs(got - want) / quantum);
             for (int set = 0; set < g->sets; set++)
-                wr_hard_off(g, WR_HARD_FLOAT,
-                            fabs(wr_hard_look_at(g, set, &look, u, v).fu - want) / quantum);
+                wr_hard_record_error(g, WR_HARD_FLOAT,
+                                     fabs(wr_hard_look_at(g, set, &look, u, v).fu - want) /
+                                         quantum);
         }
         if (good) wr_hard_look_fini(&look);
         wr_field_free(field);
@@ -417,7 +418,7 @@ bool wr_hard_hc156(WrHardMeasurement *g, WrError *err)
                     wr_hard_holds(g, WR_HARD_FLOAT,
                                   v3_angle_rad(wr_hard_vec(atf.n_unit), beside.n_unit) < 2e-3);
                 for (int mode = 0; mode < WR_BUMP_COUNT; mode++) {
-                    const WrVec3 perturbed = wr_hard_perturbed_f(
+                    const WrVec3 perturbed = wr_hard_bumped_normal_f(
                         g, set, (WrBumpMode)mode, &atf, (WrHardSlope){ 0.1, 2, -3 }, false);
                     wr_hard_holds(g, WR_HARD_FLOAT, fabs(v3_len(perturbed) - 1.0) < 1e-6);
                 }
@@ -452,15 +453,17 @@ bool wr_hard_hc160(WrHardMeasurement *g, WrError *err)
             for (int mode = 0; mode < WR_BUMP_COUNT; mode++) {
                 WrSurfacePoint at;
                 wr_surface_at(&torus, 0, (double)u, (double)single, &at);
-                wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(at.n_unit, want));
-                wr_hard_off(g, WR_HARD_DOUBLE,
-                            fabs(v3_len(wr_hard_perturbed((WrBumpMode)mode, &at, slope)) - 1.0));
+                wr_hard_record_error(g, WR_HARD_DOUBLE, v3_angle_rad(at.n_unit, want));
+                wr_hard_record_error(
+                    g, WR_HARD_DOUBLE,
+                    fabs(v3_len(wr_hard_bumped_normal((WrBumpMode)mode, &at, slope)) - 1.0));
                 for (int set = 0; set < g->all; set++) {
                     const WrSurfacePointf atf = wr_hard_point(g, set, &torus, 1.0, 0, u, single);
                     const WrVec3 perturbed =
-                        wr_hard_perturbed_f(g, set, (WrBumpMode)mode, &atf, slope, false);
-                    wr_hard_off(g, WR_HARD_FLOAT, v3_angle_rad(wr_hard_vec(atf.n_unit), want));
-                    wr_hard_off(g, WR_HARD_FLOAT, fabs(v3_len(perturbed) - 1.0));
+                        wr_hard_bumped_normal_f(g, set, (WrBumpMode)mode, &atf, slope, false);
+                    wr_hard_record_error(g, WR_HARD_FLOAT,
+                                         v3_angle_rad(wr_hard_vec(atf.n_unit), want));
+                    wr_hard_record_error(g, WR_HARD_FLOAT, fabs(v3_len(perturbed) - 1.0));
                 }
             }
         }
@@ -469,7 +472,7 @@ bool wr_hard_hc160(WrHardMeasurement *g, WrError *err)
         scene->shape = torus;
         WrHardMeasurement quiet = *g; /* counts violations; here deviations are measured */
         good = wr_hard_tame(&quiet, field, scene, err);
-        wr_hard_off(g, WR_HARD_FLOAT, good && quiet.worst[0] == g->worst[0] ? 0.0 : 1.0);
+        wr_hard_record_error(g, WR_HARD_FLOAT, good && quiet.worst[0] == g->worst[0] ? 0.0 : 1.0);
         wr_scene_free(scene);
     }
     wr_field_free(field);
@@ -482,7 +485,7 @@ static void thin_point(WrHardMeasurement *g, int set, const WrScene *scene, WrHa
     const double unit = scalbn(1.0, -ilogb(wr_shape_radius(&scene->shape)));
     const WrSurfacePointf at =
         wr_hard_point(g, set, &scene->shape, unit, 0, wr_hard_float(g), wr_hard_float(g));
-    const WrVec3 perturbed = wr_hard_perturbed_f(g, set, scene->bump, &at, slope, false);
+    const WrVec3 perturbed = wr_hard_bumped_normal_f(g, set, scene->bump, &at, slope, false);
     wr_hard_holds(g, WR_HARD_FLOAT, fabs(v3_len(wr_hard_vec(at.n_unit)) - 1.0) < 1e-5);
     wr_hard_holds(g, WR_HARD_FLOAT, fabs(v3_len(perturbed) - 1.0) < 1e-5);
 }
@@ -510,7 +513,7 @@ bool wr_hard_hc161(WrHardMeasurement *g, WrError *err)
             WrSurfacePoint at;
             const WrHardSlope slope = { 0.1, wr_hard_between(g, -1, 1), wr_hard_between(g, -1, 1) };
             wr_surface_at(&scene->shape, 0, wr_hard_random(g), wr_hard_random(g), &at);
-            const WrVec3 perturbed = wr_hard_perturbed(scene->bump, &at, slope);
+            const WrVec3 perturbed = wr_hard_bumped_normal(scene->bump, &at, slope);
             wr_hard_holds(g, WR_HARD_DOUBLE, fabs(v3_len(at.n_unit) - 1.0) < 1e-14);
             wr_hard_holds(g, WR_HARD_DOUBLE, fabs(v3_len(perturbed) - 1.0) < 1e-14);
             for (int set = 0; set < g->all; set++) thin_point(g, set, scene, slope);
@@ -983,12 +986,13 @@ static bool hc40(WrHardMeasurement *g, WrError *err)
         for (int i = 0; i < 1000 && good; i++) {
             const double u = wr_hard_random(g);
             const float single = (float)u;
-            wr_hard_off(g, WR_HARD_DOUBLE,
-                        reduced_off(u, repeats[k], wr_field_reduce(u, repeats[k])));
+            wr_hard_record_error(g, WR_HARD_DOUBLE,
+                                 reduced_off(u, repeats[k], wr_field_reduce(u, repeats[k])));
             for (int set = 0; set < g->sets; set++) {
                 wr_hard_look_at(g, set, &look, single, 0.5f);
-                wr_hard_off(g, WR_HARD_FLOAT,
-                            reduced_off((double)single, repeats[k], (double)g->strip->tu[0]));
+                wr_hard_record_error(
+                    g, WR_HARD_FLOAT,
+                    reduced_off((double)single, repeats[k], (double)g->strip->tu[0]));
             }
         }
         if (good) wr_hard_look_fini(&look);

@@ -1,4 +1,4 @@
-/* grid.h - fast evaluation of noise sums on the texel grid of a table.
+/* texel_grid.h - fast evaluation of noise sums on the texel grid of a table.
 
    Texel (i, j) of a table of width x height is at u = (i + 0.5)/width, v = 1 - (j + 0.5)/height. On
    such a grid a 2D noise of square cells is 1D along each row: with y the row's position between two

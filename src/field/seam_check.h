@@ -1,7 +1,7 @@
-/* seam.h - seam test of a table: height, slope and second difference across its edges, compared with
+/* seam_check.h - seam test of a table: height, slope and second difference across its edges, compared with
    the lines inside.
 
-   It reads only texels; the smoothness of an interpolation scheme is tested in field/seam.h.
+   It reads only texels; the smoothness of an interpolation scheme is measured by the certificate below.
 
    A line lies between two neighbouring columns (rows). With texels t0 t1 | t2 t3 across it, three
    differences are computed at each position along it:
@@ -82,8 +82,8 @@ void wr_seam_text(const WrSeamEdge *edge, WrText *text);
 
 /* ---- seam certificate of a cell ---- */
 
-/* The smoothness of F across its edges, for the pattern and for the scheme. The pattern is judged by its texels
-   (field/seam.h): a photograph that does not tile has no smoothness there, whatever the scheme. If the pattern
+/* The smoothness of F across its edges, for the pattern and for the scheme. The pattern is judged by its texels,
+   as above: a photograph that does not tile has no smoothness there, whatever the scheme. If the pattern
    tiles, the scheme determines the smoothness of the join. The certificate's class is the lower one of both. The
    scheme is measured between the centres of the last and the first texel, ends included. This interval contains
    the edge and the scheme's own joints on both sides of it, at every texel's centre (for `nearest` only the edge).
