@@ -25,8 +25,8 @@
 
 /* ---- lines of a file, limited to WR_JOURNAL_LINE_MAX ---- */
 
-/* A journal may be torn anywhere, since its program died while it wrote, and it may be forged, since it lies in a folder that
-   others can write to. Hence the limits of line, file and number of commands, and memory that grows with the data read and
+/* A journal may be torn anywhere, since its program died while it wrote, and like every file it is treated as a
+   stranger's. Hence the limits of line, file and number of commands, and memory that grows with the data read and
    not with a length in the file. */
 typedef struct Reader {
     int fd;

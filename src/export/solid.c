@@ -91,11 +91,9 @@ typedef struct WrSolid {
     double worst; /* mm: the largest error of all */
 } WrSolid;
 
-/* solid.c */
-
-/* A closed body in five steps: squares of two triangles cover each face of the surface's (u,v) domain (wr_solid_lay); sides
+/* A closed body in five steps: squares of two triangles cover each face of the surface's (u,v) domain (solid_lay); sides
    at the same position are joined across seams, faces and poles; triangles are bisected until every sample of the relief is
-   within the error (wr_solid_refine); the border becomes a back with walls, or caps (wr_solid_close); the mesh is turned
+   within the error (solid_refine); the border becomes a back with walls, or caps (solid_close); the mesh is turned
    outwards and written. Triangles share points by number, so the mesh is watertight by construction, not by comparing rounded
    positions. */
 /* ---- The initial squares of a relief, and the sides that they share ---- */

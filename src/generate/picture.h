@@ -29,7 +29,7 @@ typedef enum WrSeamless { WR_SEAMLESS_WAYS(WR_WORD_ID) } WrSeamless;
 extern const char *const wr_seamless_words[];
 
 /* The sheet keeps its size for OFF and BLEND. CUT needs a picture that is larger by the overlap
- * (wr_seamless_overlap) on each periodic axis and returns one of width x height. BLEND preserves the
+ * on each periodic axis and returns one of width x height. BLEND preserves the
  * mean. Errors: out of memory, "cancelled". */
 bool wr_picture_blend(WrSheet *sheet, const WrGenerateJob *job, WrError *err);
 bool wr_picture_cut(WrSheet *sheet, int width, int height, const WrGenerateJob *job, WrError *err);

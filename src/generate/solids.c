@@ -306,7 +306,7 @@ static bool solid_draw_net(const WrParams *params, const WrSolidNet *net, const 
         turn_points(&c, &places[i], range);
         put_copy(&c, &places[i], range[0], triangles + i * net->count);
         /* `height` is the rise of the first copy at scale 1: all heights of the scene are multiplied by height / rise
-           (wr_solid_draw). */
+           (solid_draw). */
         if (i == 0) rise = (range[1] - range[0]) / places[0].scale;
         good = !wr_progress_stopped() || wr_fail(err, "cancelled");
     }

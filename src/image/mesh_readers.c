@@ -99,7 +99,7 @@ static bool scan_number(WrScan *scan, double *out)
     return true;
 }
 
-/* wr_scan_number that also accepts nan, inf, -inf and similar words. */
+/* scan_number that also accepts nan, inf, -inf and similar words. */
 static bool scan_any_number(WrScan *scan, double *out)
 {
     static const char *const nothing[] = { "nan", "-nan", "nan(ind)", "-nan(ind)" };

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* wr_noise_band for sheared noise of at most one cell per texel along x. */
+/* noise_band for sheared noise of at most one cell per texel along x. */
 static void noise_band_sheared(const WrOctave *octave, const WrNoiseGrid *grid, bool slopes,
                                WrNoiseBand *band);
 
@@ -331,7 +331,7 @@ static void span_slopes(const Columns *columns, const Places *places, const Latt
     }
 }
 
-/* wr_noise_band for sheared noise of at most one cell per texel along x. */
+/* noise_band for sheared noise of at most one cell per texel along x. */
 static void noise_band_sheared(const WrOctave *octave, const WrNoiseGrid *grid, bool slopes,
                                WrNoiseBand *band)
 {

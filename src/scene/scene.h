@@ -245,7 +245,7 @@ typedef struct WrPlacement {
     bool orthographic;
     double radius; /* of the object about its centre, in its units */
     double ball;   /* of all objects about the world's origin (objects.h) */
-    double reach;  /* of all objects including displacement (wr_scene_stands_out) */
+    double reach;  /* of all objects including displacement */
 } WrPlacement;
 
 /* Stretch and cofactor of the object, independent of the camera. */

@@ -27,8 +27,7 @@ WrDisplayEnv wr_display_env(void)
 }
 
 /* A list of SDL drivers in the order in which they are tried; NULL leaves the choice to SDL. On Wayland, XWayland comes
-   first, since pens act as mice on SDL's own
-   Wayland. An explicit SDL_VIDEODRIVER always wins. */
+   first, since pens act as mice on SDL's own Wayland. An explicit SDL_VIDEODRIVER always wins. */
 const char *wr_display_driver(const WrDisplayEnv *env)
 {
     if (said(env->driver) || !is_wayland(env)) return NULL;

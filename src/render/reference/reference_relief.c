@@ -321,7 +321,7 @@ static void strip_at(const WrReferenceRaised *raised, const WrRaisedSheet *sheet
     *to = v3_add(a.p, shared(&a, &b));
 }
 
-/* As wr_raised_at, for strips and corners.
+/* As raised_at, for strips and corners.
    The tangent along a strip is a central difference, as strip_at has no closed derivative; P is bilinear
    across, so Pv and the blend of the two ends' tangents are exact in v. */
 static void raised_joint_at(const WrReferenceRaised *raised, const WrRaisedSheet *sheet, double u,

@@ -346,7 +346,7 @@ static void add_shine(const WrReferenceStage *stage, const WrMatter *is, WrVec3 
 }
 
 /* Adds the environment's light: `own` is multiplied by the surface's colour, `white` by none. is: the material
-   there; n: facing the viewer; colour: as in wr_reference_reflect. */
+   there; n: facing the viewer; colour: as in reference_reflect. */
 static void reference_surround_light(const WrReferenceStage *stage, const WrMatter *is, WrVec3 n,
                                      WrVec3 v, const double colour[3], WrReferenceShare share,
                                      double own[3], double white[3])

@@ -484,7 +484,7 @@ static void raster_marked(const WrView *view, const WrRasterVertex corner[3], fl
 }
 
 /* Signed distance of a vertex from clip plane k: near, left, right, bottom, top.
-   Planes of the view pyramid, slightly inside of those wr_raster_project tests against: a vertex that clipping
+   Planes of the view pyramid, slightly inside of those raster_project tests against: a vertex that clipping
    makes then passes project() in spite of rounding, and 1 / depth stays finite (HC82, HC83). */
 static double inside(const WrView *view, int k, const WrClipVertex *c)
 {
