@@ -447,10 +447,23 @@ static void add_receipt(const WrExportReport *report, WrText *text)
 static void add_solid(const WrExportReport *report, WrText *text)
 {
     const double *size = report->solid_size;
-    wr_text_addf(text,
-                 "%lld triangles, off by at most %.3g mm; %.6g x %.6g x %.6g mm, volume %.6g mm3",
-                 (long long)report->triangles, report->solid_error, size[0], size[1], size[2],
-                 report->solid_volume);
+    wr_text_addf(text, "%lld triangles, off by at most %.3g mm; %.6g x %.6g x %.6g mm",
+                 (long long)report->triangles, report->solid_error, size[0], size[1], size[2]);
+    if (report->solid_open) wr_text_add(text, ", open, as the mesh is");
+    else wr_text_addf(text, ", volume %.6g mm3", report->solid_volume);
+    if (report->solid_steps > 0)
+        wr_text_addf(text,
+                     "; %lld triangles span a step of the relief at hard edges or seams of u, v",
+                     (long long)report->solid_steps);
+    if (report->solid_limited > 0)
+        wr_text_addf(text, "; relief lowered at %lld points, where it would fold over",
+                     (long long)report->solid_limited);
+    if (report->solid_folds > 0)
+        wr_text_addf(text,
+                     "; %lld triangles are folded over by the relief, the highest at "
+                     "%.6g,%.6g,%.6g: a lower height, or folds=limit",
+                     (long long)report->solid_folds, report->solid_fold[0], report->solid_fold[1],
+                     report->solid_fold[2]);
 }
 
 static void add_facts(const WrExportReport *report, WrText *text)

@@ -177,12 +177,14 @@ typedef struct WrExportOptions {
     bool along_v; /* along v, else along u */
     double at;    /* the other coordinate, 0..1 */
     int grid;     /* divisions of the line, 1..256 */
-    /* stl, ply, obj, in millimetres: */
+    /* stl, ply, obj, 3mf, in millimetres: */
     /* longest side of the surface without its relief; 0: for a plane the document's cell, if it is in
-       millimetres, else 100 */
+       millimetres, for a mesh its own unit, else 100 */
     double solid_size;
     double solid_error;     /* largest error of a sample, > 0 */
     double solid_thickness; /* below the lowest sample; 0: 2 for a sheet, a tube is filled */
+    bool solid_rounded; /* of a mesh: its hard edges become round under relief, else stay sharp */
+    bool solid_limited; /* of a mesh: relief that folds over is lowered */
 } WrExportOptions;
 
 /* Results of an export, for the user. */
@@ -210,9 +212,16 @@ typedef struct WrExportReport {
     int64_t triangles;
     double solid_error;   /* largest distance of a sample of the table */
     double solid_size[3]; /* of the body, including relief and back */
-    double solid_volume;  /* mm3 */
-    bool model;           /* a model, without the three above */
-    int pictures;         /* in the model */
+    double solid_volume;  /* mm3; 0 of an open mesh */
+    /* of a mesh: */
+    bool solid_open;       /* as the mesh is */
+    int64_t solid_folds;   /* triangles that the relief turned over ... */
+    double solid_fold[3];  /* ... and the place of the highest, mm */
+    int64_t solid_limited; /* points at which the relief was lowered */
+    int64_t
+        solid_steps; /* triangles at hard edges and seams of (u,v) that span a step of the relief */
+    bool model;      /* a model, without the three above */
+    int pictures;    /* in the model */
 } WrExportReport;
 
 typedef struct WrExportOptionInfo {
@@ -258,7 +267,7 @@ typedef struct WrExportKind {
     void (*describe)(WrExportJob *job);
 } WrExportKind;
 
-#define WR_EXPORT_KIND_COUNT 25
+#define WR_EXPORT_KIND_COUNT 26
 extern const WrExportKind wr_export_kinds[];
 const WrExportKind *wr_export_find(const char *name); /* NULL if unknown */
 

@@ -227,13 +227,19 @@ static bool set_grid(WrExportOptions *options, const char *value, WrError *err)
     {                                                                                              \
         { "size", "MM",                                                                            \
           "longest side of the surface without its relief; left out: of a plane what "             \
-          "`cell mm=on` says, else 100",                                                           \
+          "`cell mm=on` says, of a mesh its file's own unit as millimetres, else 100",             \
           wr_export_set_solid_size },                                                              \
             { "error", "MM", "how far a texel may be from its triangle; left out: 0.05",           \
               wr_export_set_solid_error },                                                         \
             { "thickness", "MM",                                                                   \
               "under the lowest texel; left out: 2 for a sheet, a tube is filled",                 \
               wr_export_set_thickness },                                                           \
+            { "edges", "sharp or round",                                                           \
+              "of a mesh: hard edges under relief stay sharp or become round; left out: sharp",    \
+              wr_export_set_edges },                                                               \
+            { "folds", "keep or limit",                                                            \
+              "of a mesh: relief that folds over is kept or lowered; left out: keep",              \
+              wr_export_set_folds },                                                               \
             OBJECT                                                                                 \
     }
 
@@ -497,6 +503,12 @@ const WrExportKind wr_export_kinds[] = {
       .help = "the same body as an OBJ file",
       .options = SOLID_OPTIONS,
       .ending = "obj",
+      .write = wr_export_solid_write },
+    { .name = "3mf",
+      .label = "solid, 3MF",
+      .help = "the same body as a 3MF file, which states its unit",
+      .options = SOLID_OPTIONS,
+      .ending = "3mf",
       .write = wr_export_solid_write },
     { .name = "glb",
       .label = "glTF model",

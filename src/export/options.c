@@ -181,6 +181,25 @@ bool wr_export_set_thickness(WrExportOptions *options, const char *value, WrErro
     return parse_length("thickness", value, &options->solid_thickness, err);
 }
 
+/* One of two words. */
+static bool parse_either(const char *name, const char *value, const char *off, const char *on,
+                         bool *out, WrError *err)
+{
+    *out = strcmp(value, on) == 0;
+    return *out || strcmp(value, off) == 0 ||
+           wr_fail(err, "%s '%.40s': must be %s or %s", name, value, off, on);
+}
+
+bool wr_export_set_edges(WrExportOptions *options, const char *value, WrError *err)
+{
+    return parse_either("edges", value, "sharp", "round", &options->solid_rounded, err);
+}
+
+bool wr_export_set_folds(WrExportOptions *options, const char *value, WrError *err)
+{
+    return parse_either("folds", value, "keep", "limit", &options->solid_limited, err);
+}
+
 /* ---- by name ---- */
 
 const WrExportKind *wr_export_find(const char *name)

@@ -123,6 +123,8 @@ bool wr_export_set_margin(WrExportOptions *options, const char *value, WrError *
 bool wr_export_set_solid_size(WrExportOptions *options, const char *value, WrError *err);
 bool wr_export_set_solid_error(WrExportOptions *options, const char *value, WrError *err);
 bool wr_export_set_thickness(WrExportOptions *options, const char *value, WrError *err);
+bool wr_export_set_edges(WrExportOptions *options, const char *value, WrError *err);
+bool wr_export_set_folds(WrExportOptions *options, const char *value, WrError *err);
 
 /* Parses "MxN", whole numbers low..high. */
 bool wr_export_parse_size(const char *value, double low, double high, int *a, int *b);

@@ -20,6 +20,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "export/job.h"
+#include "export/solid_body.h"
 #include "field/field.h"
 #include "scene/scene.h"
 #include "surface/surface.h"
@@ -40,8 +41,6 @@ typedef struct WrPool WrPool;
 typedef struct WrScene WrScene;
 
 #define WR_SOLID_FACES 6
-#define WR_SOLID_MAX                                                                               \
-    4000000 /* maximum triangles of the relief; with its back no more than readers accept */
 #define WR_SOLID_SAMPLES ((int64_t)1 << 28) /* maximum */
 
 /* A position in the domain that maps to a point: a seam has two, a pole many. */
@@ -82,12 +81,7 @@ typedef struct WrSolid {
     WR_ARRAY(WrSolidTriangle) relief;
     WR_ARRAY(WrSolidLocation) locations; /* of all points, in their order */
     WR_ARRAY(int32_t) first;             /* index of each point's first sight */
-    float (*points)[3];                  /* mm; owned */
-    int32_t point_count, point_room;
-    int32_t (*triangles)[3]; /* of the closed mesh; owned */
-    /* (u,v) of their corners in cells: u and v times the number of repeats of the table; owned */
-    float (*uv)[3][2];
-    int32_t triangle_count, triangle_room;
+    WrSolidBody body;
     double worst; /* mm: the largest error of all */
 } WrSolid;
 
@@ -490,57 +484,6 @@ static bool solid_sample(WrSolid *solid, WrError *err)
 #define LEAST 0.0625
 #define SLACK 1e-6 /* relative to that distance: samples on a side are in both triangles */
 
-/* ---- distance of a point from a triangle ---- */
-
-typedef struct Facet {
-    WrVec3 p[3], side[3]; /* side k runs from corner k to the next */
-    WrVec3 in[3];         /* across side k, inwards */
-    WrVec3 n;             /* unit */
-    double length2[3];
-    bool flat; /* it has no area, only sides */
-} Facet;
-
-static WrVec3 vec_of(const float at[3])
-{
-    return (WrVec3){ at[0], at[1], at[2] };
-}
-
-static Facet facet_of(const WrSolid *s, const WrSolidTriangle *t)
-{
-    Facet f;
-    for (int k = 0; k < 3; k++) f.p[k] = vec_of(s->points[t->point[k]]);
-    for (int k = 0; k < 3; k++) {
-        f.side[k] = v3_sub(f.p[(k + 1) % 3], f.p[k]);
-        f.length2[k] = v3_dot(f.side[k], f.side[k]);
-    }
-    const WrVec3 n = v3_cross(f.side[0], f.side[1]);
-    f.flat = !(v3_len(n) > 1e-12 * (f.length2[0] + f.length2[1]));
-    f.n = v3_unit(n, (WrVec3){ 0, 0, 0 });
-    for (int k = 0; k < 3; k++) f.in[k] = v3_cross(f.n, f.side[k]);
-    return f;
-}
-
-static double from_side2(const Facet *f, int k, WrVec3 p)
-{
-    const WrVec3 q = v3_sub(p, f->p[k]);
-    const double along = f->length2[k] > 0 ? v3_dot(q, f->side[k]) / f->length2[k] : 0.0;
-    const WrVec3 d = v3_mad(q, f->side[k], -fmin(fmax(along, 0.0), 1.0));
-    return v3_dot(d, d);
-}
-
-/* Squared distance of a point. Inside the prism over the triangle it is the distance from the plane; outside, from the
-   nearest side as a segment. */
-static double from_facet2(const Facet *f, WrVec3 p)
-{
-    bool over = !f->flat;
-    for (int k = 0; k < 3 && over; k++) over = v3_dot(v3_sub(p, f->p[k]), f->in[k]) >= 0.0;
-    if (over) {
-        const double h = v3_dot(v3_sub(p, f->p[0]), f->n);
-        return h * h;
-    }
-    return fmin(from_side2(f, 0, p), fmin(from_side2(f, 1, p), from_side2(f, 2, p)));
-}
-
 /* ---- samples in a triangle ---- */
 
 /* Interval of the row v of the domain inside the triangle; false: empty. The row cuts a triangle in one interval of u; the
@@ -574,7 +517,7 @@ static int last_at(double x, double step, double first, int count)
 static double error_of(const WrSolid *s, const WrSolidTriangle *t, double enough)
 {
     const WrSolidLattice *l = &s->lattice[t->face];
-    const Facet facet = facet_of(s, t);
+    const WrFacet facet = wr_facet_of(&s->body, t->point);
     const double low = fmin(t->v[0], fmin(t->v[1], t->v[2]));
     const double high = fmax(t->v[0], fmax(t->v[1], t->v[2]));
     const int last = last_at(high, l->step_v, l->first_v, l->count_v);
@@ -587,7 +530,7 @@ static double error_of(const WrSolid *s, const WrSolidTriangle *t, double enough
         const int end = last_at(to, l->step_u, l->first_u, l->count_u);
         for (int i = first_at(from, l->step_u, l->first_u); i <= end; i++) {
             const float *at = l->at[(size_t)j * (size_t)l->count_u + (size_t)i];
-            const double d = from_facet2(&facet, vec_of(at));
+            const double d = wr_facet_distance2(&facet, (WrVec3){ at[0], at[1], at[2] });
             if (!(d <= worst)) worst = d;
         }
         if (!(worst <= enough * enough)) break;
@@ -761,18 +704,6 @@ typedef struct Border {
     int loops;
 } Border;
 
-static WrVec3 point(const WrSolid *s, int32_t i)
-{
-    return (WrVec3){ s->points[i][0], s->points[i][1], s->points[i][2] };
-}
-
-/* Area vector: twice the area along the normal. */
-static WrVec3 area(const WrSolid *s, int32_t a, int32_t b, int32_t c)
-{
-    const WrVec3 p = point(s, a);
-    return v3_cross(v3_sub(point(s, b), p), v3_sub(point(s, c), p));
-}
-
 /* ---- the border ---- */
 
 static bool twice(WrError *err)
@@ -784,7 +715,7 @@ static bool twice(WrError *err)
    the surface touches itself at that point, and no wall can separate inside from outside there. */
 static bool find_next(const WrSolid *s, Border *border, int32_t *count, WrError *err)
 {
-    memset(border->next, 0xff, (size_t)s->point_count * sizeof *border->next);
+    memset(border->next, 0xff, (size_t)s->body.point_count * sizeof *border->next);
     for (int32_t i = 0; i < s->relief.count; i++)
         for (int k = 0; k < 3; k++) {
             const WrSolidTriangle *t = &s->relief.data[i];
@@ -799,14 +730,14 @@ static bool find_next(const WrSolid *s, Border *border, int32_t *count, WrError 
 
 static bool find_border(const WrSolid *s, Border *border, WrError *err)
 {
-    const size_t points = (size_t)s->point_count;
+    const size_t points = (size_t)s->body.point_count;
     int32_t count = 0;
     border->next = wr_try_alloc(points, sizeof *border->next, "a solid", err);
     if (!border->next || !find_next(s, border, &count, err)) return false;
     bool *seen = wr_try_alloc(points, sizeof *seen, "a solid", err);
     border->start = wr_try_alloc((size_t)count + 1, sizeof *border->start, "a solid", err);
     bool good = seen && border->start;
-    for (int32_t i = 0; i < s->point_count && good; i++) {
+    for (int32_t i = 0; i < s->body.point_count && good; i++) {
         if (border->next[i] < 0 || seen[i]) continue;
         border->start[border->loops++] = i;
         for (int32_t at = i; good && !seen[at]; at = border->next[at]) {
@@ -857,7 +788,8 @@ static WrVec3 middle_of_loop(const WrSolid *s, const Border *b, const int32_t *m
     double whole = 0.0;
     int32_t i = start;
     do {
-        const WrVec3 p = point(s, map[i]), q = point(s, map[b->next[i]]);
+        const WrVec3 p = wr_solid_body_point(&s->body, map[i]),
+                     q = wr_solid_body_point(&s->body, map[b->next[i]]);
         const double length = v3_len(v3_sub(q, p));
         sum = v3_add(sum, v3_scale(v3_add(p, q), length / 2));
         whole += length;
@@ -866,14 +798,13 @@ static WrVec3 middle_of_loop(const WrSolid *s, const Border *b, const int32_t *m
     const WrVec3 middle = v3_scale(sum, 1.0 / whole);
     *up = (WrVec3){ 0, 0, 0 };
     do {
-        const WrVec3 p = v3_sub(point(s, map[i]), middle);
-        *up = v3_add(*up, v3_cross(p, v3_sub(point(s, map[b->next[i]]), middle)));
+        const WrVec3 p = v3_sub(wr_solid_body_point(&s->body, map[i]), middle);
+        *up = v3_add(*up,
+                     v3_cross(p, v3_sub(wr_solid_body_point(&s->body, map[b->next[i]]), middle)));
         i = b->next[i];
     } while (i != start);
     return middle;
 }
-
-static int32_t solid_add_bare(WrSolid *solid, const float at[3]);
 
 static void solid_add_triangle(WrSolid *solid, const int32_t corners[3],
                                const WrSolidLocation at[3]);
@@ -885,15 +816,16 @@ static bool fan(WrSolid *s, const Border *b, const int32_t *map, int32_t start)
     WrVec3 up;
     const WrVec3 middle = middle_of_loop(s, b, map, start, &up);
     const float at[3] = { (float)middle.x, (float)middle.y, (float)middle.z };
-    const int32_t centre = solid_add_bare(s, at);
+    const int32_t centre = wr_solid_body_add_point(&s->body, at);
     int32_t i = start;
     bool good = true;
     do {
-        good = good && v3_dot(area(s, map[i], map[b->next[i]], centre), up) > 0;
+        good =
+            good && v3_dot(wr_solid_body_area(&s->body, map[i], map[b->next[i]], centre), up) > 0;
         i = b->next[i];
     } while (i != start);
     if (!good) {
-        s->point_count--;
+        s->body.point_count--;
         return false;
     }
     do {
@@ -916,7 +848,7 @@ static int32_t add_back_point(WrSolid *s, int32_t of)
     const int32_t first = s->first.data[of];
     float at[3];
     solid_point_position(s, s->locations.data + first, sights_end(s, of) - first, true, at);
-    return solid_add_bare(s, at);
+    return wr_solid_body_add_point(&s->body, at);
 }
 
 /* True if its back faces another way than the triangle. A mirrored object's triangles are clockwise. */
@@ -925,8 +857,11 @@ static bool folds(const WrSolid *s, const WrSolidTriangle *t, const int32_t *bac
     const double way = s->stretch.x * s->stretch.y * s->stretch.z;
     const int32_t *p = t->point;
     WrVec3 out = { 0, 0, 0 };
-    for (int k = 0; k < 3; k++) out = v3_add(out, v3_sub(point(s, p[k]), point(s, back[p[k]])));
-    return !(v3_dot(area(s, back[p[0]], back[p[1]], back[p[2]]), out) * way > 0);
+    for (int k = 0; k < 3; k++)
+        out = v3_add(out, v3_sub(wr_solid_body_point(&s->body, p[k]),
+                                 wr_solid_body_point(&s->body, back[p[k]])));
+    return !(v3_dot(wr_solid_body_area(&s->body, back[p[0]], back[p[1]], back[p[2]]), out) * way >
+             0);
 }
 
 static bool is_pole(const WrSolidTriangle *t)
@@ -976,7 +911,7 @@ static void add_walls(WrSolid *s, const Border *border, const int32_t *back, int
 
 static bool add_back(WrSolid *s, const Border *border, WrError *err)
 {
-    const int32_t points = s->point_count;
+    const int32_t points = s->body.point_count;
     int32_t *back = wr_try_alloc((size_t)points, sizeof *back, "a solid", err);
     if (!back) return false;
     memset(back, 0xff, (size_t)points * sizeof *back);
@@ -992,7 +927,7 @@ static bool add_back(WrSolid *s, const Border *border, WrError *err)
 
 static bool add_caps(WrSolid *s, const Border *border, WrError *err)
 {
-    const int32_t points = s->point_count;
+    const int32_t points = s->body.point_count;
     int32_t *same = wr_try_alloc((size_t)points, sizeof *same, "a solid", err);
     if (!same) return false;
     for (int32_t i = 0; i < points; i++) same[i] = i;
@@ -1006,37 +941,11 @@ static bool add_caps(WrSolid *s, const Border *border, WrError *err)
 
 /* ---- the body ---- */
 
-/* Divergence theorem: V = 1/6 sum over triangles of a . (b x c), positive if they are counter-clockwise seen from outside. */
-static double enclosed_volume(const WrSolid *solid)
-{
-    double sum = 0.0;
-    for (int32_t i = 0; i < solid->triangle_count; i++) {
-        const int32_t *t = solid->triangles[i];
-        sum += v3_dot(point(solid, t[0]), v3_cross(point(solid, t[1]), point(solid, t[2])));
-    }
-    return sum / 6.0;
-}
-
-/* For mirrored objects, and formulas whose normals point inwards. */
-static void turn_outwards(WrSolid *s)
-{
-    if (enclosed_volume(s) >= 0.0) return;
-    for (int32_t i = 0; i < s->triangle_count; i++) {
-        const int32_t a = s->triangles[i][0];
-        s->triangles[i][0] = s->triangles[i][1];
-        s->triangles[i][1] = a;
-        float uv[2];
-        memcpy(uv, s->uv[i][0], sizeof uv);
-        memcpy(s->uv[i][0], s->uv[i][1], sizeof uv);
-        memcpy(s->uv[i][1], uv, sizeof uv);
-    }
-}
-
 static bool check_body(const WrSolid *s, WrError *err)
 {
-    for (int32_t i = 0; i < s->triangle_count; i++) {
-        const int32_t *t = s->triangles[i];
-        const WrVec3 n = area(s, t[0], t[1], t[2]);
+    for (int32_t i = 0; i < s->body.triangle_count; i++) {
+        const int32_t *t = s->body.triangles[i];
+        const WrVec3 n = wr_solid_body_area(&s->body, t[0], t[1], t[2]);
         if (!(v3_dot(n, n) > 0))
             return wr_fail(
                 err, "the surface has a place without area: no body can be made of it; a larger "
@@ -1061,202 +970,10 @@ static bool solid_close(WrSolid *solid, WrError *err)
     wr_free(border.next);
     wr_free(border.start);
     good = good && check_body(solid, err) && (!wr_progress_stopped() || wr_fail(err, "cancelled"));
-    if (good) turn_outwards(solid);
+    if (good && wr_solid_body_volume(&solid->body) <
+                    0.0) /* a mirrored object, or normals that point inwards */
+        wr_solid_body_reverse(&solid->body);
     return good;
-}
-
-/* ---- file ---- */
-
-#define WORDS "Wrinkle, lengths in millimetres"
-#define BLOCK ((size_t)1 << 20) /* bytes written at once */
-#define LINE 256                /* maximum bytes of one entry */
-
-/* Output buffer of the file. */
-typedef struct Out {
-    WrFileTarget target;
-    WrText bytes;
-    int64_t done, all; /* progress, in entries */
-} Out;
-
-static bool flush(Out *out, WrError *err)
-{
-    if (!wr_progress_report((double)out->done / (double)out->all)) return wr_fail(err, "cancelled");
-    const bool good = wr_file_put(&out->target, out->bytes.data, out->bytes.length, err);
-    wr_text_clear(&out->bytes);
-    return good;
-}
-
-/* Counts a complete entry. */
-static bool entry(Out *out, WrError *err)
-{
-    out->done++;
-    return out->bytes.length + LINE < BLOCK || flush(out, err);
-}
-
-/* All binary formats here are little endian; bytes are shifted out, so that the host's order has no influence. */
-static void add_u32(Out *out, uint32_t x)
-{
-    const char bytes[4] = { (char)(x & 255), (char)(x >> 8 & 255), (char)(x >> 16 & 255),
-                            (char)(x >> 24) };
-    wr_text_add_n(&out->bytes, bytes, 4);
-}
-
-static void add_float(Out *out, float x)
-{
-    uint32_t bits;
-    memcpy(&bits, &x, 4);
-    add_u32(out, bits);
-}
-
-static void add_place(Out *out, const float at[3])
-{
-    for (int k = 0; k < 3; k++) add_float(out, at[k]);
-}
-
-/* ---- STL ---- */
-
-static WrVec3 normal_of(const WrSolid *s, const int32_t *t)
-{
-    WrVec3 p[3];
-    for (int k = 0; k < 3; k++)
-        p[k] = (WrVec3){ s->points[t[k]][0], s->points[t[k]][1], s->points[t[k]][2] };
-    return v3_unit(v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0])), (WrVec3){ 0, 0, 1 });
-}
-
-/* Binary STL: 80 bytes of header (must not start with "solid", the mark of the text form), a uint32 count, then 50 bytes per
-   triangle: normal and three corners as float32, two attribute bytes that are 0. STL has no shared points and no (u,v). */
-static bool write_stl(const WrSolid *s, Out *out, WrError *err)
-{
-    char head[80] = WORDS;
-    wr_text_add_n(&out->bytes, head, sizeof head);
-    add_u32(out, (uint32_t)s->triangle_count);
-    bool good = true;
-    for (int32_t i = 0; i < s->triangle_count && good; i++) {
-        const int32_t *t = s->triangles[i];
-        const WrVec3 n = normal_of(s, t);
-        add_place(out, (const float[3]){ (float)n.x, (float)n.y, (float)n.z });
-        for (int k = 0; k < 3; k++) add_place(out, s->points[t[k]]);
-        wr_text_add_n(&out->bytes, "\0", 2);
-        good = entry(out, err);
-    }
-    return good;
-}
-
-/* ---- PLY ---- */
-
-/* Binary PLY: a text header, then float32 x y z per point, then per face a uchar 3 with three int32 numbers, and a uchar 6
-   with u v of the three corners: texture coordinates per corner (MeshLab's `texcoord`), since a seam's points have two. */
-static bool write_ply(const WrSolid *s, Out *out, WrError *err)
-{
-    wr_text_addf(&out->bytes,
-                 "ply\nformat binary_little_endian 1.0\ncomment " WORDS "\nelement vertex %d\n"
-                 "property float x\nproperty float y\nproperty float z\nelement face %d\n"
-                 "property list uchar int vertex_indices\nproperty list uchar float texcoord\n"
-                 "end_header\n",
-                 s->point_count, s->triangle_count);
-    bool good = true;
-    for (int32_t i = 0; i < s->point_count && good; i++) {
-        add_place(out, s->points[i]);
-        good = entry(out, err);
-    }
-    for (int32_t i = 0; i < s->triangle_count && good; i++) {
-        wr_text_add_n(&out->bytes, "\3", 1);
-        for (int k = 0; k < 3; k++) add_u32(out, (uint32_t)s->triangles[i][k]);
-        wr_text_add_n(&out->bytes, "\6", 1);
-        for (int k = 0; k < 6; k++) add_float(out, s->uv[i][k / 2][k % 2]);
-        good = entry(out, err);
-    }
-    return good;
-}
-
-/* ---- OBJ ---- */
-
-static void add_numbers(Out *out, const char *word, int count, const float *x)
-{
-    char number[WR_NUMBER_SIZE];
-    wr_text_add(&out->bytes, word);
-    for (int k = 0; k < count; k++) {
-        wr_text_add(&out->bytes, " ");
-        wr_text_add(&out->bytes, wr_number_print_float(x[k], number));
-    }
-    wr_text_add(&out->bytes, "\n");
-}
-
-/* A `vt` line is written when a corner's (u,v) differ from those that its point had last.
-   * first: [2][points]: the corner with those, 3 times its triangle and its number, -1: none; then the number of their line.
-   Numbers of v and vt start at 1 in OBJ. */
-static bool write_obj_faces(const WrSolid *s, int32_t *first, Out *out, WrError *err)
-{
-    int32_t count = 0;
-    bool good = true;
-    for (int32_t i = 0; i < s->triangle_count && good; i++) {
-        const int32_t *t = s->triangles[i];
-        int32_t vt[3];
-        for (int k = 0; k < 3; k++) {
-            const int32_t was = first[t[k]];
-            if (was >= 0 && memcmp(s->uv[was / 3][was % 3], s->uv[i][k], sizeof s->uv[i][k]) == 0) {
-                vt[k] = first[s->point_count + t[k]];
-                continue;
-            }
-            add_numbers(out, "vt", 2, s->uv[i][k]);
-            vt[k] = ++count;
-            first[t[k]] = 3 * i + k;
-            first[s->point_count + t[k]] = count;
-        }
-        wr_text_addf(&out->bytes, "f %d/%d %d/%d %d/%d\n", t[0] + 1, vt[0], t[1] + 1, vt[1],
-                     t[2] + 1, vt[2]);
-        good = entry(out, err);
-    }
-    return good;
-}
-
-static bool write_obj(const WrSolid *s, Out *out, WrError *err)
-{
-    const size_t points = (size_t)s->point_count;
-    int32_t *first = wr_try_alloc(2 * points, sizeof *first, "a solid", err);
-    bool good = first;
-    wr_text_add(&out->bytes, "# " WORDS "\no relief\n");
-    for (int32_t i = 0; i < s->point_count && good; i++) {
-        first[i] = -1;
-        add_numbers(out, "v", 3, s->points[i]);
-        good = entry(out, err);
-    }
-    good = good && write_obj_faces(s, first, out, err);
-    wr_free(first);
-    return good;
-}
-
-/* ---- the file ---- */
-
-typedef bool Write(const WrSolid *s, Out *out, WrError *err);
-
-static const struct {
-    const char *ending;
-    Write *write;
-} formats[] = { { "stl", write_stl }, { "ply", write_ply }, { "obj", write_obj } };
-
-static Write *format_of(const char *ending)
-{
-    for (int i = 0; i < WR_LENGTH(formats); i++)
-        if (strcmp(ending, formats[i].ending) == 0) return formats[i].write;
-    return NULL;
-}
-
-/* Writes the file and verifies each part. ending: "stl", "ply" or "obj".
-   Errors: another extension, cancelled, any file error; then the old file is unchanged. */
-static bool solid_write(const WrSolid *solid, const char *ending, const char *path, WrError *err)
-{
-    Out out = { .all = (int64_t)solid->point_count + solid->triangle_count };
-    Write *write = format_of(ending);
-    if (!write) return wr_fail(err, "%s: no format of solids ends in .%s", path, ending);
-    if (!wr_file_begin(&out.target, path, err)) return false;
-    bool good = write(solid, &out, err) && flush(&out, err);
-    wr_text_fini(&out.bytes);
-    if (!good) {
-        wr_file_abort(&out.target);
-        return false;
-    }
-    return wr_file_commit(&out.target, err);
 }
 
 /* samples along each direction of a face, to find its size: they include quarters */
@@ -1314,47 +1031,25 @@ static void solid_point_position(WrSolid *solid, const WrSolidLocation *location
 }
 
 /* Adds a point with these sights; returns its number. */
-static int32_t solid_add_bare(WrSolid *solid, const float at[3])
-{
-    if (solid->point_count == solid->point_room) {
-        const int32_t room = solid->point_room ? 2 * solid->point_room : 1024;
-        solid->points = wr_realloc(solid->points, (size_t)solid->point_room, (size_t)room,
-                                   sizeof *solid->points);
-        solid->point_room = room;
-    }
-    memcpy(solid->points[solid->point_count], at, sizeof *solid->points);
-    return solid->point_count++;
-}
-
-/* Adds a point with these sights; returns its number. */
 static int32_t solid_add_point(WrSolid *solid, const WrSolidLocation *locations, int count)
 {
     float at[3];
     wr_array_push(&solid->first, solid->locations.count);
     for (int i = 0; i < count; i++) wr_array_push(&solid->locations, locations[i]);
     solid_point_position(solid, locations, count, false, at);
-    return solid_add_bare(solid, at);
+    return wr_solid_body_add_point(&solid->body, at);
 }
 
 /* at: (u,v) of the corners. */
 static void solid_add_triangle(WrSolid *solid, const int32_t corners[3],
                                const WrSolidLocation at[3])
 {
-    if (solid->triangle_count == solid->triangle_room) {
-        const int32_t room = solid->triangle_room ? 2 * solid->triangle_room : 1024;
-        solid->triangles = wr_realloc(solid->triangles, (size_t)solid->triangle_room, (size_t)room,
-                                      sizeof *solid->triangles);
-        solid->uv =
-            wr_realloc(solid->uv, (size_t)solid->triangle_room, (size_t)room, sizeof *solid->uv);
-        solid->triangle_room = room;
-    }
+    float uv[3][2];
     for (int k = 0; k < 3; k++) {
-        float *uv = solid->uv[solid->triangle_count][k];
-        solid->triangles[solid->triangle_count][k] = corners[k];
-        uv[0] = (float)(at[k].u * solid->scene->replicate_u);
-        uv[1] = (float)(at[k].v * solid->scene->replicate_v);
+        uv[k][0] = (float)(at[k].u * solid->scene->replicate_u);
+        uv[k][1] = (float)(at[k].v * solid->scene->replicate_v);
     }
-    solid->triangle_count++;
+    wr_solid_body_add_triangle(&solid->body, corners, uv);
 }
 
 /* ---- the scene in millimetres ---- */
@@ -1402,12 +1097,12 @@ static WrScene *true_scene(const WrExportJob *job, WrSolid *s)
 static bool check(const WrExportJob *job, WrError *err)
 {
     const WrExportOptions *o = &job->options;
-    const WrSurfaceInfo *info = wr_surfaces[job->scene->shape.kind];
-    if (info->held)
-        return wr_fail(err,
-                       "%s: solids are made of surfaces by formulas, which a %s is not; `wrinkle "
-                       "help surface` lists them",
-                       job->kind->name, info->name);
+    if (o->solid_thickness > 0 && wr_surfaces[job->scene->shape.kind]->held)
+        return wr_fail(
+            err,
+            "thickness=%.6g: a back is made for surfaces by formulas; an open mesh stays "
+            "open: leave thickness= out",
+            o->solid_thickness);
     if (!(o->solid_size >= 0) || !(o->solid_error > 0) || o->solid_thickness < 0)
         return wr_fail(err, "size %g, error %g, thickness %g: must be above 0, in millimetres",
                        o->solid_size, o->solid_error, o->solid_thickness);
@@ -1426,12 +1121,12 @@ static double thickness_of(const WrExportJob *job)
 static bool make(WrSolid *s, WrError *err)
 {
     WrProgressPart part;
-    const WrProgress *whole = wr_progress_enter(&part, 0.0, 0.3);
+    const WrProgress *whole = wr_progress_enter(&part, 0.0, 0.4);
     bool good = solid_sample(s, err);
     wr_progress_set(whole);
     if (!good) return false;
     solid_lay(s);
-    wr_progress_enter(&part, 0.3, 0.7);
+    wr_progress_enter(&part, 0.4, 1.0);
     good = solid_refine(s, err);
     wr_progress_set(whole);
     return good && solid_close(s, err);
@@ -1443,29 +1138,23 @@ static void free_solid(WrSolid *s)
     wr_array_free(&s->relief);
     wr_array_free(&s->locations);
     wr_array_free(&s->first);
-    wr_free(s->points);
-    wr_free(s->triangles);
-    wr_free(s->uv);
+    wr_solid_body_fini(&s->body);
 }
 
-static void report(WrExportJob *job, const WrSolid *s)
+static void report_body(WrExportJob *job, const WrSolidBody *body)
 {
-    WrVec3 low = { INFINITY, INFINITY, INFINITY }, high = { -INFINITY, -INFINITY, -INFINITY };
-    for (int32_t i = 0; i < s->point_count; i++)
-        grow(&low, &high, (WrVec3){ s->points[i][0], s->points[i][1], s->points[i][2] });
-    job->report.triangles = s->triangle_count;
-    job->report.solid_error = s->worst;
-    job->report.solid_volume = enclosed_volume(s);
+    WrVec3 low, high;
+    wr_solid_body_bounds(body, &low, &high);
+    job->report.triangles = body->triangle_count;
+    job->report.solid_volume = job->report.solid_open ? 0.0 : wr_solid_body_volume(body);
     job->report.solid_size[0] = high.x - low.x;
     job->report.solid_size[1] = high.y - low.y;
     job->report.solid_size[2] = high.z - low.z;
-    job->report.low = s->low;
-    job->report.high = s->high;
 }
 
-bool wr_export_solid_write(WrExportJob *job, const char *path, WrError *err)
+/* A surface by a formula. */
+static bool make_solid(WrExportJob *job, WrSolidBody *body, WrError *err)
 {
-    if (!check(job, err)) return false;
     WrSolid s = { .scene = job->scene,
                   .field = job->field,
                   .pool = job->pool,
@@ -1479,15 +1168,32 @@ bool wr_export_solid_write(WrExportJob *job, const char *path, WrError *err)
     WrScene *own = true_scene(job, &s);
     if (own) s.scene = own;
     else set_scale(&s);
-    WrProgressPart part;
-    bool good = make(&s, err);
-    if (good) {
-        const WrProgress *whole = wr_progress_enter(&part, 0.7, 1.0);
-        report(job, &s);
-        good = solid_write(&s, job->kind->ending, path, err);
-        wr_progress_set(whole);
-    }
+    const bool good = make(&s, err);
+    job->report.solid_error = s.worst;
+    job->report.low = s.low;
+    job->report.high = s.high;
+    *body = s.body;
+    s.body = (WrSolidBody){ 0 };
     free_solid(&s);
     wr_scene_free(own);
+    return good;
+}
+
+bool wr_export_solid_write(WrExportJob *job, const char *path, WrError *err)
+{
+    WrSolidBody body = { 0 };
+    WrProgressPart part;
+    if (!check(job, err)) return false;
+    const WrProgress *whole = wr_progress_enter(&part, 0.0, 0.7);
+    bool good = wr_surfaces[job->scene->shape.kind]->held ? wr_mesh_relief_make(job, &body, err)
+                                                          : make_solid(job, &body, err);
+    wr_progress_set(whole);
+    if (good) {
+        wr_progress_enter(&part, 0.7, 1.0);
+        report_body(job, &body);
+        good = wr_solid_body_write(&body, job->kind->ending, path, err);
+        wr_progress_set(whole);
+    }
+    wr_solid_body_fini(&body);
     return good;
 }

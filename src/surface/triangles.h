@@ -116,6 +116,11 @@ bool wr_triangle_gradients(const WrVec3 p[3], const double uv[3][2], WrVec3 *nor
  * outside: number of triangles that extend beyond 0..1, where the table repeats; or NULL. */
 double wr_triangles_overlap(const WrTriangles *triangles, int cells, int32_t *outside);
 
+/* Rows of `size` bytes, a multiple of 4, with equal bits get the same index, 0 .. kinds - 1 in the
+ * order of their first occurrence. */
+bool wr_weld(const void *rows, size_t size, int32_t count, int32_t *to, int32_t *kinds,
+             WrError *err);
+
 /* ---- points ---- */
 
 /* Search for the points of a mesh or patch set with given texture coordinates.

@@ -28,11 +28,6 @@ typedef struct WrTrianglesBuild {
     WrTrianglesReport report;
 } WrTrianglesBuild;
 
-/* Rows of `size` bytes, a multiple of 4, with equal bits get the same index, 0 .. kinds - 1 in the
- * order of their first occurrence. */
-bool wr_weld(const void *rows, size_t size, int32_t count, int32_t *to, int32_t *kinds,
-             WrError *err);
-
 /* The angle between two vectors, radians, 0 .. pi; 0 where one is 0. */
 static inline double wr_angle(WrVec3 a, WrVec3 b)
 {
