@@ -22,6 +22,7 @@
 #include "document/document_file.h"
 #include "export/export.h"
 #include "export/film.h"
+#include "surface/surface.h"
 
 #include <SDL.h>
 #include <math.h>
@@ -148,6 +149,12 @@ void wr_dialog_import(WrApp *app)
     wr_gui_dialog_end();
 }
 
+/* True if the active object is a mesh, or another surface of triangles. */
+static bool has_mesh(const WrApp *app)
+{
+    return wr_surfaces[wr_app_scene(app)->shape.kind]->held;
+}
+
 static void add_export_line(const WrApp *app, const char *path, WrText *line)
 {
     WR_ROWS(ranges);
@@ -160,7 +167,12 @@ static void add_export_line(const WrApp *app, const char *path, WrText *line)
     wr_text_addf(line, "export %s ", kind->name);
     wr_text_add_word(line, path);
     if (strcmp(kind->name, "height") == 0) wr_text_addf(line, " range=%s", ranges[f->range]);
-    if (kind->channels == 0) { /* a solid */
+    if (kind->channels == 0 && has_mesh(app)) {
+        if (f->mesh_size > 0) wr_line_number(line, "size", f->mesh_size);
+        wr_line_number(line, "error", f->solid_error);
+        if (f->mesh_round) wr_text_add(line, " edges=round");
+        if (f->mesh_limited) wr_text_add(line, " folds=limit");
+    } else if (kind->channels == 0) { /* a solid */
         wr_line_number(line, "size", f->solid_size);
         wr_line_number(line, "error", f->solid_error);
         if (f->solid_thickness > 0) wr_line_number(line, "thickness", f->solid_thickness);
@@ -183,6 +195,22 @@ static void ask_export_file(WrApp *app, const char *ending)
     snprintf(name, sizeof name, "%s.%s", ending ? "relief" : "height", ending ? ending : "png");
     if (!wr_files_request_path(app->files, WR_FILE_EXPORT, NULL, name))
         wr_dialog_open(app, WR_DIALOG_FILE);
+}
+
+static void mesh_numbers(WrForms *f)
+{
+    static const char *const edges[] = { "stay sharp", "become round" };
+    static const char *const folds[] = { "are kept and counted", "are lowered" };
+    number("Size", 0, 300, 0, 1e4, 0, 1, "mm", &f->mesh_size);
+    number("Error", 0.01, 1, 0.001, 100, 0.05, 3, "mm", &f->solid_error);
+    wr_gui_label("Hard edges");
+    wr_gui_choice("edges", 0, edges, 2, &f->mesh_round);
+    wr_gui_label("Folds");
+    wr_gui_choice("folds", 0, folds, 2, &f->mesh_limited);
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
+                        "Size 0: a unit of the mesh's file is a millimetre, in its own place. Else "
+                        "it is the longest side without relief. Folds are places where the relief "
+                        "turns over.");
 }
 
 static void solid_numbers(WrForms *f)
@@ -214,7 +242,8 @@ void wr_dialog_export(WrApp *app)
         wr_gui_label("Black and white");
         wr_gui_choice("range", 0, ranges, WR_RANGES, &f->range);
     }
-    if (wr_export_kinds[f->kind].channels == 0) solid_numbers(f);
+    if (wr_export_kinds[f->kind].channels == 0 && has_mesh(app)) mesh_numbers(f);
+    else if (wr_export_kinds[f->kind].channels == 0) solid_numbers(f);
     else
         wr_gui_text_wrapped(
             WR_FONT_SMALL, WR_COLOUR_LABEL,

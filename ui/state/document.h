@@ -27,6 +27,8 @@ typedef struct WrForms { /* values of open dialogs */
     double width, height, picture_width, picture_height, fill, cells_u, cells_v, line_width, low,
         high;
     double solid_size, solid_error, solid_thickness; /* mm; thickness 0: default of the export */
+    double mesh_size;                                /* mm; 0: the file's unit */
+    int mesh_round, mesh_limited;                    /* of a mesh as a solid: 0 or 1 */
     char export_more[200];                           /* further options of the line, as typed */
     int film_kind;                                   /* index into wr_film_kinds */
     int wrap, kind, range;                           /* range: a WR_RANGE_ value */
