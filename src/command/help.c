@@ -608,7 +608,7 @@ void wr_help_json(WrText *text)
 void wr_help_markdown_cell(WrText *text, const char *words)
 {
     for (const char *p = words; *p; p++)
-        if (*p == '|' || *p == '*' || *p == '<') wr_text_addf(text, "\\%c", *p);
+        if (strchr("|*<\\", *p)) wr_text_addf(text, "\\%c", *p);
         else wr_text_add_n(text, p, 1);
 }
 

@@ -42,6 +42,7 @@ BEGIN {
     library["sleef"] = library["xxhash"] = library["sha2"] = "base"
     library["libmypaint"] = library["mypaint"] = "brush"
     library["dbus/"] = "ui/jobs"
+    library["md4c"] = "ui/help"
     library["json-c/"] = "brush image" # presets; what a glTF names
 }
 FNR == 1 {

@@ -34,6 +34,7 @@ make_page() {
         if [[ $line =~ ^'<!-- wrinkle help --markdown '([a-z -]+)' -->'$ ]]; then
             read -ra words <<<"${BASH_REMATCH[1]}"
             "$program" help --markdown "${words[@]}"
+            echo # ends the table
             skip=yes
         fi
     done <"$1"

@@ -58,7 +58,7 @@ static void add_page(WrGuide *guide, const char *name, const char *text)
     wr_guide_parse(&page, name, text);
     for (int i = 0; i < page.blocks.count; i++)
         page.blocks.data[i].command = page.blocks.data[i].kind == WR_GUIDE_CODE &&
-                                      wr_guide_is_command(page.blocks.data[i].cell[0]);
+                                      wr_guide_is_command(wr_guide_words(&page.blocks.data[i], 0));
     wr_array_push(&guide->pages, page);
     wr_array_push(&guide->scrolls, 0.0);
 }
@@ -89,22 +89,23 @@ static int find_page(const WrGuide *guide, const char *name, size_t length)
     return -1;
 }
 
+static void read_links(WrGuide *guide, const WrGuideCell *cell)
+{
+    WrError err;
+    for (int i = 0; i < cell->spans.count; i++) {
+        const char *link = cell->spans.data[i].link;
+        if (!link || strchr(link, '/') || find_page(guide, link, strlen(link)) >= 0) continue;
+        if (!read_page(guide, link, &err)) add_page(guide, link, err.text);
+    }
+}
+
 /* Read every page linked from the index. A missing page becomes a page with a note. */
 static void read_linked(WrGuide *guide, int index)
 {
-    for (int i = 0; i < guide->pages.data[index].blocks.count; i++)
-        for (int k = 0; k < guide->pages.data[index].blocks.data[i].cells; k++) {
-            const char *at = guide->pages.data[index].blocks.data[i].cell[k];
-            WrGuideSpan span;
-            while (wr_guide_span(&at, &span)) {
-                char name[200];
-                WrError err;
-                if (!span.link || memchr(span.link, '/', (size_t)span.link_length)) continue;
-                snprintf(name, sizeof name, "%.*s", span.link_length, span.link);
-                if (find_page(guide, name, strlen(name)) >= 0) continue;
-                if (!read_page(guide, name, &err)) add_page(guide, name, err.text);
-            }
-        }
+    for (int i = 0; i < guide->pages.data[index].blocks.count; i++) {
+        const WrGuideBlock *block = &guide->pages.data[index].blocks.data[i];
+        for (int k = 0; k < block->cells.count; k++) read_links(guide, &block->cells.data[k]);
+    }
 }
 
 static WrGuide *guide_of(WrApp *app)
@@ -157,30 +158,29 @@ static void open_page(WrApp *app, WrGuide *guide, int page, int block)
 /* ---- links ---- */
 
 /* True if the heading "Files and exports" matches the anchor #files-and-exports. */
-static bool heading_is(const char *heading, const char *anchor, size_t length)
+static bool heading_is(const char *heading, const char *anchor)
 {
-    size_t n = 0;
     for (const char *p = heading; *p; p++) {
         char c = *p == ' ' ? '-' : (char)tolower((unsigned char)*p);
         if (c != '-' && c != '_' && !isalnum((unsigned char)c) && (unsigned char)c < 0x80) continue;
-        if (n >= length || anchor[n++] != c) return false;
+        if (*anchor++ != c) return false;
     }
-    return n == length;
+    return !*anchor;
 }
 
-static void follow(WrApp *app, WrGuide *guide, const char *link, int length)
+static void follow(WrApp *app, WrGuide *guide, const char *link)
 {
-    const char *anchor = memchr(link, '#', (size_t)length);
-    size_t name = anchor ? (size_t)(anchor - link) : (size_t)length;
+    const char *anchor = strchr(link, '#');
+    size_t name = strcspn(link, "#");
     int page = name == 0 ? guide->page : find_page(guide, link, name), block = -1;
     if (page < 0) {
-        wr_app_say(app, "%.*s: a file that comes with the program", length, link);
+        wr_app_say(app, "%s: a file that comes with the program", link);
         return;
     }
     const WrGuidePage *target = &guide->pages.data[page];
     for (int i = 0; anchor && i < target->blocks.count && block < 0; i++)
         if (target->blocks.data[i].kind == WR_GUIDE_HEADING &&
-            heading_is(target->blocks.data[i].cell[0], anchor + 1, (size_t)length - name - 1))
+            heading_is(wr_guide_words(&target->blocks.data[i], 0), anchor + 1))
             block = i;
     open_page(app, guide, page, block);
 }
@@ -207,7 +207,7 @@ static bool take_command(WrApp *app, WrGuide *guide, const char *link)
 {
     const WrGuidePage *page = &guide->pages.data[guide->page];
     for (int i = 0; i < page->blocks.count; i++)
-        if (page->blocks.data[i].command && page->blocks.data[i].cell[0] == link) {
+        if (page->blocks.data[i].command && wr_guide_words(&page->blocks.data[i], 0) == link) {
             propose(app, guide, link);
             return true;
         }
@@ -226,8 +226,9 @@ static bool take_keys(WrApp *app, WrGuide *guide)
         if (!page->blocks.data[i].command) continue;
         wr_guide_run_at(&guide->layout, &guide->field, i, &x, &y);
         if (!wr_gui_page_stop(i, x - w / 2, y - h / 2, w, h)) continue;
-        again = guide->proposed && strcmp(guide->proposed, page->blocks.data[i].cell[0]) == 0;
-        propose(app, guide, page->blocks.data[i].cell[0]);
+        const char *line = wr_guide_words(&page->blocks.data[i], 0);
+        again = guide->proposed && strcmp(guide->proposed, line) == 0;
+        propose(app, guide, line);
     }
     return again;
 }
@@ -238,8 +239,8 @@ bool wr_guide_run_place(const WrApp *app, const char *line, int *x, int *y)
     const WrGuidePage *page = guide ? guide->layout.page : NULL;
     for (int i = 0; page && i < page->blocks.count; i++) {
         double at_x, at_y;
-        if (!page->blocks.data[i].command || strcmp(page->blocks.data[i].cell[0], line) != 0)
-            continue;
+        const WrGuideBlock *block = &page->blocks.data[i];
+        if (!block->command || strcmp(wr_guide_words(block, 0), line) != 0) continue;
         wr_guide_run_at(&guide->layout, &guide->field, i, &at_x, &at_y);
         if (at_y < guide->field.top || at_y >= guide->field.bottom) continue;
         *x = (int)at_x;
@@ -306,11 +307,8 @@ static void list_found(WrApp *app, WrGuide *guide)
     for (int i = 0; i < guide->found_count; i++) {
         const WrGuidePage *page = &guide->pages.data[guide->found[i].page];
         const WrGuideBlock *block = &page->blocks.data[guide->found[i].block];
-        int last = block->kind == WR_GUIDE_ROW && block->cells > 1 ? 1 : 0;
-        wr_guide_plain(block, 0, words, 120);
-        size_t used = strlen(words);
-        if (last) snprintf(words + used, sizeof words - used, "   ");
-        if (last) wr_guide_plain(block, 1, words + used + 3, sizeof words - used - 3);
+        snprintf(words, sizeof words, "%.119s%s%s", wr_guide_words(block, 0),
+                 block->cells.count > 1 ? "   " : "", wr_guide_words(block, 1));
         WrRow row = wr_gui_row_begin(i, 46, i == guide->chosen);
         wr_gui_row_at(wr_gui_px(8), wr_gui_px(40));
         wr_gui_group_begin();
@@ -359,14 +357,12 @@ static double scroll_to(WrGuide *guide, const WrGuiPage *field)
 /* True if the proposed command was chosen again by keys. */
 static bool show_page(WrApp *app, WrGuide *guide, double tall)
 {
-    int length;
     WrGuiPage field = wr_gui_page_begin("page", 0, tall);
     guide->field = field;
     const WrGuidePage *page = &guide->pages.data[guide->page];
     wr_gui_as_it_is(true); /* the page of keys is translated, the others are English */
     if (wr_guide_layout(&guide->layout, page, field.w, guide->pictures)) wr_app_redraw(app);
-    const char *link =
-        wr_guide_draw(&guide->layout, &field, guide->marked, guide->pictures, &length);
+    const char *link = wr_guide_draw(&guide->layout, &field, guide->marked, guide->pictures);
     wr_gui_as_it_is(false);
     const bool again = take_keys(app, guide);
     double to = scroll_to(guide, &field);
@@ -375,7 +371,7 @@ static bool show_page(WrApp *app, WrGuide *guide, double tall)
     guide->jump = -1;
     wr_gui_page_end(guide->layout.height, to);
     if (to >= 0) wr_app_redraw(app);
-    if (link && field.clicked && !take_command(app, guide, link)) follow(app, guide, link, length);
+    if (link && field.clicked && !take_command(app, guide, link)) follow(app, guide, link);
     return again;
 }
 

@@ -179,7 +179,6 @@ typedef struct Flow {
     bool draw;
     const WrGuiPage *field; /* pointer state; NULL during layout without drawing */
     const char *link;       /* link under the pointer; NULL: none */
-    int link_length;
 } Flow;
 
 static double line_height(WrFont font)
@@ -207,10 +206,10 @@ static WrFont font_of(const Flow *flow, WrGuideStyle style)
     return style == WR_GUIDE_STRONG ? WR_FONT_BOLD : flow->font;
 }
 
-static WrColour colour_of(const Flow *flow, WrGuideStyle style)
+static WrColour colour_of(const Flow *flow, const WrGuideSpan *span)
 {
-    if (style == WR_GUIDE_LINK) return LINK;
-    return style == WR_GUIDE_PLAIN ? flow->colour : WR_COLOUR_STRONG;
+    if (span->link) return LINK;
+    return span->style == WR_GUIDE_PLAIN ? flow->colour : WR_COLOUR_STRONG;
 }
 
 /* from: start of the background behind code, and of a link's clickable area. */
@@ -227,11 +226,10 @@ static void draw_word(Flow *flow, const WrGuideSpan *span, const char *word, dou
                    f->pointer_y < flow->y + line_height(flow->font);
     if (pointed) {
         flow->link = span->link;
-        flow->link_length = span->link_length;
         wr_gui_draw_line(flow->x, flow->y + gap + high - 1, flow->x + width,
                          flow->y + gap + high - 1, LINK, 1);
     }
-    wr_gui_draw_text(flow->x, flow->y + gap, font, colour_of(flow, span->style), word);
+    wr_gui_draw_text(flow->x, flow->y + gap, font, colour_of(flow, span), word);
 }
 
 /* Lay out one word, with a gap before it if needed; a word wider than a line is split. */
@@ -265,20 +263,20 @@ static void set_word(Flow *flow, const WrGuideSpan *span, char *word, int length
     }
 }
 
-static void set_span(Flow *flow, const WrGuideSpan *span)
+static void set_span(Flow *flow, const WrGuideSpan *span, const char *text)
 {
     char word[400];
     double space = wr_gui_text_width(flow->font, " "), gap = 0;
     bool inside = false; /* a word of the same span precedes */
     for (int i = 0; i < span->length;) {
         int length = 0;
-        if (span->text[i] == ' ') {
+        if (text[i] == ' ') {
             gap = flow->x > flow->left ? space : 0;
             i++;
             continue;
         }
-        while (i + length < span->length && span->text[i + length] != ' ' && length < 390) length++;
-        memcpy(word, span->text + i, (size_t)length);
+        while (i + length < span->length && text[i + length] != ' ' && length < 390) length++;
+        memcpy(word, text + i, (size_t)length);
         set_word(flow, span, word, length, gap, inside);
         inside = true;
         gap = 0;
@@ -287,14 +285,16 @@ static void set_span(Flow *flow, const WrGuideSpan *span)
     flow->x += gap;
 }
 
-/* Lay out a cell's Markdown; returns its height. */
-static double set_text(Flow *flow, const char *text)
+/* Lay out a cell; returns its height. */
+static double set_text(Flow *flow, const WrGuideCell *cell)
 {
     double top = flow->y;
-    const char *at = text;
-    WrGuideSpan span;
+    const char *text = wr_text_get(&cell->text);
     flow->x = flow->left;
-    while (wr_guide_span(&at, &span)) set_span(flow, &span);
+    for (int i = 0; i < cell->spans.count; i++) {
+        set_span(flow, &cell->spans.data[i], text);
+        text += cell->spans.data[i].length;
+    }
     flow->y += line_height(flow->font);
     return flow->y - top;
 }
@@ -302,25 +302,25 @@ static double set_text(Flow *flow, const char *text)
 /* Code wider than the line continues indented. */
 static double set_code(Flow *flow, const char *text)
 {
-    WrGuideSpan span = { WR_GUIDE_PLAIN, text, (int)strlen(text), NULL, 0 };
+    WrGuideSpan span = { WR_GUIDE_PLAIN, 0, NULL };
     double top = flow->y;
     size_t indent = strspn(text, " ");
+    text += indent;
     flow->x = flow->left + (double)indent * wr_gui_text_width(flow->font, "n");
     flow->left += wr_gui_px(INDENT);
     double hang = flow->left;
     if (flow->x < hang) { /* the first line starts at the left */
         flow->left = flow->x;
-        const char *rest = text + indent;
         char word[400];
-        int length = (int)strcspn(rest, " ");
+        int length = (int)strcspn(text, " ");
         if (length > 390) length = 390;
-        memcpy(word, rest, (size_t)length);
+        memcpy(word, text, (size_t)length);
         set_word(flow, &span, word, length, 0, false);
-        span.text = rest + length;
-        span.length = (int)strlen(span.text);
+        text += length;
         flow->left = hang;
     }
-    set_span(flow, &span);
+    span.length = (int)strlen(text);
+    set_span(flow, &span, text);
     flow->y += line_height(flow->font);
     return flow->y - top;
 }
@@ -330,8 +330,7 @@ static void set_run(Flow *flow, const WrGuideBlock *block)
 {
     const char *word = wr_words("Run");
     const double width = wr_gui_text_width(flow->font, word);
-    const WrGuideSpan span = { WR_GUIDE_LINK, NULL, 0, block->cell[0],
-                               (int)strlen(block->cell[0]) };
+    const WrGuideSpan span = { WR_GUIDE_PLAIN, 0, block->cells.data[0].text.data };
     flow->x = flow->right - width;
     if (flow->draw) draw_word(flow, &span, word, flow->x, width);
     flow->right -= width + wr_gui_px(10);
@@ -377,10 +376,10 @@ static void measure(const WrGuidePage *page, int first, double want[], double le
     for (int i = first; i < page->blocks.count; i++) {
         const WrGuideBlock *row = &page->blocks.data[i];
         if (row->kind != WR_GUIDE_ROW || (i > first && !row->joined)) break;
-        if (row->cells > *columns) *columns = row->cells;
-        for (int k = 0; k < row->cells; k++) {
+        if (row->cells.count > *columns) *columns = row->cells.count;
+        for (int k = 0; k < row->cells.count; k++) {
             Flow flow = { .right = 1e9, .font = font_for(row) };
-            set_text(&flow, row->cell[k]);
+            set_text(&flow, &row->cells.data[k]);
             want[k] = fmax(want[k], ceil(flow.widest) + 1);
             least[k] = fmax(least[k], ceil(flow.word) + 1);
         }
@@ -432,14 +431,13 @@ static double set_block(const WrGuideBlock *block, const WrGuidePlace *place, do
                     .colour = colour_for(block),
                     .draw = flow->draw,
                     .field = flow->field,
-                    .link = flow->link,
-                    .link_length = flow->link_length };
+                    .link = flow->link };
     if (block->kind == WR_GUIDE_CODE) {
         if (flow->draw) wr_gui_draw_fill(x, y, width, place->height, GROUND, 0);
         flow->left += wr_gui_px(10);
         flow->right -= wr_gui_px(10);
         if (block->command) set_run(flow, block);
-        return set_code(flow, block->cell[0]);
+        return set_code(flow, wr_guide_words(block, 0));
     }
     if (block->kind == WR_GUIDE_ITEM) {
         if (block->level > 0) snprintf(mark, sizeof mark, "%d.", block->level);
@@ -448,24 +446,24 @@ static double set_block(const WrGuideBlock *block, const WrGuidePlace *place, do
         if (flow->draw) wr_gui_draw_text(x, y + gap, WR_FONT_TEXT, WR_COLOUR_LABEL, mark);
         flow->left += fmax(room, wr_gui_px(INDENT));
     }
-    if (block->kind != WR_GUIDE_ROW) return set_text(flow, block->cell[0]);
+    if (block->kind != WR_GUIDE_ROW) return set_text(flow, &block->cells.data[0]);
     double tall = 0, pad = wr_gui_px(3);
-    for (int k = 0; k < block->cells; k++) {
+    for (int k = 0; k < block->cells.count; k++) {
         flow->y = y + pad;
         flow->left = x;
         flow->right = x + place->column[k] + 1;
-        tall = fmax(tall, set_text(flow, block->cell[k]) + 2 * pad);
+        tall = fmax(tall, set_text(flow, &block->cells.data[k]) + 2 * pad);
         x += place->column[k] + wr_gui_px(CELL_GAP);
     }
     return tall + 1;
 }
 
 /* The picture's own size, limited to the width. */
-static double picture_size(const char *path, double width, WrGuidePictures *pictures, double *wide,
-                           SDL_Texture **texture)
+static double picture_size(const WrGuideBlock *block, double width, WrGuidePictures *pictures,
+                           double *wide, SDL_Texture **texture)
 {
     int w, h;
-    *texture = guide_picture(pictures, path, &w, &h);
+    *texture = guide_picture(pictures, block->cells.data[0].spans.data[0].link, &w, &h);
     *wide = 0;
     if (!*texture) return wr_gui_px(24);
     double scale = fmin(fmax(1.0, floor(wr_gui_scale())), width / w);
@@ -503,7 +501,7 @@ bool wr_guide_layout(WrGuideLayout *layout, const WrGuidePage *page, double widt
         y += wr_gui_px(space_above(block, i == 0));
         place->y = y;
         place->height = block->kind == WR_GUIDE_PICTURE
-                            ? picture_size(block->cell[1], room, pictures, &wide, &texture)
+                            ? picture_size(block, room, pictures, &wide, &texture)
                             : set_block(block, place, 0, 0, room, &flow);
         y += place->height;
         if (block->kind == WR_GUIDE_HEADING) y += wr_gui_px(block->level == 1 ? 4 : 0);
@@ -519,13 +517,13 @@ static void draw_picture(const WrGuideBlock *block, double x, double y, double r
 {
     double wide;
     SDL_Texture *texture;
-    double tall = picture_size(block->cell[1], room, pictures, &wide, &texture);
+    double tall = picture_size(block, room, pictures, &wide, &texture);
     if (texture) wr_gui_page_image(texture, x, y, wide, tall);
-    else wr_gui_draw_text(x, y, WR_FONT_SMALL, WR_COLOUR_LABEL, block->cell[0]);
+    else wr_gui_draw_text(x, y, WR_FONT_SMALL, WR_COLOUR_LABEL, wr_guide_words(block, 0));
 }
 
 const char *wr_guide_draw(const WrGuideLayout *layout, const WrGuiPage *field, int marked,
-                          WrGuidePictures *pictures, int *length)
+                          WrGuidePictures *pictures)
 {
     double x = field->x + wr_gui_px(MARGIN), room = layout->width - 2 * wr_gui_px(MARGIN);
     Flow flow = { .draw = true, .field = field };
@@ -547,6 +545,5 @@ const char *wr_guide_draw(const WrGuideLayout *layout, const WrGuiPage *field, i
         if (block->kind == WR_GUIDE_HEADING && block->level == 1)
             wr_gui_draw_fill(x, y + place->height + 1, room, 1, WR_COLOUR_ACCENT, 0);
     }
-    *length = flow.link_length;
     return flow.link;
 }

@@ -32,9 +32,9 @@ bool wr_guide_layout(WrGuideLayout *layout, const WrGuidePage *page, double widt
 void wr_guide_run_at(const WrGuideLayout *layout, const WrGuiPage *field, int block, double *x,
                      double *y);
 /* Draw the visible part; marked: highlighted block, -1: none. Returns the target of the link under the pointer,
- * within the page, and its length, or NULL. */
+ * within the page, or NULL. */
 const char *wr_guide_draw(const WrGuideLayout *layout, const WrGuiPage *field, int marked,
-                          WrGuidePictures *pictures, int *length);
+                          WrGuidePictures *pictures);
 
 /* ---- pictures of the guide, loaded in the background ---- */
 

@@ -9,6 +9,7 @@
 
 #include "base/text.h"
 
+#include <ctype.h>
 #include <string.h>
 
 typedef struct Row {
@@ -136,12 +137,19 @@ static void add_head(WrText *text, const char *title)
     wr_text_addf(text, "\n## %s\n\n| %s | |\n| --- | --- |\n", wr_words(title), wr_words("keys"));
 }
 
-/* Escape a bar or a backquote, which may be a key. */
+/* A mark of Markdown may be a key. */
+static void add_keys(const WrApp *app, const char *action, WrText *text)
+{
+    WrText keys = { 0 };
+    wr_keys_list(app->keys, action, &keys);
+    for (const char *p = wr_text_get(&keys); *p; p++)
+        wr_text_addf(text, ispunct((unsigned char)*p) ? "\\%c" : "%c", *p);
+    wr_text_fini(&keys);
+}
+
 static void add_row(WrText *text, const char *keys, const char *words)
 {
-    wr_text_add(text, "| ");
-    for (const char *p = keys; *p; p++) wr_text_addf(text, *p == '|' ? "\\%c" : "%c", *p);
-    wr_text_addf(text, " | %s |\n", wr_words(words));
+    wr_text_addf(text, "| %s | %s |\n", keys, wr_words(words));
 }
 
 static bool is_told(const char *action)
@@ -157,7 +165,7 @@ static void add_others(const WrApp *app, WrText *text)
     WrText keys = { 0 };
     for (const WrAction *a = app->registry->actions; a->name; a++) {
         wr_text_clear(&keys);
-        wr_keys_list(app->keys, a->name, &keys);
+        add_keys(app, a->name, &keys);
         if (keys.length > 0 && !is_told(a->name)) add_row(text, wr_text_get(&keys), a->label);
     }
     wr_text_fini(&keys);
@@ -179,7 +187,7 @@ void wr_guide_keys(const WrApp *app, WrText *text)
         for (const Row *row = groups[i].rows; row->action; row++) {
             wr_text_clear(&keys);
             if (row->action[0] == '*') wr_text_add(&keys, wr_words(row->action));
-            else wr_keys_list(app->keys, row->action, &keys);
+            else add_keys(app, row->action, &keys);
             add_row(text, keys.length ? wr_text_get(&keys) : "-", row->text);
         }
     }

@@ -1,10 +1,10 @@
-/* guide_page.h - a guide page as blocks, parsed from the guide's subset of Markdown. Pure; tested without a window.
+/* guide_page.h - a guide page as blocks, parsed from Markdown by md4c. Pure; tested without a window.
 
-   Supported: headings (#, ##, ###), paragraphs, items (- and 1.), tables, code (indented by four blanks), pictures on
-   lines of their own; within a text `code`, *emphasis*, **strong**, [links](target) and ![pictures](path), of which
-   only the words are shown. Comments (<!-- -->) are left out. Code within an item is treated as text. */
+   CommonMark and tables. Lists in lists and quotations are flat, HTML and comments are left out. A picture in a paragraph
+   is a block of its own; elsewhere only its words are shown. */
 #pragma once
 #include "base/array.h"
+#include "base/text.h"
 
 #include <stdbool.h>
 
@@ -14,18 +14,36 @@ typedef enum WrGuideKind {
     WR_GUIDE_ITEM,
     WR_GUIDE_CODE,   /* one line of code */
     WR_GUIDE_ROW,    /* row of a table */
-    WR_GUIDE_PICTURE /* cell 0: its words, cell 1: its path as written */
+    WR_GUIDE_PICTURE /* its words, with its path as the link of the first span */
 } WrGuideKind;
+
+typedef enum WrGuideStyle {
+    WR_GUIDE_PLAIN,
+    WR_GUIDE_EMPHASIS,
+    WR_GUIDE_STRONG,
+    WR_GUIDE_LITERAL,
+    WR_GUIDE_STYLES
+} WrGuideStyle;
+
+typedef struct WrGuideSpan {
+    WrGuideStyle style;
+    int length; /* bytes */
+    char *link; /* target of a link; owned; NULL: none */
+} WrGuideSpan;
+
+typedef struct WrGuideCell {
+    WrText text;                 /* words without marks, in one line */
+    WR_ARRAY(WrGuideSpan) spans; /* from the start of the text to its end */
+} WrGuideCell;
 
 #define WR_GUIDE_CELLS 10 /* limit of columns in a table; further ones are joined with the last */
 
 typedef struct WrGuideBlock {
     WrGuideKind kind;
-    int level;    /* heading: 1..3; item: its number, 0: none; row: 1 for the head row */
+    int level;    /* heading: 1..6; item: its number, 0: none; row: 1 for the head row */
     bool command; /* code that the window can run; set by the page's owner (guide.h) */
     bool joined;  /* a row or code that continues the previous block */
-    int cells;    /* 1 except for rows */
-    char *cell[WR_GUIDE_CELLS]; /* owned; Markdown of one line; for code plain text */
+    WR_ARRAY(WrGuideCell) cells; /* 1 except for rows */
 } WrGuideBlock;
 
 typedef struct WrGuidePage {
@@ -37,27 +55,8 @@ typedef struct WrGuidePage {
 /* Parse a page. Never fails: anything else than Markdown is text. */
 void wr_guide_parse(WrGuidePage *page, const char *name, const char *text);
 void wr_guide_page_fini(WrGuidePage *page);
-
-typedef enum WrGuideStyle {
-    WR_GUIDE_PLAIN,
-    WR_GUIDE_EMPHASIS,
-    WR_GUIDE_STRONG,
-    WR_GUIDE_LITERAL,
-    WR_GUIDE_LINK
-} WrGuideStyle;
-
-typedef struct WrGuideSpan {
-    WrGuideStyle style;
-    const char *text; /* points into the Markdown */
-    int length;       /* bytes */
-    const char *link; /* target of a link; else NULL */
-    int link_length;
-} WrGuideSpan;
-
-/* The next span of a cell's Markdown; *at starts at the cell and advances. False at its end. */
-bool wr_guide_span(const char **at, WrGuideSpan *span);
-/* A cell's words without marks, or unchanged if the block is code. Returns buffer. */
-char *wr_guide_plain(const WrGuideBlock *block, int cell, char *buffer, size_t size);
+/* The text of a cell; "" if the block has fewer. */
+const char *wr_guide_words(const WrGuideBlock *block, int cell);
 
 typedef struct WrGuideFound {
     int page, block;
