@@ -20,8 +20,10 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "export/job.h"
+#include "export/mesh_solid.h"
 #include "export/solid_body.h"
 #include "field/field.h"
+#include "render/tessellation/facet.h"
 #include "scene/scene.h"
 #include "surface/surface.h"
 #include "system/thread.h"
@@ -517,7 +519,7 @@ static int last_at(double x, double step, double first, int count)
 static double error_of(const WrSolid *s, const WrSolidTriangle *t, double enough)
 {
     const WrSolidLattice *l = &s->lattice[t->face];
-    const WrFacet facet = wr_facet_of(&s->body, t->point);
+    const WrFacet facet = wr_facet_of((const float(*)[3])s->body.points, t->point);
     const double low = fmin(t->v[0], fmin(t->v[1], t->v[2]));
     const double high = fmax(t->v[0], fmax(t->v[1], t->v[2]));
     const int last = last_at(high, l->step_v, l->first_v, l->count_v);
@@ -1185,7 +1187,7 @@ bool wr_export_solid_write(WrExportJob *job, const char *path, WrError *err)
     WrProgressPart part;
     if (!check(job, err)) return false;
     const WrProgress *whole = wr_progress_enter(&part, 0.0, 0.7);
-    bool good = wr_surfaces[job->scene->shape.kind]->held ? wr_mesh_relief_make(job, &body, err)
+    bool good = wr_surfaces[job->scene->shape.kind]->held ? wr_mesh_solid_make(job, &body, err)
                                                           : make_solid(job, &body, err);
     wr_progress_set(whole);
     if (good) {

@@ -1,0 +1,157 @@
+/* Relief on an imported mesh as a solid in millimetres: the triangles of render/tessellation/mesh_relief.h, with folds
+   counted, or lowered. */
+#include "export/mesh_solid.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "export/job.h"
+#include "export/solid_body.h"
+#include "render/tessellation/mesh_relief.h"
+#include "scene/scene.h"
+#include "surface/triangles.h"
+
+#include <math.h>
+#include <string.h>
+
+#define LIMIT_ROUNDS 40 /* halvings of the heights of folded triangles */
+
+/* ---- folds ---- */
+
+/* True if the relief turned the triangle over: its normal is opposite to that without relief. */
+static bool is_folded(const WrMeshRelief *r, const WrMeshReliefTriangle *t)
+{
+    WrVec3 p[3];
+    for (int k = 0; k < 3; k++) p[k] = wr_mesh_relief_position(r, r->points.data[t->point[k]].base);
+    const WrVec3 n = v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0]));
+    for (int k = 0; k < 3; k++) {
+        const float *at = r->at.data + 3 * t->point[k];
+        p[k] = (WrVec3){ (double)at[0], (double)at[1], (double)at[2] };
+    }
+    return v3_dot(n, v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0]))) < 0.0;
+}
+
+/* Counts the folded triangles; the place of the one with the largest displacement is the report's. */
+static int64_t count_folds(const WrMeshRelief *r, WrExportReport *report)
+{
+    int64_t count = 0;
+    double most = -1.0;
+    for (int32_t i = 0; i < r->triangles.count; i++) {
+        const WrMeshReliefTriangle *t = &r->triangles.data[i];
+        if (!is_folded(r, t)) continue;
+        const WrMeshReliefPoint *point = &r->points.data[t->point[0]];
+        const WrVec3 at = wr_mesh_relief_position(r, point->base);
+        count++;
+        if (!(v3_len(point->d) > most)) continue;
+        most = v3_len(point->d);
+        report->solid_fold[0] = at.x, report->solid_fold[1] = at.y, report->solid_fold[2] = at.z;
+    }
+    return count;
+}
+
+/* Halves the displacement of folded triangles' points until none is folded: at 0 the mesh itself has no fold. */
+static void limit_folds(WrMeshRelief *r, WrExportReport *report)
+{
+    bool *low = wr_alloc((size_t)r->points.count, sizeof *low);
+    for (int round = 0; round < LIMIT_ROUNDS; round++) {
+        int32_t count = 0;
+        memset(low, 0, (size_t)r->points.count * sizeof *low);
+        for (int32_t i = 0; i < r->triangles.count; i++)
+            for (int k = 0; k < 3 && is_folded(r, &r->triangles.data[i]); k++)
+                low[r->triangles.data[i].point[k]] = true;
+        for (int32_t i = 0; i < r->points.count; i++) {
+            if (!low[i]) continue;
+            r->points.data[i].part = round + 1 < LIMIT_ROUNDS ? r->points.data[i].part / 2 : 0.0;
+            wr_mesh_relief_move(r, i);
+            count++;
+        }
+        if (count == 0) break;
+    }
+    wr_free(low);
+    for (int32_t i = 0; i < r->points.count; i++)
+        report->solid_limited += r->points.data[i].part < 1.0;
+}
+
+/* ---- the whole ---- */
+
+/* Millimetres per unit of the mesh: 1, with its own origin, or such that its longest side is `size`. */
+static void set_scale(WrMeshReliefRequest *ask, double size)
+{
+    WrVec3 low = { INFINITY, INFINITY, INFINITY }, high = { -INFINITY, -INFINITY, -INFINITY };
+    ask->scale = 1.0;
+    if (!(size > 0)) return;
+    for (int32_t i = 0; i < ask->mesh->corner_count; i++) {
+        const float *p = ask->mesh->corners[i].p;
+        const WrVec3 at = { ask->stretch.x * (double)p[0], ask->stretch.y * (double)p[1],
+                            ask->stretch.z * (double)p[2] };
+        low = (WrVec3){ fmin(low.x, at.x), fmin(low.y, at.y), fmin(low.z, at.z) };
+        high = (WrVec3){ fmax(high.x, at.x), fmax(high.y, at.y), fmax(high.z, at.z) };
+    }
+    const WrVec3 d = v3_sub(high, low);
+    ask->middle = v3_scale(v3_add(low, high), 0.5);
+    ask->scale = size / fmax(d.x, fmax(d.y, d.z));
+}
+
+static void fill_body(const WrMeshRelief *r, WrSolidBody *body)
+{
+    const WrScene *scene = r->request.scene;
+    const WrVec3 s = r->request.stretch;
+    for (int32_t i = 0; i < r->points.count; i++)
+        wr_solid_body_add_point(body, r->at.data + 3 * (size_t)i);
+    for (int32_t i = 0; i < r->triangles.count; i++) {
+        const WrMeshReliefTriangle *t = &r->triangles.data[i];
+        float uv[3][2];
+        for (int k = 0; k < 3; k++) {
+            const WrMeshReliefPlace at = wr_mesh_relief_place(
+                r->request.mesh, t->face, (double)t->b[k][0], (double)t->b[k][1]);
+            uv[k][0] = (float)(at.u * scene->replicate_u);
+            uv[k][1] = (float)(at.v * scene->replicate_v);
+        }
+        wr_solid_body_add_triangle(body, t->point, uv);
+    }
+    if (s.x * s.y * s.z < 0) wr_solid_body_reverse(body);
+}
+
+static void report_relief(const WrMeshRelief *r, WrExportReport *report)
+{
+    for (int32_t i = 0; i < r->triangles.count; i++) {
+        const WrMeshReliefTriangle *t = &r->triangles.data[i];
+        if (t->error > t->allowed && wr_mesh_relief_at_crease(r, t)) report->solid_steps++;
+        else report->solid_error = fmax(report->solid_error, (double)t->error);
+    }
+    report->low = r->low;
+    report->high = r->high;
+    report->solid_open = !r->request.mesh->closed;
+    report->solid_folds = count_folds(r, report);
+}
+
+bool wr_mesh_solid_make(WrExportJob *job, WrSolidBody *body, WrError *err)
+{
+    WrMeshRelief relief = { 0 };
+    WrVec3 cofactor;
+    WrMeshReliefRequest ask = { .scene = job->scene,
+                                .field = job->field,
+                                .pool = job->pool,
+                                .mesh = job->scene->triangles,
+                                .rounded = job->options.solid_rounded,
+                                .error = job->options.solid_error,
+                                .most = WR_SOLID_MAX };
+    if (!ask.mesh) return wr_fail(err, "the mesh has no file: `surface mesh file=FILE` reads one");
+    if (!ask.mesh->mapped)
+        return wr_fail(err, "the mesh has no texture coordinates, which relief needs");
+    wr_scene_stretch(job->scene, &ask.stretch, &cofactor);
+    set_scale(&ask, job->options.solid_size);
+    bool good = wr_mesh_relief_make(&relief, &ask, err);
+    if (good && relief.full)
+        good =
+            wr_fail(err,
+                    "error=%.6g mm needs more than %d triangles: a larger error, a smaller size, "
+                    "or a coarser mesh",
+                    ask.error, ask.most);
+    if (good && job->options.solid_limited) limit_folds(&relief, &job->report);
+    if (good) {
+        report_relief(&relief, &job->report);
+        fill_body(&relief, body);
+    }
+    wr_mesh_relief_fini(&relief);
+    return good;
+}
