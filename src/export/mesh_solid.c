@@ -134,6 +134,7 @@ bool wr_mesh_solid_make(WrExportJob *job, WrSolidBody *body, WrError *err)
                                 .mesh = job->scene->triangles,
                                 .rounded = job->options.solid_rounded,
                                 .error = job->options.solid_error,
+                                .fine = true,
                                 .most = WR_SOLID_MAX };
     if (!ask.mesh) return wr_fail(err, "the mesh has no file: `surface mesh file=FILE` reads one");
     if (!ask.mesh->mapped)

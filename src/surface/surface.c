@@ -179,7 +179,8 @@ void wr_surface_cells(const WrShape *shape, int *columns, int *rows)
 
 const char *wr_shape_unmoved(const WrShape *shape)
 {
-    if (wr_surfaces[shape->kind]->held) return "meshes and patches out of files are not displaced";
+    if (wr_surfaces[shape->kind]->held && shape->kind != WR_SURFACE_mesh)
+        return "patches and terrains are not displaced";
     if (wr_shape_endless(shape)) return "a plane without end is not displaced";
     return NULL;
 }

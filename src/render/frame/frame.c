@@ -526,6 +526,11 @@ WrTileJob wr_frame_canvas(WrRenderer *renderer, const WrFrameRequest *request)
     if (job.triangles)
         job.triangle_look = wr_frame_look_up(&renderer->triangles, renderer->view.scale);
     job.dice = renderer->dice.triangles ? &renderer->dice : NULL;
+    if (renderer->dice.base) {
+        job.triangle_look.base_of = renderer->dice.base_of;
+        job.triangle_look.base_triangles = &renderer->dice.base->triangles[0].corner[0];
+        job.triangle_look.base_corners = &renderer->dice.base->corners[0].p[0];
+    }
     if (request && request->codes.wanted) want_codes(renderer, &request->codes, &job);
     if (request) job.normals = request->normals, job.map = request->map;
     wr_tile_size(job.samples, plan->sampling == WR_SAMPLING_ADAPTIVE, request && request->only,

@@ -137,7 +137,9 @@ static bool update_relief(WrRenderer *renderer, const WrFrameRequest *request, W
     const WrPlan *plan = &renderer->plan;
     const bool framed = plan->map_frame == WR_FRAME_MIKK || plan->map_frame == WR_FRAME_LECTURE;
     if (!framed || plan->inversion != WR_INVERT_TRIANGLES) wr_frames_drop(&renderer->frames);
-    else if (!wr_frames_update(&renderer->frames, wr_frame_triangles(renderer, request->scene),
+    else if (!wr_frames_update(&renderer->frames,
+                               renderer->dice.base ? renderer->dice.base
+                                                   : wr_frame_triangles(renderer, request->scene),
                                plan->map_frame, err))
         return false;
     if (wr_plan_runs(plan, WR_EFFECT_NORMALS))

@@ -43,6 +43,10 @@ typedef struct WrTriangleLook {
     const float *patches;     /* 56 each, as WrPatch (patches.h); NULL: a mesh of triangles */
     const int32_t *patch_of;  /* of each triangle */
     double scale_u, scale_v;  /* cells -> the table's u, v */
+    /* Relief on a mesh: the faces of each triangle; its u and v are weights of the face's corners 1 and 2. NULL: the
+       triangles are the faces. */
+    const int32_t *base_of, *base_triangles;
+    const float *base_corners;
 } WrTriangleLook;
 
 /* Limits of Newton's method. */

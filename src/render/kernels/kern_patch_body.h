@@ -225,5 +225,6 @@ static void kern_meet(const RAYS *rays, const WrTriangleLook *look, bool smooth,
                       bool sloped, STRIP *strip)
 {
     if (look->patches) meet_patches(rays, look, strip);
+    else if (look->base_of) meet_relief(rays, look, smooth, sloped, strip);
     else meet_plain(rays, look, smooth, mapped, sloped, strip);
 }

@@ -87,37 +87,22 @@ ALWAYS Meeting meeting_of(const RAYS *rays, REAL scale)
                       scale };
 }
 
-/* One sample. smooth: interpolates normals; mapped: u and v; sloped: their gradients. */
-ALWAYS void meet_triangle(const Meeting *all, const Corners *corners, const bool smooth,
-                          const bool mapped, const bool sloped, STRIP *strip, int i)
+/* Normal, u and v, and Pu and Pv at the point with shares l1, l2 of a face with edges e1, e2. lifted: a normal that
+   the face's side contradicts is moved to the horizon. */
+ALWAYS void frame_on_face(const Corners *corners, VEC e1, VEC e2, REAL l1, REAL l2,
+                          const bool lifted, VEC to_viewer, const bool smooth, const bool mapped,
+                          const bool sloped, STRIP *strip, int i)
 {
-    const REAL x = strip->x[i], y = strip->y[i], scale = all->scale;
-    VEC q = v_mad(v_mad(all->q0, all->qy, y), all->qx, x);
-    VEC d = v_mad(v_mad(all->d0, all->dy, y), all->dx, x);
-    VEC a = corner_p(corners, 0, i, scale);
-    VEC e1 = v_sub(corner_p(corners, 1, i, scale), a);
-    VEC e2 = v_sub(corner_p(corners, 2, i, scale), a);
     const VEC up = { 0, 0, 1 };
     VEC cross = v_cross(e1, e2);
     REAL square = v_dot(cross, cross);
     REAL inv = square > K_(1e-37) ? K_(1) / square : K_(0);
-    REAL toward = v_dot(cross, d);
-    REAL s = v_dot(cross, v_sub(a, q)) / (toward != K_(0) ? toward : K_(1));
-    VEC w = v_sub(v_mad(q, d, s), a);
-    REAL l1 = share_of(v_dot(v_cross(w, e2), cross) * inv);
-    REAL l2 = share_of(v_dot(v_cross(e1, w), cross) * inv);
-    REAL sum = l1 + l2, less = sum > K_(1) ? K_(1) / sum : K_(1);
-    l1 *= less;
-    l2 *= less;
-    VEC p = v_mad(v_mad(a, e1, l1), e2, l2);
-    STORE3(strip, p, i, p);
-
     VEC face = unit_or(cross, up), n = corner_n(corners, 0, i);
     if (smooth) {
         VEC n1 = v_sub(corner_n(corners, 1, i), n), n2 = v_sub(corner_n(corners, 2, i), n);
         n = unit_or(v_mad(v_mad(n, n1, l1), n2, l2), face);
     }
-    n = before_horizon(n, face, v_mad(all->eye, p, all->move));
+    if (lifted) n = before_horizon(n, face, to_viewer);
     STORE3(strip, n, i, n);
     strip->n_len[i] = K_(1);
     if (!mapped) return;
@@ -134,11 +119,69 @@ ALWAYS void meet_triangle(const Meeting *all, const Corners *corners, const bool
     STORE3(strip, pv, i, v_cross(n, gu));
 }
 
+/* One sample. smooth: interpolates normals; mapped: u and v; sloped: their gradients. */
+ALWAYS void meet_triangle(const Meeting *all, const Corners *corners, const bool smooth,
+                          const bool mapped, const bool sloped, STRIP *strip, int i)
+{
+    const REAL x = strip->x[i], y = strip->y[i], scale = all->scale;
+    VEC q = v_mad(v_mad(all->q0, all->qy, y), all->qx, x);
+    VEC d = v_mad(v_mad(all->d0, all->dy, y), all->dx, x);
+    VEC a = corner_p(corners, 0, i, scale);
+    VEC e1 = v_sub(corner_p(corners, 1, i, scale), a);
+    VEC e2 = v_sub(corner_p(corners, 2, i, scale), a);
+    VEC cross = v_cross(e1, e2);
+    REAL square = v_dot(cross, cross);
+    REAL inv = square > K_(1e-37) ? K_(1) / square : K_(0);
+    REAL toward = v_dot(cross, d);
+    REAL s = v_dot(cross, v_sub(a, q)) / (toward != K_(0) ? toward : K_(1));
+    VEC w = v_sub(v_mad(q, d, s), a);
+    REAL l1 = share_of(v_dot(v_cross(w, e2), cross) * inv);
+    REAL l2 = share_of(v_dot(v_cross(e1, w), cross) * inv);
+    REAL sum = l1 + l2, less = sum > K_(1) ? K_(1) / sum : K_(1);
+    l1 *= less;
+    l2 *= less;
+    VEC p = v_mad(v_mad(a, e1, l1), e2, l2);
+    STORE3(strip, p, i, p);
+    frame_on_face(corners, e1, e2, l1, l2, true, v_mad(all->eye, p, all->move), smooth, mapped,
+                  sloped, strip, i);
+}
+
 #define MEET(smooth, mapped, sloped)                                                               \
     SIMD for (int i = 0; i < count; i++)                                                           \
     {                                                                                              \
         meet_triangle(&all, &corners, smooth, mapped, sloped, strip, i);                           \
     }
+
+/* Relief on a mesh: the hit is on a triangle of the relief, the frame is that of the mesh's face below it. */
+FLAT static void meet_relief(const RAYS *rays, const WrTriangleLook *look, bool smooth, bool sloped,
+                             STRIP *strip)
+{
+    const int count = strip->count;
+    const Meeting all = meeting_of(rays, (REAL)look->scale);
+    const WrTriangleLook faces = { .corners = look->base_corners,
+                                   .triangles = look->base_triangles };
+    const VEC none = { 0, 0, 0 };
+    REAL triangle[WR_SPAN];
+    Corners corners;
+    gather_corners(look, strip, &corners);
+    for (int i = 0; i < count; i++) triangle[i] = strip->u[i];
+    SIMD for (int i = 0; i < count; i++)
+    {
+        meet_triangle(&all, &corners, false, true, false, strip, i);
+    }
+    REAL l1[WR_SPAN], l2[WR_SPAN];
+    for (int i = 0; i < count; i++) {
+        l1[i] = share_of(strip->u[i]), l2[i] = share_of(strip->v[i]);
+        strip->u[i] = (REAL)look->base_of[(size_t)triangle[i]];
+    }
+    gather_corners(&faces, strip, &corners);
+    for (int i = 0; i < count; i++) {
+        VEC a = corner_p(&corners, 0, i, all.scale);
+        VEC e1 = v_sub(corner_p(&corners, 1, i, all.scale), a);
+        VEC e2 = v_sub(corner_p(&corners, 2, i, all.scale), a);
+        frame_on_face(&corners, e1, e2, l1[i], l2[i], false, none, smooth, true, sloped, strip, i);
+    }
+}
 
 /* For triangles whose numbers are in u. Without `mapped`, u and v are unchanged. */
 FLAT static void meet_plain(const RAYS *rays, const WrTriangleLook *look, bool smooth, bool mapped,

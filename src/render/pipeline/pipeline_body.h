@@ -31,10 +31,10 @@ static bool runs(const WrTileJob *job, WrEffect effect)
     return wr_plan_runs(job->plan, effect);
 }
 
-/* Triangles that are the surface itself: its frame comes with the hit. */
+/* The surface is a mesh, whose frame comes with the hit. */
 static bool met_whole(const WrTileJob *job)
 {
-    return job->triangles && !job->dice;
+    return job->triangles && (!job->dice || job->dice->base);
 }
 
 static void did(const Watch *watch, WrEffect effect)
@@ -138,7 +138,8 @@ static void surface_strip(const WrTileJob *job, int face, bool level, const WrSi
 {
     const WR_T(WrRound) *round = round_of(job);
     const bool parallax = runs(job, WR_EFFECT_PARALLAX);
-    if (job->dice || parallax) base_strip(job, face, strip, watch);
+    if (job->dice && job->dice->base) did(watch, WR_EFFECT_DISPLACED);
+    else if (job->dice || parallax) base_strip(job, face, strip, watch);
     if (job->triangles || parallax) return; /* the frame came with the hit, or was just computed */
     if (round && runs(job, WR_EFFECT_TANGENTS) && !level && !bends_at_once(job, sink)) {
         round->tangents(&VIEWED(job->view, shape), strip);

@@ -130,14 +130,26 @@ static void shares_of(const WrTriangleLook *look, const int32_t *corner, const S
 static Axes triangle_axes(const WrTileJob *job, const Strip *strip, int i)
 {
     const WrTriangleLook *look = &job->triangle_look;
-    const size_t triangle = (size_t)strip->triangle[i];
+    size_t triangle = (size_t)strip->triangle[i];
     const int32_t *corner = look->triangles + 3 * triangle;
-    const float *frames = job->frames->corner + 3 * triangle * WR_CORNER_FRAME;
-    Axes out = { { 0, 0, 0 }, { 0, 0, 0 }, { 0, 0, 0 } };
+    const float *corners = look->corners;
     REAL share[3];
     shares_of(look, corner, strip, i, share);
+    if (look->base_of) { /* on to the face of the mesh */
+        const REAL own[3] = { share[0], share[1], share[2] };
+        share[1] = share[2] = (REAL)0;
+        for (int k = 0; k < 3; k++)
+            for (int c = 1; c < 3; c++)
+                share[c] += own[k] * (REAL)corners[8 * (size_t)corner[k] + 5 + (size_t)c];
+        share[0] = (REAL)1 - share[1] - share[2];
+        triangle = (size_t)look->base_of[triangle];
+        corner = look->base_triangles + 3 * triangle;
+        corners = look->base_corners;
+    }
+    const float *frames = job->frames->corner + 3 * triangle * WR_CORNER_FRAME;
+    Axes out = { { 0, 0, 0 }, { 0, 0, 0 }, { 0, 0, 0 } };
     for (int k = 0; k < 3; k++) {
-        const float *f = frames + k * WR_CORNER_FRAME, *c = look->corners + 8 * (size_t)corner[k];
+        const float *f = frames + k * WR_CORNER_FRAME, *c = corners + 8 * (size_t)corner[k];
         out.t = v_mad(out.t, read_vec(f), share[k]);
         out.b = v_mad(out.b, read_vec(f + 3), share[k]);
         out.n = v_mad(out.n, read_vec(c + 3), share[k]);

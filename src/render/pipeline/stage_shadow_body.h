@@ -115,7 +115,7 @@ static WrVec3 start_of(const WrTileJob *job, int face, const Strip *s, int i)
     const WrVec3 n = { (double)s->nx[i], (double)s->ny[i], (double)s->nz[i] };
     const WrVec3 p = { (double)s->px[i], (double)s->py[i], (double)s->pz[i] };
     if (runs(job, WR_EFFECT_PARALLAX)) return v3_mad(p, n, -(double)s->f[i]);
-    if (!job->dice) return p;
+    if (!job->dice || job->dice->base) return p;
     WrSurfacePoint at;
     wr_surface_at(&job->view->shape_d, face, (double)s->u[i], (double)s->v[i], &at);
     return v3_mad(at.p, at.n_unit, (double)s->f[i]);

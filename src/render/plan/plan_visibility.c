@@ -129,7 +129,7 @@ WrVerdict wr_decide_parameters(const WrPlan *plan, const WrPlanRequest *ask, con
 
 WrVerdict wr_decide_tangents(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
-    if (runs(plan, WR_EFFECT_DISPLACED) || runs(plan, WR_EFFECT_PARALLAX) ||
+    if ((runs(plan, WR_EFFECT_DISPLACED) && !is_held(ask)) || runs(plan, WR_EFFECT_PARALLAX) ||
         (!is_round(ask) && !is_held(ask)))
         return say(WR_VERDICT_NONE, why, "the surface's formula returns them with the point");
     if (!plan->normals) return say(WR_VERDICT_NONE, why, "no light depends on the normal");

@@ -1,4 +1,5 @@
 #include "render/tessellation/dice.h"
+#include "render/tessellation/mesh_relief.h"
 
 #include "base/error.h"
 #include "base/memory.h"
@@ -721,6 +722,97 @@ static void fini(WrDicing *d)
     wr_free(d->height);
 }
 
+/* ---- relief on a mesh ---- */
+
+typedef struct WrMeshDicing {
+    const WrView *view;
+    double epsilon, rise; /* pixels; largest |F| */
+} WrMeshDicing;
+
+static double mesh_error(const void *ctx, WrVec3 centre, double radius)
+{
+    const WrMeshDicing *d = ctx;
+    const double pixels = pixels_at(d->view, centre, radius + d->rise);
+    return pixels > 0 ? d->epsilon / pixels : INFINITY;
+}
+
+/* Triangles in the order of the mesh's faces, so that consecutive ones are near each other; corners are not shared,
+   since u and v belong to a face. */
+static bool hand_over_mesh(const WrMeshRelief *relief, WrDice *dice, WrError *err)
+{
+    const int32_t count = relief->triangles.count, faces = relief->request.mesh->triangle_count;
+    WrTriangleCorner *corners =
+        wr_try_alloc(3 * (size_t)count, sizeof *corners, "a displaced surface", err);
+    WrTriangle *triangles =
+        corners ? wr_try_alloc((size_t)count, sizeof *triangles, "a displaced surface", err) : NULL;
+    dice->base_of =
+        triangles ? wr_try_alloc((size_t)count, sizeof *dice->base_of, "a displaced surface", err)
+                  : NULL;
+    if (!dice->base_of) {
+        wr_free(corners);
+        wr_free(triangles);
+        return false;
+    }
+    int32_t *next = wr_alloc((size_t)faces + 1, sizeof *next);
+    for (int32_t i = 0; i < count; i++) next[relief->triangles.data[i].face + 1]++;
+    for (int32_t i = 0; i < faces; i++) next[i + 1] += next[i];
+    for (int32_t i = 0; i < count; i++) {
+        const WrMeshReliefTriangle *t = &relief->triangles.data[i];
+        const int32_t to = next[t->face]++;
+        dice->base_of[to] = t->face;
+        for (int k = 0; k < 3; k++) {
+            const float *at = relief->at.data + 3 * (size_t)t->point[k];
+            triangles[to].corner[k] = 3 * to + k;
+            corners[3 * to + k] = (WrTriangleCorner){
+                .p = { at[0] + 0.0f, at[1] + 0.0f, at[2] + 0.0f }, .u = t->b[k][0], .v = t->b[k][1]
+            };
+        }
+    }
+    wr_free(next);
+    dice->triangles = wr_alloc(1, sizeof *dice->triangles);
+    *dice->triangles = (WrTriangles){ .refs = 1,
+                                      .corners = corners,
+                                      .triangles = triangles,
+                                      .corner_count = 3 * count,
+                                      .triangle_count = count,
+                                      .faceted = true,
+                                      .mapped = true,
+                                      .radius = relief->request.mesh->radius };
+    dice->end[0] = count;
+    return true;
+}
+
+static bool dice_mesh(WrDice *dice, const WrScene *scene, const WrField *field, const WrView *view,
+                      double epsilon, WrPool *pool, WrError *err)
+{
+    const WrTriangles *own = scene->triangles;
+    WrMeshDicing dicing = { view, epsilon, wr_raised_most(scene, field) };
+    WrMeshRelief relief = { 0 };
+    *dice = (WrDice){ .faces = 1, .base = own ? wr_triangles_share(own) : wr_triangles_square() };
+    const WrMeshReliefRequest ask = { .scene = scene,
+                                      .field = field,
+                                      .pool = pool,
+                                      .mesh = dice->base,
+                                      .stretch = { 1, 1, 1 },
+                                      .scale = 1,
+                                      .error = 1e-6 * dice->base->radius,
+                                      .error_at = mesh_error,
+                                      .ctx = &dicing,
+                                      .most = WR_DICE_MAX };
+    bool good = wr_mesh_relief_make(&relief, &ask, err);
+    while (good && relief.full && dicing.epsilon < 1e30) {
+        dicing.epsilon *= 2;
+        wr_mesh_relief_fini(&relief);
+        good = wr_mesh_relief_make(&relief, &ask, err);
+    }
+    good = good && hand_over_mesh(&relief, dice, err);
+    dice->epsilon = dicing.epsilon;
+    dice->rise = fmax(fabs(relief.low), fabs(relief.high));
+    wr_mesh_relief_fini(&relief);
+    if (!good) wr_dice_fini(dice);
+    return good;
+}
+
 /* Too many triangles: epsilon grows by at least 1.5 and is chosen again. Cells are measured once, only the
    choice is repeated. */
 bool wr_dice_make(WrDice *dice, const WrScene *scene, const WrField *field, const WrView *view,
@@ -736,6 +828,8 @@ bool wr_dice_make(WrDice *dice, const WrScene *scene, const WrField *field, cons
                        (scene->scheme == WR_SCHEME_BILINEAR || scene->scheme == WR_SCHEME_CENTRAL),
                    .faces = wr_surfaces[scene->shape.kind]->faces };
     wr_dice_fini(dice);
+    if (wr_surfaces[scene->shape.kind]->held)
+        return dice_mesh(dice, scene, field, view, epsilon, pool, err);
     dice_lay(&d, pool);
     dice_choose(&d);
     while (d.triangle_count > WR_DICE_MAX && d.epsilon < 1e30) {
@@ -755,5 +849,7 @@ bool wr_dice_make(WrDice *dice, const WrScene *scene, const WrField *field, cons
 void wr_dice_fini(WrDice *dice)
 {
     wr_triangles_free(dice->triangles);
+    wr_triangles_free(dice->base);
+    wr_free(dice->base_of);
     *dice = (WrDice){ 0 };
 }

@@ -46,7 +46,9 @@ double wr_raised_most(const WrScene *scene, const WrField *field);
    The facets have no gaps. An edge of a cell is cut by the needs of its two ends, so both its cells cut it
    alike. Points along it are computed from equal numbers. Points that the surface shares where its domain ends
    (seams, poles, edges of a cube) move together, to the position nearest to all the planes that they were
-   displaced to. */
+   displaced to.
+
+   A mesh's faces are bisected instead (mesh_relief.h), each to the same error in pixels at its own depth. */
 
 typedef struct WrPool WrPool;
 typedef struct WrScene WrScene;
@@ -59,8 +61,12 @@ typedef struct WrDice {
     WrTriangles *triangles;     /* owned; corners have u and v, no normals; NULL: not built */
     int32_t end[WR_DICE_FACES]; /* for each face, one past its last triangle */
     int faces;
-    double epsilon; /* largest error of the facets in pixels: the requested one, or more */
-    double rise;    /* largest |F|, object units */
+    /* Relief on a mesh: its faces. u and v of the corners above are weights of the face's corners 1 and 2, and they
+       belong to one triangle each. Else NULL. */
+    WrTriangles *base; /* own share */
+    int32_t *base_of;  /* [triangles] the face of each; owned */
+    double epsilon;    /* largest error of the facets in pixels: the requested one, or more */
+    double rise;       /* largest |F|, object units */
 } WrDice;
 
 /* Builds the triangles. field: NULL with a formula. epsilon: pixels. Errors: no memory. */

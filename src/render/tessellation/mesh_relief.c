@@ -34,6 +34,7 @@
 #define SAMPLES_MAX 4096    /* of a triangle along u or v, or along a side */
 #define FORMULA 256         /* samples of a formula per cell */
 #define FINE_MAX 16e6       /* texels on the mesh; above it only their centres are sampled */
+#define FEW 8               /* faces about a point, without allocation */
 #define SHARE 1e-3          /* of the error: F that differ by less are one */
 #define ONE_NORMAL 0.99996  /* cosine of half a degree: normals that differ by less are one */
 #define SOFT 0.03       /* damping of least squares: limits steps between nearly equal normals */
@@ -125,13 +126,14 @@ static void displace(WrMeshRelief *r, const Location *locations, int count,
 {
     WrVec3 sum = { 0, 0, 0 };
     double mean = 0.0;
-    WrVec3 *n = wr_alloc((size_t)count, sizeof *n);
-    double *f = wr_alloc((size_t)count, sizeof *f);
+    WrVec3 few_n[FEW], *n = count <= FEW ? few_n : wr_alloc((size_t)count, sizeof *n);
+    double few_f[FEW], *f = count <= FEW ? few_f : wr_alloc((size_t)count, sizeof *f);
     for (int i = 0; i < count; i++) {
         const Location *l = &locations[i];
         const WrMeshReliefPlace at =
             wr_mesh_relief_place(r->request.mesh, l->face, (double)l->b[0], (double)l->b[1]);
         n[i] = at.n;
+        f[i] = 0.0;
         if (is_mapped(r, l->face))
             wr_scene_height(r->request.scene, r->request.field, at.u, at.v, &f[i], NULL, NULL);
         r->low = fmin(r->low, f[i]);
@@ -148,8 +150,8 @@ static void displace(WrMeshRelief *r, const Location *locations, int count,
     point->d = crease && !r->request.rounded ? least_squares(n, f, count) : v3_scale(middle, mean);
     point->crease = crease || heights;
     point->part = 1.0;
-    wr_free(n);
-    wr_free(f);
+    if (n != few_n) wr_free(n);
+    if (f != few_f) wr_free(f);
 }
 
 void wr_mesh_relief_move(WrMeshRelief *r, int32_t i)
@@ -413,15 +415,15 @@ typedef struct Samples {
     double error; /* largest allowed distance */
     double worst; /* squared distance of the farthest */
     int count;
-    WrMeshReliefPlace at[WR_HEIGHTS_RUN];
+    WrMeshReliefPlace *at; /* [WR_HEIGHTS_RUN] */
 } Samples;
 
 /* Measures the collected samples; false: the error is exceeded already, or cancelled. */
 static bool measure(Samples *s)
 {
     const WrMeshRelief *r = s->relief;
-    double u[WR_HEIGHTS_RUN], v[WR_HEIGHTS_RUN], f[WR_HEIGHTS_RUN] = { 0 };
-    for (int i = 0; i < s->count; i++) u[i] = s->at[i].u, v[i] = s->at[i].v;
+    double u[WR_HEIGHTS_RUN], v[WR_HEIGHTS_RUN], f[WR_HEIGHTS_RUN];
+    for (int i = 0; i < s->count; i++) u[i] = s->at[i].u, v[i] = s->at[i].v, f[i] = 0.0;
     if (s->mapped) wr_scene_heights(r->request.scene, r->request.field, s->count, u, v, f);
     for (int i = 0; i < s->count; i++) {
         const WrVec3 p = v3_mad(s->at[i].p, s->at[i].n, f[i]);
@@ -507,10 +509,12 @@ static bool sample_sides(Samples *s)
     const double *texels = s->relief->texels;
     for (int k = 0; k < 3; k++) {
         const WrMeshReliefPlace *p = &s->corner[k], *q = &s->corner[(k + 1) % 3];
-        for (int i = 1; i < 4; i++)
-            if (!add_on_side(s, k, i / 4.0)) return false;
-        if (s->mapped && (!sample_crossings(s, k, texels[0], p->u, q->u) ||
-                          !sample_crossings(s, k, texels[1], p->v, q->v)))
+        const int steps = s->relief->request.fine ? 4 : 2;
+        for (int i = 1; i < steps; i++)
+            if (!add_on_side(s, k, (double)i / steps)) return false;
+        if (steps > 2 && s->mapped &&
+            (!sample_crossings(s, k, texels[0], p->u, q->u) ||
+             !sample_crossings(s, k, texels[1], p->v, q->v)))
             return false;
     }
     return add_sample(s, 1.0 / 3, 1.0 / 3) && measure(s);
@@ -531,7 +535,9 @@ static double allowed_error(const WrMeshRelief *r, const WrMeshReliefTriangle *t
 /* The largest distance of its samples, or one that exceeds the allowed error. */
 static double error_of(const WrMeshRelief *r, const WrMeshReliefTriangle *t)
 {
+    WrMeshReliefPlace at[WR_HEIGHTS_RUN];
     Samples s = { .relief = r,
+                  .at = at,
                   .triangle = t,
                   .facet = wr_facet_of((const float(*)[3])r->at.data, t->point),
                   .mapped = is_mapped(r, t->face),
@@ -637,7 +643,7 @@ bool wr_mesh_relief_make(WrMeshRelief *r, const WrMeshReliefRequest *request, Wr
     r->request = *request;
     r->texels[0] = fabs(scene->replicate_u) * (formula ? FORMULA : wr_field_width(request->field));
     r->texels[1] = fabs(scene->replicate_v) * (formula ? FORMULA : wr_field_height(request->field));
-    r->fine = texels_of(r) < FINE_MAX ? 3.0 : 1.0;
+    r->fine = request->fine && texels_of(r) < FINE_MAX ? 3.0 : 1.0;
     r->low = INFINITY, r->high = -INFINITY;
     return add_faces(r, err) && refine_all(r, err);
 }

@@ -29,6 +29,7 @@ typedef struct WrMeshReliefRequest {
        is not seen. NULL: `error` everywhere. Any thread. */
     double (*error_at)(const void *ctx, WrVec3 centre, double radius);
     const void *ctx;
+    bool fine; /* nine samples in each texel and all kinks along sides, else centres and middles */
     int32_t most; /* triangles */
 } WrMeshReliefRequest;
 
