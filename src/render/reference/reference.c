@@ -110,7 +110,7 @@ static double level_of(const double footprint[4])
    apply to them. */
 static WrBumpMode mode_of(const Looker *looker, WrBumpMode mode)
 {
-    if (is_raised(looker)) return WR_BUMP_EXACT;
+    if (is_raised(looker)) mode = WR_BUMP_EXACT;
     return looker->stage.view.info->held && mode == WR_BUMP_EXACT ? WR_BUMP_BLINN : mode;
 }
 

@@ -693,10 +693,11 @@ static WrVec3 seen_normal(WrVec3 n, WrVec3 face, WrVec3 to)
    Blinn's formula yields unit(n - grad F). With mirrored (u,v) both have the opposite sign; with (u,v) of area 0,
    |N| is 1. The normal of a face towards the eye is turned towards the eye as well, by a cosine of at least
    1e-4. */
-static void reference_mesh_at(const WrReferenceMesh *m, const WrReferenceHit *hit, WrVec3 eye,
-                              bool perspective, WrSurfacePoint *out)
+static void reference_mesh_at(const WrReferenceView *view, const WrReferenceHit *hit,
+                              WrSurfacePoint *out)
 {
-    const WrTriangles *t = m->source;
+    const WrTriangles *t = view->mesh.source;
+    const WrVec3 eye = view->perspective ? view->eye : view->toward;
     const int32_t *c = t->triangles[hit->triangle].corner;
     const WrVec3 none = { 0, 0, 0 };
     WrVec3 p[3], face = { 0, 0, 1 }, gu = none, gv = none;
@@ -709,8 +710,9 @@ static void reference_mesh_at(const WrReferenceMesh *m, const WrReferenceHit *hi
     memset(out, 0, sizeof *out);
     out->p =
         v3_mad(v3_mad(p[0], v3_sub(p[1], p[0]), hit->share[0]), v3_sub(p[2], p[0]), hit->share[1]);
-    const WrVec3 to = v3_unit(perspective ? v3_sub(eye, out->p) : eye, face);
-    const WrVec3 n = seen_normal(shading_normal(t, hit, face), face, to);
+    const WrVec3 to = v3_unit(view->perspective ? v3_sub(eye, out->p) : eye, face);
+    WrVec3 n = shading_normal(t, hit, face);
+    if (!view->raised) n = seen_normal(n, face, to);
     wr_reference_lay(n, gu, gv, out);
 }
 
@@ -1012,8 +1014,7 @@ void wr_reference_surface_point(const WrReferenceView *view, const WrReferenceHi
         reference_bezier_at(&view->bezier, hit, out);
         return;
     }
-    reference_mesh_at(&view->mesh, hit, view->perspective ? view->eye : view->toward,
-                      view->perspective, out);
+    reference_mesh_at(view, hit, out);
 }
 
 bool wr_reference_view_hit(const WrReferenceView *view, const WrReferenceRay *ray,

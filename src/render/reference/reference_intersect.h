@@ -173,6 +173,7 @@ typedef struct WrReferenceView {
     bool perspective;
     bool cull; /* a closed surface seen from outside: back faces are culled */
     bool hidden[6];
+    bool raised; /* a displaced mesh: its side is that of the relief, not of its faces */
     bool beyond; /* a plane is also intersected beyond its edges: rays continue to a relief on it */
     WrReferenceLight *lights; /* [light_count], owned */
     int light_count;

@@ -6,8 +6,11 @@
 #include "base/progress.h"
 #include "base/vec.h"
 #include "field/field.h"
+#include "field/scheme_list.h"
 #include "render/reference/reference_relief.h"
 #include "render/reference/reference_shade.h"
+#include "render/tessellation/dice.h"
+#include "render/tessellation/mesh_relief.h"
 #include "render/visibility/parallax.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
@@ -652,8 +655,47 @@ bool wr_reference_raised_init(WrReferenceRaised *raised, const WrShape *shape,
     return true;
 }
 
+#define MESH_ERROR 0x1p-13
+#define MESH_MOST 2000000
+
+/* The triangles of the picture's relief (mesh_relief.h), but finer, with the heights of the table's spline as everywhere
+   in the reference. */
+bool wr_reference_raised_mesh_init(WrReferenceRaised *raised, const WrScene *scene,
+                                   const WrField *field, WrPool *pool, WrError *err)
+{
+    WrMeshRelief relief = { 0 };
+    WrRaised spline = { 0 };
+    WrScene *own = wr_scene_clone(scene);
+    own->scheme = WR_SCHEME_BSPLINE_FIT;
+    *raised = (WrReferenceRaised){ .base = scene->triangles ? wr_triangles_share(scene->triangles)
+                                                            : wr_triangles_square(),
+                                   .size = wr_shape_radius(&scene->shape),
+                                   .sheets = wr_alloc(1, sizeof *raised->sheets),
+                                   .count = 1 };
+    bool good = wr_raised_init(&spline, own, field, err);
+    const WrMeshReliefRequest ask = { .scene = spline.scene,
+                                      .field = spline.field,
+                                      .pool = pool,
+                                      .mesh = raised->base,
+                                      .stretch = { 1, 1, 1 },
+                                      .scale = 1,
+                                      .error = MESH_ERROR * raised->base->radius,
+                                      .fine = true,
+                                      .most = MESH_MOST };
+    good = good && wr_mesh_relief_make(&relief, &ask, err);
+    WrTriangles *facets = good ? wr_mesh_relief_triangles(&relief, &raised->base_of, err) : NULL;
+    good = facets && wr_reference_mesh_init(&raised->facets, facets, err);
+    wr_mesh_relief_fini(&relief);
+    wr_raised_fini(&spline);
+    wr_scene_free(own);
+    return good;
+}
+
 void wr_reference_raised_fini(WrReferenceRaised *raised)
 {
+    wr_reference_mesh_fini(&raised->facets);
+    wr_triangles_free(raised->base);
+    wr_free(raised->base_of);
     for (int i = 0; i < raised->count; i++)
         for (int level = 0; level < raised->sheets[i].levels; level++)
             wr_free(raised->sheets[i].boxes[level]);
@@ -814,9 +856,28 @@ static double reciprocal(double d)
     return fabs(d) > 1e-150 ? 1 / d : d < 0 ? -1e150 : 1e150;
 }
 
+/* From a triangle of the relief to the face of the mesh below it. */
+static bool mesh_relief_hit(const WrReferenceRaised *raised, const WrReferenceRay *ray,
+                            WrReferenceHit *hit)
+{
+    if (!wr_reference_mesh_hit(&raised->facets, false, ray, hit)) return false;
+    const int32_t face = raised->base_of[hit->triangle];
+    const double weight[3] = { 1 - hit->u - hit->v, hit->u, hit->v };
+    hit->triangle = face;
+    hit->share[0] = hit->u, hit->share[1] = hit->v;
+    hit->u = hit->v = 0;
+    for (int k = 0; k < 3; k++) {
+        const WrTriangleCorner *c = &raised->base->corners[raised->base->triangles[face].corner[k]];
+        hit->u += weight[k] * (double)c->u;
+        hit->v += weight[k] * (double)c->v;
+    }
+    return true;
+}
+
 bool wr_reference_raised_hit(const WrReferenceRaised *raised, const WrReferenceRay *ray,
                              WrReferenceHit *hit)
 {
+    if (raised->base) return mesh_relief_hit(raised, ray, hit);
     Search search = { .raised = raised, .ray = ray, .length = v3_len(ray->d) };
     search.inverse[0] = reciprocal(ray->d.x);
     search.inverse[1] = reciprocal(ray->d.y);

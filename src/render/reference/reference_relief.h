@@ -60,6 +60,10 @@ typedef struct WrReferenceRaised {
     WrRaisedSheet *sheets; /* [count], owned; count 0: the surface is not displaced */
     int count;
     double size; /* of the object with its relief, object units */
+    /* Relief on a mesh: triangles within 2^-13 of its radius, their faces, and the mesh; else unused. */
+    WrReferenceMesh facets;
+    int32_t *base_of;
+    WrTriangles *base;
 } WrReferenceRaised;
 
 #define WR_RAISED_MAX 0x400000 /* cells */
@@ -69,8 +73,11 @@ typedef struct WrReferenceRaised {
 bool wr_reference_raised_init(WrReferenceRaised *raised, const WrShape *shape,
                               WrReferenceHeight *height, const void *ctx, const double cells[2],
                               WrPool *pool, WrError *err);
+/* The same for the scene's mesh. field: NULL with a formula. */
+bool wr_reference_raised_mesh_init(WrReferenceRaised *raised, const WrScene *scene,
+                                   const WrField *field, WrPool *pool, WrError *err);
 void wr_reference_raised_fini(WrReferenceRaised *raised); /* also for a zeroed one */
-/* Nearest hit beyond s_min: fills s, u, v, face and lost. */
+/* Nearest hit beyond s_min: fills s, u, v, face and lost; of a mesh the triangle and share of the base. */
 bool wr_reference_raised_hit(const WrReferenceRaised *raised, const WrReferenceRay *ray,
                              WrReferenceHit *hit);
 

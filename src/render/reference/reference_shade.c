@@ -971,6 +971,11 @@ bool wr_reference_stage_raise(WrReferenceStage *stage, const WrField *field, WrP
     if (wr_reference_has_parallax(stage->scene)) wr_reference_parallax_init(stage, field, cells);
     if (!wr_reference_displaced(stage->scene)) return true;
     stage->bump = WR_BUMP_EXACT;
+    if (stage->view.info->held) {
+        stage->bump = WR_BUMP_BLINN; /* triangles are flat: it is exact there */
+        stage->view.raised = true;
+        return wr_reference_raised_mesh_init(&stage->raised, stage->scene, field, pool, err);
+    }
     return wr_reference_raised_init(&stage->raised, &stage->scene->shape, height_of, stage, cells,
                                     pool, err);
 }

@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "field/field.h"
 #include "render/tessellation/dice.h"
+#include "render/tessellation/mesh_relief.h"
 #include "surface/triangles.h"
 
 #include <float.h>
@@ -287,8 +288,10 @@ static bool shadow_rays_tree_meets(const WrShadowRaysBody *body, WrVec3 o, WrVec
 /* Facets of a surface without closed-form intersection, or of a displaced one. Their error is a few
    hundred-thousandths of its radius. */
 
-#define OFF 0x1p-15  /* of the radius: error that facets may have, if ... */
-#define MAX_MOST 512 /* ... this many steps are enough */
+#define OFF 0x1p-15       /* of the radius: error that facets may have, if ... */
+#define MESH_OFF 0x1p-12  /* the same of relief on a mesh, if ... */
+#define RELIEF_MAX 500000 /* ... this many triangles are enough */
+#define MAX_MOST 512      /* ... this many steps are enough */
 #define LEAST 16
 #define LOOKS 16   /* test points in each direction for the error of a step */
 #define CORNERS 64 /* rows at which Pv may be discontinuous */
@@ -494,6 +497,44 @@ static bool shadow_rays_facets(WrShadowRaysBody *body, const WrScene *scene, con
     const bool good = wr_raised_init(&raised, scene, field, err) && facets_of(body, &raised, err);
     wr_raised_fini(&raised);
     return good;
+}
+
+/* As shadow_rays_facets, for the relief on a mesh. */
+static bool shadow_rays_mesh_relief(WrShadowRaysBody *body, const WrScene *scene,
+                                    const WrField *field, WrError *err)
+{
+    WrTriangles *mesh =
+        scene->triangles ? wr_triangles_share(scene->triangles) : wr_triangles_square();
+    WrMeshRelief relief = { 0 };
+    WrRaised raised = { 0 };
+    WrMeshReliefRequest ask = { .mesh = mesh,
+                                .stretch = { 1, 1, 1 },
+                                .scale = 1,
+                                .error = MESH_OFF * body->radius,
+                                .most = RELIEF_MAX };
+    bool good = wr_raised_init(&raised, scene, field, err);
+    ask.scene = raised.scene, ask.field = raised.field;
+    good = good && wr_mesh_relief_make(&relief, &ask, err);
+    while (good && relief.full) {
+        ask.error *= 4;
+        wr_mesh_relief_fini(&relief);
+        good = wr_mesh_relief_make(&relief, &ask, err);
+    }
+    int32_t(*corners)[3] =
+        good ? wr_try_alloc((size_t)relief.triangles.count, sizeof *corners, "facets", err) : NULL;
+    for (int32_t i = 0; i < relief.triangles.count && corners; i++)
+        memcpy(corners[i], relief.triangles.data[i].point, sizeof *corners);
+    const WrTrianglesSource source = { .points = (const float(*)[3])relief.at.data,
+                                       .corners = (const int32_t(*)[3])corners,
+                                       .point_count = relief.points.count,
+                                       .triangle_count = relief.triangles.count };
+    body->triangles = corners ? wr_triangles_new(&source, err) : NULL;
+    body->lift += 2 * ask.error;
+    wr_free(corners);
+    wr_mesh_relief_fini(&relief);
+    wr_raised_fini(&raised);
+    wr_triangles_free(mesh);
+    return body->triangles != NULL;
 }
 
 /* ---- place ---- */
@@ -795,7 +836,7 @@ static void shadow_rays_body_size(WrShadowRaysBody *body, const WrScene *scene,
     const WrHash raised = moved ? relief_of(scene, field) : (WrHash){ 0, 0 };
     const bool same = body->radius > 0 && wr_hash_equal(body->raised, raised) &&
                       memcmp(&body->shape, &scene->shape, sizeof body->shape) == 0;
-    if (same && (!body->triangles || !held || held->key == body->triangles->key)) return;
+    if (same && (!body->triangles || !held || moved || held->key == body->triangles->key)) return;
     wr_shadow_rays_body_fini(body);
     body->shape = scene->shape;
     body->radius = wr_shape_radius(&scene->shape);
@@ -821,7 +862,9 @@ static bool shadow_rays_body_update(WrShadowRaysBody *body, const WrScene *scene
     const WrInversion how = wr_surfaces[scene->shape.kind]->inversion;
     if (body->made) return true;
     body->lift = ROUNDING * body->radius;
-    if (wr_surfaces[scene->shape.kind]->held) {
+    if (wr_surfaces[scene->shape.kind]->held && body->rise > 0) {
+        if (!shadow_rays_mesh_relief(body, scene, field, err)) return false;
+    } else if (wr_surfaces[scene->shape.kind]->held) {
         body->triangles =
             scene->triangles ? wr_triangles_share(scene->triangles) : wr_triangles_square();
         if (body->triangles->patches) body->lift = PATCHY * body->radius;

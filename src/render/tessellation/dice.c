@@ -736,52 +736,6 @@ static double mesh_error(const void *ctx, WrVec3 centre, double radius)
     return pixels > 0 ? d->epsilon / pixels : INFINITY;
 }
 
-/* Triangles in the order of the mesh's faces, so that consecutive ones are near each other; corners are not shared,
-   since u and v belong to a face. */
-static bool hand_over_mesh(const WrMeshRelief *relief, WrDice *dice, WrError *err)
-{
-    const int32_t count = relief->triangles.count, faces = relief->request.mesh->triangle_count;
-    WrTriangleCorner *corners =
-        wr_try_alloc(3 * (size_t)count, sizeof *corners, "a displaced surface", err);
-    WrTriangle *triangles =
-        corners ? wr_try_alloc((size_t)count, sizeof *triangles, "a displaced surface", err) : NULL;
-    dice->base_of =
-        triangles ? wr_try_alloc((size_t)count, sizeof *dice->base_of, "a displaced surface", err)
-                  : NULL;
-    if (!dice->base_of) {
-        wr_free(corners);
-        wr_free(triangles);
-        return false;
-    }
-    int32_t *next = wr_alloc((size_t)faces + 1, sizeof *next);
-    for (int32_t i = 0; i < count; i++) next[relief->triangles.data[i].face + 1]++;
-    for (int32_t i = 0; i < faces; i++) next[i + 1] += next[i];
-    for (int32_t i = 0; i < count; i++) {
-        const WrMeshReliefTriangle *t = &relief->triangles.data[i];
-        const int32_t to = next[t->face]++;
-        dice->base_of[to] = t->face;
-        for (int k = 0; k < 3; k++) {
-            const float *at = relief->at.data + 3 * (size_t)t->point[k];
-            triangles[to].corner[k] = 3 * to + k;
-            corners[3 * to + k] = (WrTriangleCorner){
-                .p = { at[0] + 0.0f, at[1] + 0.0f, at[2] + 0.0f }, .u = t->b[k][0], .v = t->b[k][1]
-            };
-        }
-    }
-    wr_free(next);
-    dice->triangles = wr_alloc(1, sizeof *dice->triangles);
-    *dice->triangles = (WrTriangles){ .refs = 1,
-                                      .corners = corners,
-                                      .triangles = triangles,
-                                      .corner_count = 3 * count,
-                                      .triangle_count = count,
-                                      .faceted = true,
-                                      .mapped = true,
-                                      .radius = relief->request.mesh->radius };
-    dice->end[0] = count;
-    return true;
-}
-
 static bool dice_mesh(WrDice *dice, const WrScene *scene, const WrField *field, const WrView *view,
                       double epsilon, WrPool *pool, WrError *err)
 {
@@ -805,7 +759,9 @@ static bool dice_mesh(WrDice *dice, const WrScene *scene, const WrField *field, 
         wr_mesh_relief_fini(&relief);
         good = wr_mesh_relief_make(&relief, &ask, err);
     }
-    good = good && hand_over_mesh(&relief, dice, err);
+    if (good) dice->triangles = wr_mesh_relief_triangles(&relief, &dice->base_of, err);
+    good = good && dice->triangles;
+    if (good) dice->end[0] = dice->triangles->triangle_count;
     dice->epsilon = dicing.epsilon;
     dice->rise = fmax(fabs(relief.low), fabs(relief.high));
     wr_mesh_relief_fini(&relief);

@@ -655,3 +655,46 @@ void wr_mesh_relief_fini(WrMeshRelief *r)
     wr_array_free(&r->at);
     *r = (WrMeshRelief){ 0 };
 }
+
+WrTriangles *wr_mesh_relief_triangles(const WrMeshRelief *r, int32_t **base_of, WrError *err)
+{
+    const int32_t count = r->triangles.count, faces = r->request.mesh->triangle_count;
+    const char *const what = "a displaced surface";
+    WrTriangleCorner *corners = wr_try_alloc(3 * (size_t)count, sizeof *corners, what, err);
+    WrTriangle *triangles =
+        corners ? wr_try_alloc((size_t)count, sizeof *triangles, what, err) : NULL;
+    int32_t *next = triangles ? wr_try_alloc((size_t)faces + 1, sizeof *next, what, err) : NULL;
+    *base_of = next ? wr_try_alloc((size_t)count, sizeof **base_of, what, err) : NULL;
+    if (!*base_of) {
+        wr_free(next);
+        wr_free(triangles);
+        wr_free(corners);
+        return NULL;
+    }
+    for (int32_t i = 0; i < count; i++) next[r->triangles.data[i].face + 1]++;
+    for (int32_t i = 0; i < faces; i++) next[i + 1] += next[i];
+    for (int32_t i = 0; i < count; i++) {
+        const WrMeshReliefTriangle *t = &r->triangles.data[i];
+        const int32_t to = next[t->face]++;
+        (*base_of)[to] = t->face;
+        for (int k = 0; k < 3; k++) {
+            const float *at = r->at.data + 3 * (size_t)t->point[k];
+            triangles[to].corner[k] = 3 * to + k;
+            /* + 0 turns -0 into +0, whose bits differ */
+            corners[3 * to + k] = (WrTriangleCorner){
+                .p = { at[0] + 0.0f, at[1] + 0.0f, at[2] + 0.0f }, .u = t->b[k][0], .v = t->b[k][1]
+            };
+        }
+    }
+    wr_free(next);
+    WrTriangles *made = wr_alloc(1, sizeof *made);
+    *made = (WrTriangles){ .refs = 1,
+                           .corners = corners,
+                           .triangles = triangles,
+                           .corner_count = 3 * count,
+                           .triangle_count = count,
+                           .faceted = true,
+                           .mapped = true,
+                           .radius = r->request.mesh->radius };
+    return made;
+}

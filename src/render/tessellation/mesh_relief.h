@@ -71,6 +71,11 @@ typedef struct WrMeshReliefPlace {
 bool wr_mesh_relief_make(WrMeshRelief *relief, const WrMeshReliefRequest *request, WrError *err);
 void wr_mesh_relief_fini(WrMeshRelief *relief);
 
+/* The triangles for rays and rasters, in the order of the mesh's faces, so that consecutive ones are near each other.
+   Corners have no normals and are not shared; their u and v are weights of the face's corners 1 and 2.
+   base_of: [triangles] the face of each; owned by the caller. NULL: no memory. */
+WrTriangles *wr_mesh_relief_triangles(const WrMeshRelief *relief, int32_t **base_of, WrError *err);
+
 WrMeshReliefPlace wr_mesh_relief_place(const WrTriangles *mesh, int32_t face, double b1, double b2);
 /* The result's position of an object's point. */
 WrVec3 wr_mesh_relief_position(const WrMeshRelief *relief, WrVec3 p);
