@@ -591,6 +591,7 @@ static void test(const WrReferenceMesh *m, int32_t i, bool cull, const WrReferen
     if (cull && v3_dot(n, ray->d) >= 0) return;
     best->s = t;
     best->triangle = i;
+    best->facet = n;
     best->share[0] = e1 / det, best->share[1] = e2 / det;
 }
 

@@ -27,6 +27,7 @@ typedef struct WrReferenceHit {
     int face;
     int32_t triangle; /* of a mesh file ... */
     double share[2];  /* ... and the shares of its second and third corner */
+    WrVec3 facet;     /* of triangles: along the normal of the one that was hit */
     bool lost;        /* Newton's method did not converge; the nearest point it reached */
 } WrReferenceHit;
 

@@ -1239,7 +1239,9 @@ bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrRe
     WrVec3 seen = v3_scale(perturbed, side);
     if (stage->raised.count > 0) {
         at.p = v3_mad(ray.q, ray.d, hit.s); /* at an edge this is not P + F n */
-        seen = v3_dot(perturbed, ray.d) > 0 ? v3_neg(perturbed) : perturbed;
+        const WrVec3 facet = stage->raised.base ? hit.facet : perturbed;
+        const double away = v3_dot(facet, ray.d) * v3_dot(facet, perturbed);
+        seen = away > 0 ? v3_neg(perturbed) : perturbed;
     }
     out->normal = embossed(stage, at.p, side, seen);
     out->lost = hit.lost;
