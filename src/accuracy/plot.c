@@ -1,7 +1,7 @@
 /* Placement of numbers beside their points: for each point in turn, the best free place around it. */
 #include "accuracy/plot.h"
 
-#include "accuracy/ladder.h"
+#include "accuracy/accuracy_benchmark.h"
 #include "accuracy/report.h"
 #include "base/enum_rows.h"
 #include "base/exactmath.h"

@@ -1,6 +1,6 @@
 /* report.h - output of a measured ladder: table, CSV, JSON and plots. */
 #pragma once
-#include "accuracy/ladder.h"
+#include "accuracy/accuracy_benchmark.h"
 
 #include <stdbool.h>
 

@@ -1,5 +1,5 @@
 #include "accuracy/illusion.h"
-#include "accuracy/ladder.h"
+#include "accuracy/accuracy_benchmark.h"
 #include "accuracy/report.h"
 #include "base/error.h"
 #include "base/file.h"

@@ -42,7 +42,7 @@ typedef struct WrSessionOptions {
     bool full;
     const char *isa; /* kernel set for renders: NULL or "auto"; copied, checked at first use */
     /* keep a journal of the document: a crash loses at most the running command
-       (document/journal.h) */
+       (document/recovery_journal.h) */
     bool journal;
     /* every command also updates the composite, so that readers need not compute it; for the
        window */

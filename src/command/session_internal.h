@@ -8,7 +8,7 @@
 #include "document/document.h"
 #include "document/document_file.h"
 #include "document/history.h"
-#include "document/journal.h"
+#include "document/recovery_journal.h"
 #include "document/object_tables.h"
 #include "image/image.h"
 #include "scene/scene.h"

@@ -6,7 +6,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "export/job.h"
-#include "export/picture.h"
+#include "export/preview.h"
 #include "image/image.h"
 #include "image/caption.h"
 

@@ -10,7 +10,7 @@
 #include "document/object_tables.h"
 #include "export/contact_sheet.h"
 #include "export/job.h"
-#include "export/picture.h"
+#include "export/preview.h"
 #include "export/mip_files.h"
 #include "export/cell_layout.h"
 #include "field/analytic.h"

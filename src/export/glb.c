@@ -6,7 +6,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "export/job.h"
-#include "export/picture.h"
+#include "export/preview.h"
 #include "scene/scene.h"
 #include "surface/surface.h"
 #include "surface/triangles.h"

@@ -60,7 +60,7 @@ void wr_export_run(WrExportJob *job, int y, int rows, WrExportPiece piece, void 
 bool wr_export_write(WrExportJob *job, const char *path, WrError *err);
 WrPixelType wr_export_pixels(int depth);
 
-/* picture.c: fills a picture instead of writing a file. */
+/* preview.c: fills a picture instead of writing a file. */
 bool wr_export_fill_picture(WrExportJob *job, WrError *err);
 /* As wr_export_picture, for another kind, with that job's document and options. */
 struct WrExportPicture;

@@ -9,7 +9,7 @@
 #include "base/text.h"
 #include "export/contact_sheet.h"
 #include "export/export.h"
-#include "export/picture.h"
+#include "export/preview.h"
 #include "image/image.h"
 #include "system/path.h"
 

@@ -5,7 +5,7 @@
 #include "base/enum_rows.h"
 #include "generate/fft_plane.h"
 #include "generate/terrain.h"
-#include "image/coding.h"
+#include "image/normal_encoding.h"
 
 #include <stdbool.h>
 #include <stdint.h>

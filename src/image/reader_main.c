@@ -17,7 +17,7 @@
 #include "system/path.h"
 #include "system/process.h"
 #include "system/sandbox.h"
-#include "system/sandbox_open.h"
+#include "system/open_interposer.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* `wrinkle accuracy --tolerance`: the dials that a tolerance chooses, compared with the best of all settings. */
-#include "accuracy/ladder.h"
-#include "accuracy/ladder_internal.h"
+#include "accuracy/accuracy_benchmark.h"
+#include "accuracy/accuracy_benchmark_internal.h"
 #include "accuracy/tolerance.h"
 #include "base/error.h"
 #include "base/memory.h"

@@ -14,7 +14,7 @@
 #include "document/document.h"
 #include "export/export.h"
 #include "export/mip_files.h"
-#include "export/picture.h"
+#include "export/preview.h"
 #include "image/image.h"
 #include "system/clock.h"
 #include "system/path.h"

@@ -4,7 +4,7 @@
 #include "session_help.h"
 
 #include "base/memory.h"
-#include "export/picture.h"
+#include "export/preview.h"
 #include "image/image.h"
 #include "scene/scene.h"
 

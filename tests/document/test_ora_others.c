@@ -11,7 +11,7 @@
 #include "document/ora.h"
 #include "field/field.h"
 #include "image/image.h"
-#include "image/coding.h"
+#include "image/normal_encoding.h"
 
 #include <zip.h>
 #include <zlib.h>

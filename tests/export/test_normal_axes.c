@@ -8,7 +8,7 @@
 #include "base/pool.h"
 #include "document/document.h"
 #include "export/export.h"
-#include "export/picture.h"
+#include "export/preview.h"
 #include "field/analytic.h"
 #include "field/field.h"
 #include "image/image.h"

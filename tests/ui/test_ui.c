@@ -5,7 +5,7 @@
 #include "base/text.h"
 #include "base/vec.h"
 
-#include "ui/canvas/canvas_cells.h"
+#include "ui/canvas/canvas_mips.h"
 #include "ui/state/keys.h"
 #include "ui/state/layout.h"
 #include "ui/state/line.h"

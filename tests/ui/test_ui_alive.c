@@ -11,9 +11,9 @@
 #include "system/clock.h"
 
 #include "ui/state/action.h"
-#include "ui/state/busy_internal.h"
+#include "ui/state/background_command_internal.h"
 #include "ui/state/dialog.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/layout.h"
 #include "ui/state/messages.h"
 #include "ui/state/settings.h"

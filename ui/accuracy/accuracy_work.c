@@ -3,7 +3,7 @@
 #include "ui/jobs/job.h"
 
 #include "accuracy/illusion.h"
-#include "accuracy/ladder.h"
+#include "accuracy/accuracy_benchmark.h"
 #include "accuracy/metrics.h"
 #include "accuracy/tolerance.h"
 #include "base/array.h"

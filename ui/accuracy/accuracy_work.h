@@ -4,7 +4,7 @@
 #include "ui/jobs/job.h"
 
 #include "accuracy/illusion.h"
-#include "accuracy/ladder.h"
+#include "accuracy/accuracy_benchmark.h"
 #include "accuracy/metrics.h"
 #include "base/error.h"
 #include "hardcases/hardcases.h"

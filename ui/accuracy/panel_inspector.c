@@ -4,7 +4,7 @@
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/layout.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"

@@ -1,6 +1,6 @@
 /* Actions of the patch's camera and of the floor: each is one command line. */
 #include "ui/app/actions.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
 #include "ui/state/layout.h"
 #include "ui/state/line.h"

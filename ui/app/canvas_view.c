@@ -12,7 +12,7 @@
 #include "ui/canvas/view.h"
 #include "ui/state/action_list.h"
 #include "ui/state/document.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/keys.h"
 #include "ui/state/registry.h"
 #include "ui/preview/preview.h"

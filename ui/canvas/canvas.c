@@ -1,5 +1,5 @@
 #include "ui/canvas/canvas.h"
-#include "ui/canvas/canvas_cells.h"
+#include "ui/canvas/canvas_mips.h"
 #include "ui/canvas/canvas_colors.h"
 #include "ui/canvas/view.h"
 #include "ui/toolkit/retained_frame.h"

@@ -1,7 +1,7 @@
 /* Canvas handles for the generator's position, size (a corner) and rotation (a ring), if it has such parameters. */
 #include "ui/canvas/view.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/keys.h"
 #include "ui/state/line.h"
 #include "ui/state/session_view.h"

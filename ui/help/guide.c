@@ -7,7 +7,7 @@
 #include "ui/toolkit/theme.h"
 #include "ui/help/guide_flow.h"
 #include "ui/help/guide_page.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/toolkit/words.h"
 
 #include "base/array.h"

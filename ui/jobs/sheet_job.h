@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "export/picture.h"
+#include "export/preview.h"
 #include "export/map_sets.h"
 #include "scene/export_settings.h"
 

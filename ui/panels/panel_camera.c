@@ -1,7 +1,7 @@
 /* Camera section of the scene panel: camera, named views, background. */
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
 #include "ui/state/line.h"
 #include "ui/state/scene_line.h"

@@ -3,7 +3,7 @@
 #include "ui/panels/panel_objects.h"
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
 #include "ui/state/line.h"
 #include "ui/state/registry.h"

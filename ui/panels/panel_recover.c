@@ -1,5 +1,5 @@
 /* Crash recovery dialog: recover, discard, or keep for later. */
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
 #include "ui/state/document.h"

@@ -1,8 +1,8 @@
 /* Export sheet dialog. */
 #include "ui/panels/panel_sheet.h"
 #include "ui/state/app_options.h"
-#include "ui/state/busy.h"
-#include "ui/state/input_router.h"
+#include "ui/state/background_command.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/messages.h"
 #include "ui/state/session_view.h"
 #include "ui/toolkit/words.h"

@@ -2,10 +2,10 @@
    through the session. */
 #include "ui/state/document.h"
 #include "ui/state/app_options.h"
-#include "ui/state/busy_internal.h"
+#include "ui/state/background_command_internal.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/action.h"
 #include "ui/state/messages.h"
 #include "ui/state/replace.h"

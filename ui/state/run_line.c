@@ -1,9 +1,9 @@
 /* Command lines: the only way for the window to change a document. */
-#include "ui/state/busy_internal.h"
+#include "ui/state/background_command_internal.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/action.h"
-#include "ui/state/line_words.h"
+#include "ui/state/step_label.h"
 #include "ui/state/messages.h"
 #include "ui/state/registry.h"
 #include "ui/state/session_view.h"

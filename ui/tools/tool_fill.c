@@ -1,8 +1,8 @@
 /* Fill tool: a click applies the brush's mode to the connected region. */
 #include "ui/state/action_list.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/line.h"
 #include "ui/state/settings.h"
 #include "ui/toolkit/gui.h"

@@ -2,9 +2,9 @@
    moved until Enter or a double click paints the path. Backspace removes the last anchor, Escape cancels. */
 #include "ui/canvas/view.h"
 #include "ui/state/action_list.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/keys.h"
 #include "ui/state/line.h"
 #include "ui/state/messages.h"

@@ -4,7 +4,7 @@
 #include "render/kernels/kern.h"
 #include "shade/environment_brdf.h"
 #include "shade/environment_map.h"
-#include "shade/textured_reflection.h"
+#include "shade/svbrdf.h"
 
 #include <stdbool.h>
 

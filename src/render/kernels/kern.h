@@ -13,7 +13,7 @@
 #include "shade/solid_texture.h"
 #include "shade/reflection.h"
 #include "shade/environment_map.h"
-#include "shade/textured_reflection.h"
+#include "shade/svbrdf.h"
 #include "surface/surface.h"
 
 #include <stdbool.h>

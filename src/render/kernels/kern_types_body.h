@@ -146,7 +146,7 @@ typedef struct WR_T(WrKernMirror) {
     int pitch, width, height;
     REAL even[3];
 } WR_T(WrKernMirror);
-/* The numbers of WrTexturedReflection (shade/textured_reflection.h), and the mirrored environment at each blur
+/* The numbers of WrTexturedReflection (shade/svbrdf.h), and the mirrored environment at each blur
    level. */
 typedef struct WR_T(WrKernVary) {
     bool metals;      /* metal has no diffuse light */
