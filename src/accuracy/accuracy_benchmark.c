@@ -79,17 +79,17 @@ static void compare(WrRung *dear, int dial, double cheap_value, double cheap_rms
     dear->fault_rms = cheap_rms;
 }
 
-void wr_ladder_faults(WrLadder *ladder, const WrScene *scene)
+void wr_accuracy_benchmark_faults(WrAccuracyBenchmark *benchmark, const WrScene *scene)
 {
-    for (int i = 0; i < ladder->count; i++) {
-        WrRung *rung = &ladder->rungs[i];
+    for (int i = 0; i < benchmark->count; i++) {
+        WrRung *rung = &benchmark->rungs[i];
         rung->fault = false;
         if (!plain(rung)) continue;
         const int dial = rung->setting.dial[0];
-        if (!isnan(ladder->arithmetic_rms))
-            compare(rung, dial, wr_dials[dial].get(scene), ladder->arithmetic_rms);
-        for (int k = 0; k < ladder->count; k++) {
-            const WrRung *other = &ladder->rungs[k];
+        if (!isnan(benchmark->arithmetic_rms))
+            compare(rung, dial, wr_dials[dial].get(scene), benchmark->arithmetic_rms);
+        for (int k = 0; k < benchmark->count; k++) {
+            const WrRung *other = &benchmark->rungs[k];
             if (plain(other) && other->setting.dial[0] == dial)
                 compare(rung, dial, other->setting.value[0], other->own_rms);
         }
@@ -97,7 +97,7 @@ void wr_ladder_faults(WrLadder *ladder, const WrScene *scene)
 }
 
 /* "heights=double is farther from the reference than heights=float" */
-bool wr_ladder_fault_print(const WrRung *rung, WrText *text)
+bool wr_accuracy_benchmark_fault_print(const WrRung *rung, WrText *text)
 {
     if (!rung->fault) return false;
     const WrDial *dial = &wr_dials[rung->setting.dial[0]];
@@ -107,7 +107,7 @@ bool wr_ladder_fault_print(const WrRung *rung, WrText *text)
     return true;
 }
 
-/* ---- Settings that the ladder tries ---- */
+/* ---- Settings that the benchmark tries ---- */
 
 typedef struct RungList {
     const WrScene *scene;
@@ -219,7 +219,7 @@ static const WrSetting combinations[] = {
       { WR_SCHEME_BSPLINE_FIT, WR_BUMP_EXACT, WR_AA_SUPERSAMPLE, 16 } },
 };
 
-int wr_ladder_settings(const WrScene *scene, WrAxis axis, WrRung *out, int room)
+int wr_accuracy_benchmark_settings(const WrScene *scene, WrAxis axis, WrRung *out, int room)
 {
     RungList list = { .scene = scene, .out = out, .room = room };
     if (room > 0)
@@ -235,7 +235,7 @@ int wr_ladder_settings(const WrScene *scene, WrAxis axis, WrRung *out, int room)
 }
 
 /* The axes other than `axis` get their most accurate rung, so that the remaining error is that axis' share. */
-WrScene *wr_ladder_best_except_axis(const WrScene *scene, WrAxis axis)
+WrScene *wr_accuracy_benchmark_best_except_axis(const WrScene *scene, WrAxis axis)
 {
     WrScene *best = wr_scene_clone(scene);
     if (axis != WR_AXIS_DERIVATIVE) best->scheme = WR_SCHEME_BSPLINE_FIT;
@@ -317,7 +317,7 @@ void wr_setting_print(const WrSetting *setting, WrText *text)
 bool wr_bench_frame(const WrBench *bench, const WrScene *scene, float *normals, WrFrame *frame,
                     WrError *err)
 {
-    const WrLadderRequest *request = bench->request;
+    const WrAccuracyBenchmarkRequest *request = bench->request;
     WrFrameRequest wanted = { .field = request->field,
                               .fields = request->fields,
                               .scene = scene,
@@ -384,7 +384,7 @@ static void settle_times(WrRung *rung, double *times, int count)
 /* Errors need one frame per rung, times several: errors are measured first, so that a rung that cannot be
    rendered costs no time. */
 
-static bool tell(const WrLadderRequest *request, double fraction, WrError *err)
+static bool tell(const WrAccuracyBenchmarkRequest *request, double fraction, WrError *err)
 {
     if (wr_progress_step(request->progress, fraction)) return true;
     return wr_fail(err, "cancelled");
@@ -393,12 +393,13 @@ static bool tell(const WrLadderRequest *request, double fraction, WrError *err)
 /* Rounds over all rungs, one after the other, so that drift of the machine affects all equally.
    times[i RUNS_MAX + run]. Three rounds are made in any case; then the budget ends the loop before the round
    that would exceed it. */
-static bool time_rungs(const WrBench *bench, WrScene **scenes, WrLadder *ladder, WrError *err)
+static bool time_rungs(const WrBench *bench, WrScene **scenes, WrAccuracyBenchmark *benchmark,
+                       WrError *err)
 {
-    const WrLadderRequest *request = bench->request;
-    const int wanted = request->runs > 0 ? request->runs : WR_LADDER_RUNS;
+    const WrAccuracyBenchmarkRequest *request = bench->request;
+    const int wanted = request->runs > 0 ? request->runs : WR_ACCURACY_BENCHMARK_RUNS;
     const int runs = wanted < RUNS_MAX ? wanted : RUNS_MAX;
-    double *times = wr_alloc((size_t)ladder->count * RUNS_MAX, sizeof *times);
+    double *times = wr_alloc((size_t)benchmark->count * RUNS_MAX, sizeof *times);
     const double start = wr_clock_seconds();
     int done = 0;
     bool good = true;
@@ -406,17 +407,17 @@ static bool time_rungs(const WrBench *bench, WrScene **scenes, WrLadder *ladder,
         const double spent = wr_clock_seconds() - start;
         if (request->budget > 0 && done >= RUNS_MIN && spent * (done + 1) / done > request->budget)
             break;
-        for (int i = 0; good && i < ladder->count; i++) {
-            WrRung *rung = &ladder->rungs[i];
-            good = tell(request, 0.4 + 0.6 * (done + (double)i / ladder->count) / runs, err);
+        for (int i = 0; good && i < benchmark->count; i++) {
+            WrRung *rung = &benchmark->rungs[i];
+            good = tell(request, 0.4 + 0.6 * (done + (double)i / benchmark->count) / runs, err);
             if (good && !rung->note.text[0])
                 good = wr_bench_time(bench, scenes[i], &times[i * RUNS_MAX + done], &rung->shaded,
                                      err);
         }
     }
-    for (int i = 0; good && i < ladder->count; i++)
-        if (!ladder->rungs[i].note.text[0])
-            settle_times(&ladder->rungs[i], times + i * RUNS_MAX, done);
+    for (int i = 0; good && i < benchmark->count; i++)
+        if (!benchmark->rungs[i].note.text[0])
+            settle_times(&benchmark->rungs[i], times + i * RUNS_MAX, done);
     wr_free(times);
     return good;
 }
@@ -428,7 +429,7 @@ static bool share_of(const WrBench *bench, const WrReference *reference, WrAxis 
 {
     WrFrame frame;
     WrErrors errors;
-    WrScene *best = wr_ladder_best_except_axis(bench->request->scene, axis);
+    WrScene *best = wr_accuracy_benchmark_best_except_axis(bench->request->scene, axis);
     WrScene *scene = wr_setting_apply(setting, best);
     const bool good = wr_bench_frame(bench, scene, NULL, &frame, err);
     if (good) {
@@ -440,52 +441,56 @@ static bool share_of(const WrBench *bench, const WrReference *reference, WrAxis 
     return good;
 }
 
-static bool own_error(const WrBench *bench, const WrLadder *ladder, WrRung *rung, WrError *err)
+static bool own_error(const WrBench *bench, const WrAccuracyBenchmark *benchmark, WrRung *rung,
+                      WrError *err)
 {
     rung->own_rms = NAN;
     if (rung->axis == WR_AXIS_COUNT || rung->model) return true;
-    return share_of(bench, &ladder->reference, rung->axis, &rung->setting, &rung->own_rms, err);
+    return share_of(bench, &benchmark->reference, rung->axis, &rung->setting, &rung->own_rms, err);
 }
 
 /* The error of the scene's own arithmetic. */
-static bool arithmetic_as_it_stands(const WrBench *bench, WrLadder *ladder, WrError *err)
+static bool arithmetic_as_it_stands(const WrBench *bench, WrAccuracyBenchmark *benchmark,
+                                    WrError *err)
 {
     const WrSetting none = { 0 };
     bool any = false;
-    for (int i = 0; i < ladder->count; i++) any |= ladder->rungs[i].axis == WR_AXIS_ARITHMETIC;
-    ladder->arithmetic_rms = NAN;
-    return !any || share_of(bench, &ladder->reference, WR_AXIS_ARITHMETIC, &none,
-                            &ladder->arithmetic_rms, err);
+    for (int i = 0; i < benchmark->count; i++)
+        any |= benchmark->rungs[i].axis == WR_AXIS_ARITHMETIC;
+    benchmark->arithmetic_rms = NAN;
+    return !any || share_of(bench, &benchmark->reference, WR_AXIS_ARITHMETIC, &none,
+                            &benchmark->arithmetic_rms, err);
 }
 
 /* The error of the rung's own picture, and of its normals if it has one sample a pixel.
    Two frames, because normals are captured in a frame of their own: capture switches effects that change the
    path. */
-static bool error_of(const WrBench *bench, const WrScene *scene, WrLadder *ladder, WrRung *rung,
-                     WrFrame *frame, WrError *err)
+static bool error_of(const WrBench *bench, const WrScene *scene, WrAccuracyBenchmark *benchmark,
+                     WrRung *rung, WrFrame *frame, WrError *err)
 {
     if (!wr_bench_frame(bench, scene, bench->normals, frame, err) ||
         !wr_bench_frame(bench, scene, NULL, frame, err))
         return false;
-    wr_errors_measure(frame->rgba, bench->normals, &ladder->reference, NULL, &rung->errors);
+    wr_errors_measure(frame->rgba, bench->normals, &benchmark->reference, NULL, &rung->errors);
     return true;
 }
 
 /* A rung that cannot be rendered stores the error and keeps its place. The first rung is the scene itself;
    without it there is no result. */
-static bool measure_errors(const WrBench *bench, WrScene **scenes, WrLadder *ladder, WrError *err)
+static bool measure_errors(const WrBench *bench, WrScene **scenes, WrAccuracyBenchmark *benchmark,
+                           WrError *err)
 {
-    const WrLadderRequest *request = bench->request;
-    for (int i = 0; i < ladder->count; i++) {
-        WrRung *rung = &ladder->rungs[i];
-        if (!tell(request, 0.3 + 0.1 * i / ladder->count, err)) return false;
+    const WrAccuracyBenchmarkRequest *request = bench->request;
+    for (int i = 0; i < benchmark->count; i++) {
+        WrRung *rung = &benchmark->rungs[i];
+        if (!tell(request, 0.3 + 0.1 * i / benchmark->count, err)) return false;
         WrFrame frame;
         WrError *why = &rung->note;
-        bool good = error_of(bench, scenes[i], ladder, rung, &frame, why);
+        bool good = error_of(bench, scenes[i], benchmark, rung, &frame, why);
         if (good && request->seen &&
-            !request->seen(request->ctx, rung, frame.rgba, &ladder->reference, err))
+            !request->seen(request->ctx, rung, frame.rgba, &benchmark->reference, err))
             return false;
-        good = good && own_error(bench, ladder, rung, why);
+        good = good && own_error(bench, benchmark, rung, why);
         if (!good && i == 0) {
             *err = *why;
             return false;
@@ -512,14 +517,14 @@ static WrImage *stand_in(const WrField *field, WrError *err)
 }
 
 /* Median frame times of the scene without bump and picture, with the picture, and with the bump. */
-static bool measure_claim(const WrBench *bench, WrLadder *ladder, WrError *err)
+static bool measure_claim(const WrBench *bench, WrAccuracyBenchmark *benchmark, WrError *err)
 {
     const WrScene *scene = bench->request->scene;
     WrImage *colour =
         scene->colour ? wr_image_share(scene->colour) : stand_in(bench->request->field, err);
     if (!colour) return false;
     WrScene *kinds[3];
-    double times[3][WR_LADDER_RUNS];
+    double times[3][WR_ACCURACY_BENCHMARK_RUNS];
     WrRung rung;
     int64_t shaded;
     bool good = true;
@@ -530,21 +535,22 @@ static bool measure_claim(const WrBench *bench, WrLadder *ladder, WrError *err)
         kinds[k]->bump = k == 2 ? WR_BUMP_BLINN : WR_BUMP_NONE;
         kinds[k]->scheme = WR_SCHEME_CENTRAL;
     }
-    for (int run = 0; good && run < WR_LADDER_RUNS; run++)
+    for (int run = 0; good && run < WR_ACCURACY_BENCHMARK_RUNS; run++)
         for (int k = 0; good && k < 3; k++)
             good = wr_bench_time(bench, kinds[k], &times[k][run], &shaded, err);
     double median[3] = { 1, 1, 1 };
     for (int k = 0; k < 3; k++) {
-        if (good) settle_times(&rung, times[k], WR_LADDER_RUNS), median[k] = rung.seconds;
+        if (good)
+            settle_times(&rung, times[k], WR_ACCURACY_BENCHMARK_RUNS), median[k] = rung.seconds;
         wr_scene_free(kinds[k]);
     }
     wr_image_free(colour);
-    ladder->blinn_phong = good ? median[2] / median[0] : NAN;
-    ladder->blinn_colour = good ? median[2] / median[1] : NAN;
+    benchmark->blinn_phong = good ? median[2] / median[0] : NAN;
+    benchmark->blinn_colour = good ? median[2] / median[1] : NAN;
     return good;
 }
 
-bool wr_bench_reference(const WrLadderRequest *request, WrPool *pool, WrReference *out,
+bool wr_bench_reference(const WrAccuracyBenchmarkRequest *request, WrPool *pool, WrReference *out,
                         WrError *err)
 {
     WrReferenceRequest wanted = { .field = request->field,
@@ -560,26 +566,27 @@ bool wr_bench_reference(const WrLadderRequest *request, WrPool *pool, WrReferenc
 
 /* The reference must be converged to a tenth of the smallest reported error; else it is reported as not
    converged. */
-static void judge_reference(WrLadder *ladder)
+static void judge_reference(WrAccuracyBenchmark *benchmark)
 {
     double smallest = INFINITY;
-    for (int i = 0; i < ladder->count; i++) {
-        const WrRung *rung = &ladder->rungs[i];
+    for (int i = 0; i < benchmark->count; i++) {
+        const WrRung *rung = &benchmark->rungs[i];
         if (!rung->note.text[0] && !rung->model && rung->errors.rms > 0)
             smallest = fmin(smallest, rung->errors.rms);
     }
-    ladder->reference.converged = ladder->reference.last_rms <= 0.1 * smallest;
+    benchmark->reference.converged = benchmark->reference.last_rms <= 0.1 * smallest;
 }
 
-static bool measure_all(WrBench *bench, WrScene **scenes, WrLadder *ladder, WrError *err)
+static bool measure_all(WrBench *bench, WrScene **scenes, WrAccuracyBenchmark *benchmark,
+                        WrError *err)
 {
-    if (!measure_errors(bench, scenes, ladder, err) ||
-        !arithmetic_as_it_stands(bench, ladder, err) || !time_rungs(bench, scenes, ladder, err) ||
-        !measure_claim(bench, ladder, err))
+    if (!measure_errors(bench, scenes, benchmark, err) ||
+        !arithmetic_as_it_stands(bench, benchmark, err) ||
+        !time_rungs(bench, scenes, benchmark, err) || !measure_claim(bench, benchmark, err))
         return false;
-    judge_reference(ladder);
-    wr_ladder_front(ladder);
-    wr_ladder_faults(ladder, bench->request->scene);
+    judge_reference(benchmark);
+    wr_accuracy_benchmark_front(benchmark);
+    wr_accuracy_benchmark_faults(benchmark, bench->request->scene);
     return true;
 }
 
@@ -593,38 +600,40 @@ static void name_whole(const WrScene *scene, WrRung *rung)
     wr_text_fini(&text);
 }
 
-static void list_rungs(const WrLadderRequest *request, WrLadder *ladder)
+static void list_rungs(const WrAccuracyBenchmarkRequest *request, WrAccuracyBenchmark *benchmark)
 {
-    ladder->count = wr_ladder_settings(request->scene, request->axis, NULL, 0);
-    ladder->rungs = wr_alloc((size_t)ladder->count, sizeof *ladder->rungs);
-    wr_ladder_settings(request->scene, request->axis, ladder->rungs, ladder->count);
-    for (int i = 0; i < ladder->count; i++) name_whole(request->scene, &ladder->rungs[i]);
-    ladder->width = request->width;
-    ladder->height = request->height;
+    benchmark->count = wr_accuracy_benchmark_settings(request->scene, request->axis, NULL, 0);
+    benchmark->rungs = wr_alloc((size_t)benchmark->count, sizeof *benchmark->rungs);
+    wr_accuracy_benchmark_settings(request->scene, request->axis, benchmark->rungs,
+                                   benchmark->count);
+    for (int i = 0; i < benchmark->count; i++) name_whole(request->scene, &benchmark->rungs[i]);
+    benchmark->width = request->width;
+    benchmark->height = request->height;
 }
 
 /* The reference uses all threads; timing uses one, pinned to a processor, if the request has threads = 1. */
-bool wr_ladder_measure(const WrLadderRequest *request, WrLadder *out, WrError *err)
+bool wr_accuracy_benchmark_measure(const WrAccuracyBenchmarkRequest *request,
+                                   WrAccuracyBenchmark *out, WrError *err)
 {
-    WrLadder ladder = { 0 };
+    WrAccuracyBenchmark benchmark = { 0 };
     WrPool *all = wr_pool_new(0), *one = wr_pool_new(1);
     WrPin pin;
     WrBench bench = { .request = request, .pool = request->threads == 1 ? one : all };
-    bool good = wr_bench_reference(request, all, &ladder.reference, err);
+    bool good = wr_bench_reference(request, all, &benchmark.reference, err);
     bench.renderer = good ? wr_renderer_new(bench.pool, NULL, err) : NULL;
     good = bench.renderer != NULL;
     if (good) {
-        list_rungs(request, &ladder);
-        ladder.threads = wr_pool_threads(bench.pool);
+        list_rungs(request, &benchmark);
+        benchmark.threads = wr_pool_threads(bench.pool);
         bench.normals = wr_try_alloc((size_t)request->width * (size_t)request->height,
                                      3 * sizeof(float), "normals", err);
-        WrScene **scenes = wr_alloc((size_t)ladder.count, sizeof *scenes);
-        for (int i = 0; i < ladder.count; i++)
-            scenes[i] = wr_setting_apply(&ladder.rungs[i].setting, request->scene);
+        WrScene **scenes = wr_alloc((size_t)benchmark.count, sizeof *scenes);
+        for (int i = 0; i < benchmark.count; i++)
+            scenes[i] = wr_setting_apply(&benchmark.rungs[i].setting, request->scene);
         const bool pinned = request->threads == 1 && wr_thread_pin(&pin);
-        good = bench.normals && measure_all(&bench, scenes, &ladder, err);
+        good = bench.normals && measure_all(&bench, scenes, &benchmark, err);
         if (pinned) wr_thread_unpin(&pin);
-        for (int i = 0; i < ladder.count; i++) wr_scene_free(scenes[i]);
+        for (int i = 0; i < benchmark.count; i++) wr_scene_free(scenes[i]);
         wr_free(scenes);
     }
     wr_free(bench.normals);
@@ -632,19 +641,19 @@ bool wr_ladder_measure(const WrLadderRequest *request, WrLadder *out, WrError *e
     wr_pool_free(one);
     wr_pool_free(all);
     if (!good) {
-        wr_ladder_fini(&ladder);
+        wr_accuracy_benchmark_fini(&benchmark);
         return false;
     }
-    wr_ladder_fini(out);
-    *out = ladder;
+    wr_accuracy_benchmark_fini(out);
+    *out = benchmark;
     return true;
 }
 
-void wr_ladder_fini(WrLadder *ladder)
+void wr_accuracy_benchmark_fini(WrAccuracyBenchmark *benchmark)
 {
-    wr_reference_fini(&ladder->reference);
-    wr_free(ladder->rungs);
-    *ladder = (WrLadder){ 0 };
+    wr_reference_fini(&benchmark->reference);
+    wr_free(benchmark->rungs);
+    *benchmark = (WrAccuracyBenchmark){ 0 };
 }
 
 /* A rung is on the front unless another has at most its error, within the measurement's noise, in less time.
@@ -654,13 +663,13 @@ static bool counts(const WrRung *rung)
     return !rung->model && !rung->note.text[0];
 }
 
-void wr_ladder_front(WrLadder *ladder)
+void wr_accuracy_benchmark_front(WrAccuracyBenchmark *benchmark)
 {
-    for (int i = 0; i < ladder->count; i++) {
-        WrRung *rung = &ladder->rungs[i];
+    for (int i = 0; i < benchmark->count; i++) {
+        WrRung *rung = &benchmark->rungs[i];
         rung->front = counts(rung);
-        for (int k = 0; rung->front && k < ladder->count; k++) {
-            const WrRung *other = &ladder->rungs[k];
+        for (int k = 0; rung->front && k < benchmark->count; k++) {
+            const WrRung *other = &benchmark->rungs[k];
             if (k == i || !counts(other)) continue;
             const bool as_near = other->errors.rms <= NOISE * rung->errors.rms;
             const bool faster =

@@ -1,5 +1,5 @@
-/* accuracy_benchmark.h - accuracy ladder of a scene: approximations as dial settings, with measured time and error against
-   the reference. */
+/* accuracy_benchmark.h - time and error of each approximation of a scene, measured against the reference. An
+   approximation is a setting of a dial: a rung. */
 #pragma once
 #include "accuracy/metrics.h"
 #include "base/error.h"
@@ -15,7 +15,7 @@ typedef struct WrScene WrScene;
 typedef struct WrText WrText;
 
 #define WR_SETTING_DIALS 6
-#define WR_LADDER_RUNS 9 /* minimum number of timed runs of a setting */
+#define WR_ACCURACY_BENCHMARK_RUNS 9 /* minimum number of timed runs of a setting */
 
 /* Differences from the scene's own dials: `count` dials with these values. */
 typedef struct WrSetting {
@@ -53,7 +53,7 @@ typedef struct WrRung {
     double fault_than, fault_rms;
 } WrRung;
 
-typedef struct WrLadder {
+typedef struct WrAccuracyBenchmark {
     WrRung *rungs; /* [count], owned */
     int count;
     WrReference reference;
@@ -63,16 +63,16 @@ typedef struct WrLadder {
     /* measured ratios for the paper's 4 and 2: frame time with bump divided by that without, and by that with a
        colour picture; NAN if the scene does not allow it */
     double blinn_phong, blinn_colour;
-} WrLadder;
+} WrAccuracyBenchmark;
 
-typedef struct WrLadderRequest {
+typedef struct WrAccuracyBenchmarkRequest {
     const WrField *const *fields; /* as in WrFrameRequest; NULL: `field` for all objects */
     const WrField *field;
     const WrScene *scene;
     int width, height; /* pixels */
     double turn_deg;
     int threads;          /* 1: pinned to one processor; 0: all */
-    int runs;             /* 0: WR_LADDER_RUNS */
+    int runs;             /* 0: WR_ACCURACY_BENCHMARK_RUNS */
     int most;             /* limit of the reference's samples; 0: its default */
     double budget;        /* seconds in total; 0: unlimited. Reduces runs, never rungs */
     WrAxis axis;          /* a single axis; WR_AXIS_COUNT: all, and the combinations */
@@ -81,23 +81,24 @@ typedef struct WrLadderRequest {
     bool (*seen)(void *ctx, const WrRung *rung, const float *rgba, const WrReference *reference,
                  WrError *err);
     void *ctx;
-} WrLadderRequest;
+} WrAccuracyBenchmarkRequest;
 
-/* Measures the ladder. Zero-initialise *out. Settings are timed interleaved (1, 2, 3, 1, 2, 3, ...), so that
+/* Measures the benchmark. Zero-initialise *out. Settings are timed interleaved (1, 2, 3, 1, 2, 3, ...), so that
    drift of the machine affects all equally; errors are from one untimed frame each. */
-bool wr_ladder_measure(const WrLadderRequest *request, WrLadder *out, WrError *err);
-void wr_ladder_fini(WrLadder *ladder);
+bool wr_accuracy_benchmark_measure(const WrAccuracyBenchmarkRequest *request,
+                                   WrAccuracyBenchmark *out, WrError *err);
+void wr_accuracy_benchmark_fini(WrAccuracyBenchmark *benchmark);
 /* Marks the Pareto front: rungs that no other beats in both time and error; never models and unmeasured rungs. */
-void wr_ladder_front(WrLadder *ladder);
+void wr_accuracy_benchmark_front(WrAccuracyBenchmark *benchmark);
 
 /* Marks the rungs that are at fault; scene: the measured one. */
-void wr_ladder_faults(WrLadder *ladder, const WrScene *scene);
+void wr_accuracy_benchmark_faults(WrAccuracyBenchmark *benchmark, const WrScene *scene);
 /* "heights=double is farther from the reference (1e-02) than heights=float (1e-05)"; false without a fault. */
-bool wr_ladder_fault_print(const WrRung *rung, WrText *text);
+bool wr_accuracy_benchmark_fault_print(const WrRung *rung, WrText *text);
 
-/* The settings that wr_ladder_measure tries: the scene's own, each rung of each relevant dial, one at a time,
+/* The settings that wr_accuracy_benchmark_measure tries: the scene's own, each rung of each relevant dial, one at a time,
    and the relevant combinations. Writes at most `room` rungs, of which only setting, axis, current and model are
    set; returns the total number. */
-int wr_ladder_settings(const WrScene *scene, WrAxis axis, WrRung *out, int room);
+int wr_accuracy_benchmark_settings(const WrScene *scene, WrAxis axis, WrRung *out, int room);
 /* The scene with the dials of all axes except one at their best; the caller frees it. */
-WrScene *wr_ladder_best_except_axis(const WrScene *scene, WrAxis axis);
+WrScene *wr_accuracy_benchmark_best_except_axis(const WrScene *scene, WrAxis axis);

@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 typedef struct WrBench {
-    const WrLadderRequest *request;
+    const WrAccuracyBenchmarkRequest *request;
     WrPool *pool;         /* borrowed */
     WrRenderer *renderer; /* owned */
     float *normals;       /* [height][width][3], owned; NULL: not requested */
@@ -23,5 +23,5 @@ double wr_bench_now(const WrBench *bench);
 void wr_bench_sort(double *times, int count);
 /* Quantile `part`, 0..1, of sorted numbers, interpolated between neighbours. */
 double wr_bench_quantile(const double *sorted, int count, double part);
-bool wr_bench_reference(const WrLadderRequest *request, WrPool *pool, WrReference *out,
+bool wr_bench_reference(const WrAccuracyBenchmarkRequest *request, WrPool *pool, WrReference *out,
                         WrError *err);

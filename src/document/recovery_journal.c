@@ -142,7 +142,7 @@ void wr_journal_clear_files(const char *files, const char *keep_a, const char *k
     const char *entry;
     while (dir && (entry = wr_folder_next(dir))) {
         if (is_kept(entry, keep_a) || is_kept(entry, keep_b)) continue;
-        wr_folder_drop(dir, entry);
+        wr_folder_remove_entry(dir, entry);
     }
     wr_folder_close(dir);
     wr_folder_remove(files);
@@ -179,7 +179,8 @@ static void journal_sweep(const char *folder)
         bool files = entry[0] != '.' && ends_in(entry, WR_JOURNAL_FILES_ENDING);
         WrFileInfo info;
         if (!half && !files) continue;
-        if (!wr_folder_info(dir, entry, &info) || now - info.seconds < WR_JOURNAL_LEFTOVER_SECONDS)
+        if (!wr_folder_entry_info(dir, entry, &info) ||
+            now - info.seconds < WR_JOURNAL_LEFTOVER_SECONDS)
             continue;
         char *path = wr_path_join(folder, entry);
         if (half) sweep_new(path);

@@ -43,9 +43,9 @@ static void put_floats(const float *from, int channels, size_t count, uint8_t *r
         }
 }
 
-bool wr_export_fill_picture(WrExportJob *job, WrError *err)
+bool wr_export_fill_preview(WrExportJob *job, WrError *err)
 {
-    WrExportPicture *picture = job->picture;
+    WrExportPreview *picture = job->picture;
     const size_t count = (size_t)job->width * (size_t)job->height;
     const int channels = job->channels;
     const size_t each = job->options.depth == 32 ? sizeof(float) : 1;
@@ -71,10 +71,10 @@ bool wr_export_fill_picture(WrExportJob *job, WrError *err)
     return made;
 }
 
-void wr_export_picture_fini(WrExportPicture *picture)
+void wr_export_preview_fini(WrExportPreview *picture)
 {
     wr_free(picture->rgb);
-    *picture = (WrExportPicture){ 0 };
+    *picture = (WrExportPreview){ 0 };
 }
 
 /* ---- numbers ---- */

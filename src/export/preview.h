@@ -4,19 +4,19 @@
 
 #define WR_HISTOGRAM 64 /* bars */
 
-typedef struct WrExportPicture {
+typedef struct WrExportPreview {
     int width, height;
     uint8_t *rgb;          /* [height][width][3]; owned */
     WrExportReport report; /* for the file that it stands for: range, clipped, convention, seam */
-} WrExportPicture;
+} WrExportPreview;
 
 /* Computes the picture that the kind would export with these options, as 8-bit codes; floats are scaled to their
    own range.
    Errors: options out of range; a drawing or a body, which is not a picture of the table. */
-bool wr_export_picture(const WrExportKind *kind, const WrDocument *document,
-                       const WrExportOptions *options, WrPool *pool, WrExportPicture *picture,
+bool wr_export_preview(const WrExportKind *kind, const WrDocument *document,
+                       const WrExportOptions *options, WrPool *pool, WrExportPreview *picture,
                        WrError *err);
-void wr_export_picture_fini(WrExportPicture *picture);
+void wr_export_preview_fini(WrExportPreview *picture);
 
 /* Histogram of heights: bar i counts those from low + i/64 (high - low) on; outside: those below from or above
    to. */

@@ -88,7 +88,7 @@ static bool read_raw(const WrParams *p, const char *path, const char *ending, co
     if (!wr_file_read(path, limit, &bytes, &length, err)) return false;
     bool good = wr_raw_size(size ? size : "", length, &raw, err);
     if (!good) wr_error_prefix(err, "%s: ", path);
-    good = good && wr_sheet_new(&out->sheet, raw.width, raw.height, wrap, err);
+    good = good && wr_sheet_init(&out->sheet, raw.width, raw.height, wrap, err);
     if (good) wr_raw_decode(&raw, bytes, out->sheet.z);
     wr_free(bytes);
     out->most = raw.kind == WR_RAW_U16 ? 65535.0 : raw.kind == WR_RAW_I16 ? 32767.0 : 0.0;
@@ -122,7 +122,7 @@ static bool read_picture(const WrParams *p, const char *path, const WrWrap wrap[
                                   .elevation = wr_param_whole(p, "values") != CODE };
     WrImage *image = wr_picture_read(p, "layer", wish, job, err);
     if (!image) return false;
-    bool good = wr_sheet_new(&out->sheet, image->width, image->height, wrap, err);
+    bool good = wr_sheet_init(&out->sheet, image->width, image->height, wrap, err);
     out->labelled = good && apply_label(p, image, job);
     out->most = out->labelled ? 0.0 : wr_pixel_last(image->type);
     out->least = 0.0;
@@ -584,7 +584,7 @@ bool wr_terrain_fractal(const WrParamValue *values, const WrGenerateJob *job, Wr
     f->slopes = f->erosion > 0.0;
     bool good =
         plan_fractal(f, &p, job, err) &&
-        wr_sheet_new(&sheet, wr_field_width(job->like), wr_field_height(job->like), wrap, err);
+        wr_sheet_init(&sheet, wr_field_width(job->like), wr_field_height(job->like), wrap, err);
     if (good) {
         for (int k = 0; k < f->octaves; k++) move(&f->octave[k], f);
         for (int a = 0; a < 2; a++) move(&f->bend[a], f);
@@ -604,7 +604,7 @@ bool wr_terrain_fractal(const WrParamValue *values, const WrGenerateJob *job, Wr
 #define PIECE_TEXELS 16384 /* ... and texels, if these are more than a row */
 #define BATCH 64           /* pieces between two reports */
 
-bool wr_sheet_new(WrSheet *sheet, int width, int height, const WrWrap wrap[2], WrError *err)
+bool wr_sheet_init(WrSheet *sheet, int width, int height, const WrWrap wrap[2], WrError *err)
 {
     double *z = wr_try_alloc((size_t)width * (size_t)height, sizeof *z, "a table of heights", err);
     if (!z) return false;
@@ -623,7 +623,7 @@ bool wr_sheet_read(WrSheet *sheet, const WrField *field, WrError *err)
     const WrWrap wrap[2] = { wr_field_wrap_u(field), wr_field_wrap_v(field) };
     int width = wr_field_width(field), height = wr_field_height(field);
     float *row = wr_alloc((size_t)width, sizeof *row);
-    bool good = wr_sheet_new(sheet, width, height, wrap, err);
+    bool good = wr_sheet_init(sheet, width, height, wrap, err);
     bool made = good;
     for (int j = 0; good && j < height; j++) {
         wr_field_read(field, 0, j, width, 1, row, (size_t)width);
@@ -638,7 +638,7 @@ bool wr_sheet_read(WrSheet *sheet, const WrField *field, WrError *err)
 
 bool wr_sheet_copy(WrSheet *sheet, const WrSheet *from, WrError *err)
 {
-    if (!wr_sheet_new(sheet, from->width, from->height, from->wrap, err)) return false;
+    if (!wr_sheet_init(sheet, from->width, from->height, from->wrap, err)) return false;
     const size_t width = (size_t)from->width;
     bool good = true;
     for (int j = 0; good && j < from->height; j++) {

@@ -18,7 +18,7 @@ typedef struct WrSheet {
 } WrSheet;
 
 /* A sheet of zeros. Errors: out of memory. */
-bool wr_sheet_new(WrSheet *sheet, int width, int height, const WrWrap wrap[2], WrError *err);
+bool wr_sheet_init(WrSheet *sheet, int width, int height, const WrWrap wrap[2], WrError *err);
 /* Reads a table. */
 bool wr_sheet_read(WrSheet *sheet, const WrField *field, WrError *err);
 bool wr_sheet_copy(WrSheet *sheet, const WrSheet *from, WrError *err);

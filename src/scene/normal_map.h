@@ -60,6 +60,6 @@ WrImage *wr_normal_map_turned(const WrImage *map, WrError *err);
 WrImage *wr_normal_map_raised(const WrImage *map, int64_t *away, WrError *err);
 /* Shares a document's map, which must have the form of read maps. An error if it differs by more than 4
    ulp of |n|^2. */
-WrImage *wr_normal_map_keep(const WrImage *held, bool object, WrError *err);
+WrImage *wr_normal_map_share(const WrImage *held, bool object, WrError *err);
 /* Slopes of such a vector along u and v, for a unit cell. */
 void wr_normal_map_slopes(const float n[3], double *p, double *q);

@@ -8,16 +8,15 @@
 /* All parameters that depend on roughness, at evenly spaced steps, for metalness 0 and 1: between them
    everything is linear in metalness. The diffuse part of a metal is 0, so those rows exist for metalness 0
    only. */
-void wr_textured_reflection_init(WrTexturedReflection *vary, const WrReflectance *of, double ks,
-                                 double tint, bool gated)
+void wr_svbrdf_init(WrSvbrdf *vary, const WrReflectance *of, double ks, double tint, bool gated)
 {
     memset(vary, 0, sizeof *vary);
-    for (int i = 0; i < WR_TEXTURED_REFLECTION_STEPS; i++)
+    for (int i = 0; i < WR_SVBRDF_STEPS; i++)
         for (int metal = 0; metal < 2; metal++) {
             WrReflectance at = *of;
             WrMatter m;
             WrEnvironmentBrdf gloss;
-            at.roughness = (double)i / (WR_TEXTURED_REFLECTION_STEPS - 1), at.metalness = metal;
+            at.roughness = (double)i / (WR_SVBRDF_STEPS - 1), at.metalness = metal;
             wr_matter_init(&m, &at);
             wr_environment_brdf_init(&gloss, &at, &m, ks, tint, gated);
             memcpy(vary->own[metal][i], gloss.own, TERMS);
@@ -32,7 +31,7 @@ void wr_textured_reflection_init(WrTexturedReflection *vary, const WrReflectance
 
 /* Rung i has alpha = 2^-i; s = 2 / alpha^2 - 2 is the exponent of equal width, a quarter of it for Phong's
    lobe. */
-void wr_textured_reflection_rung(const WrEnvironmentBrdf *gloss, int rung, WrEnvironmentBrdf *out)
+void wr_svbrdf_rung(const WrEnvironmentBrdf *gloss, int rung, WrEnvironmentBrdf *out)
 {
     const double alpha = ldexp(1, -rung), power = fmax(2 / (alpha * alpha) - 2, 0);
     *out = (WrEnvironmentBrdf){ .lobe = gloss->lobe, .gated = gloss->gated, .alpha = alpha };

@@ -5,4 +5,4 @@
    Belongs to one system: platform code, see src/README.md. */
 #pragma once
 
-#define WR_SANDBOX_OPEN_FILE 4 /* wr_fd_name returns its path */
+#define WR_INTERPOSED_FILE 4 /* wr_fd_name returns its path */

@@ -23,27 +23,27 @@
 
 #define STANDS_FOR(name) __asm__(name) __attribute__((weak))
 
-int wr_sandbox_open_open(const char *path, int flags, ...) STANDS_FOR("open");
-int wr_sandbox_open_open64(const char *path, int flags, ...) STANDS_FOR("open64");
-FILE *wr_sandbox_open_fopen(const char *path, const char *mode) STANDS_FOR("fopen");
-FILE *wr_sandbox_open_fopen64(const char *path, const char *mode) STANDS_FOR("fopen64");
-int wr_sandbox_open_access(const char *path, int mode) STANDS_FOR("access");
-int wr_sandbox_open_stat(const char *path, struct stat *info) STANDS_FOR("stat");
-int wr_sandbox_open_stat64(const char *path, struct stat *info) STANDS_FOR("stat64");
-int wr_sandbox_open_fstat(int fd, struct stat *info) STANDS_FOR("fstat");
-int wr_sandbox_open_fstat64(int fd, struct stat *info) STANDS_FOR("fstat64");
+int wr_interposed_open(const char *path, int flags, ...) STANDS_FOR("open");
+int wr_interposed_open64(const char *path, int flags, ...) STANDS_FOR("open64");
+FILE *wr_interposed_fopen(const char *path, const char *mode) STANDS_FOR("fopen");
+FILE *wr_interposed_fopen64(const char *path, const char *mode) STANDS_FOR("fopen64");
+int wr_interposed_access(const char *path, int mode) STANDS_FOR("access");
+int wr_interposed_stat(const char *path, struct stat *info) STANDS_FOR("stat");
+int wr_interposed_stat64(const char *path, struct stat *info) STANDS_FOR("stat64");
+int wr_interposed_fstat(int fd, struct stat *info) STANDS_FOR("fstat");
+int wr_interposed_fstat64(int fd, struct stat *info) STANDS_FOR("fstat64");
 
 static bool is_the_file(const char *path)
 {
     char name[WR_FD_NAME];
-    wr_fd_name(WR_SANDBOX_OPEN_FILE, name);
+    wr_fd_name(WR_INTERPOSED_FILE, name);
     return strcmp(path, name) == 0;
 }
 
 /* Positioned at the beginning. The offset is shared by all duplicates: decoders open one at a time. */
 static int copy(void)
 {
-    int fd = fcntl(WR_SANDBOX_OPEN_FILE, F_DUPFD_CLOEXEC, 0);
+    int fd = fcntl(WR_INTERPOSED_FILE, F_DUPFD_CLOEXEC, 0);
     if (fd >= 0) lseek(fd, 0, SEEK_SET);
     return fd;
 }
@@ -55,7 +55,7 @@ static int open_path(const char *path, int flags, va_list *rest)
     return (int)syscall(SYS_openat, AT_FDCWD, path, flags, mode);
 }
 
-int wr_sandbox_open_open(const char *path, int flags, ...)
+int wr_interposed_open(const char *path, int flags, ...)
 {
     va_list rest;
     va_start(rest, flags);
@@ -64,7 +64,7 @@ int wr_sandbox_open_open(const char *path, int flags, ...)
     return fd;
 }
 
-int wr_sandbox_open_open64(const char *path, int flags, ...)
+int wr_interposed_open64(const char *path, int flags, ...)
 {
     va_list rest;
     va_start(rest, flags);
@@ -73,7 +73,7 @@ int wr_sandbox_open_open64(const char *path, int flags, ...)
     return fd;
 }
 
-FILE *wr_sandbox_open_fopen(const char *path, const char *mode)
+FILE *wr_interposed_fopen(const char *path, const char *mode)
 {
     if (!is_the_file(path) || mode[0] != 'r' || strchr(mode, '+')) {
         union {
@@ -88,37 +88,37 @@ FILE *wr_sandbox_open_fopen(const char *path, const char *mode)
     return file;
 }
 
-FILE *wr_sandbox_open_fopen64(const char *path, const char *mode)
+FILE *wr_interposed_fopen64(const char *path, const char *mode)
 {
-    return wr_sandbox_open_fopen(path, mode);
+    return wr_interposed_fopen(path, mode);
 }
 
-int wr_sandbox_open_access(const char *path, int mode)
+int wr_interposed_access(const char *path, int mode)
 {
     if (is_the_file(path) && !(mode & (W_OK | X_OK))) return 0;
     return (int)syscall(SYS_faccessat, AT_FDCWD, path, mode);
 }
 
 /* The C library's fstat passes an empty path, which the filter rejects. */
-int wr_sandbox_open_fstat(int fd, struct stat *info)
+int wr_interposed_fstat(int fd, struct stat *info)
 {
     return (int)syscall(SYS_fstat, fd, info);
 }
 
-int wr_sandbox_open_fstat64(int fd, struct stat *info)
+int wr_interposed_fstat64(int fd, struct stat *info)
 {
-    return wr_sandbox_open_fstat(fd, info);
+    return wr_interposed_fstat(fd, info);
 }
 
-int wr_sandbox_open_stat(const char *path, struct stat *info)
+int wr_interposed_stat(const char *path, struct stat *info)
 {
-    if (is_the_file(path)) return wr_sandbox_open_fstat(WR_SANDBOX_OPEN_FILE, info);
+    if (is_the_file(path)) return wr_interposed_fstat(WR_INTERPOSED_FILE, info);
     return (int)syscall(SYS_newfstatat, AT_FDCWD, path, info, 0);
 }
 
-int wr_sandbox_open_stat64(const char *path, struct stat *info)
+int wr_interposed_stat64(const char *path, struct stat *info)
 {
-    return wr_sandbox_open_stat(path, info);
+    return wr_interposed_stat(path, info);
 }
 
 #endif

@@ -2,4 +2,4 @@
    for the file being read, as Linux does. */
 #include "system/open_interposer.h"
 
-_Static_assert(WR_SANDBOX_OPEN_FILE > 2, "beside the standard files");
+_Static_assert(WR_INTERPOSED_FILE > 2, "beside the standard files");

@@ -17,9 +17,9 @@
 
 static WrRung *settings_of(const WrScene *scene, WrAxis axis, int *count)
 {
-    *count = wr_ladder_settings(scene, axis, NULL, 0);
+    *count = wr_accuracy_benchmark_settings(scene, axis, NULL, 0);
     WrRung *rungs = wr_alloc((size_t)*count, sizeof *rungs);
-    assert_int_equal(wr_ladder_settings(scene, axis, rungs, *count), *count);
+    assert_int_equal(wr_accuracy_benchmark_settings(scene, axis, rungs, *count), *count);
     return rungs;
 }
 
@@ -40,7 +40,7 @@ static void all_objects_take_a_setting(void **state)
                              { WR_DIAL_SCHEME, WR_DIAL_NORMAL },
                              { WR_SCHEME_BSPLINE, WR_BUMP_EXACT } };
     WrScene *a = wr_setting_apply(&slopes, scene), *b = wr_setting_apply(&both, scene);
-    WrScene *best = wr_ladder_best_except_axis(scene, WR_AXIS_ANTIALIASING);
+    WrScene *best = wr_accuracy_benchmark_best_except_axis(scene, WR_AXIS_ANTIALIASING);
     for (int i = 0; i < 3; i++) {
         const WrScene *was = wr_scene_object(scene, i);
         const bool model = was->bump == WR_BUMP_INVARIANT;
@@ -160,9 +160,9 @@ static void the_front_holds_what_nothing_beats_in_both(void **state)
     WrRung rungs[] = { made_rung(1, 0.1),   made_rung(2, 0.05), made_rung(3, 0.05),
                        made_rung(4, 0.01),  made_rung(5, 0.2),  made_rung(2.5, 0.04999),
                        made_rung(0.5, 0.3), made_rung(9, 0.001) };
-    WrLadder ladder = { .rungs = rungs, .count = 8 };
+    WrAccuracyBenchmark benchmark = { .rungs = rungs, .count = 8 };
     rungs[7].model = true;
-    wr_ladder_front(&ladder);
+    wr_accuracy_benchmark_front(&benchmark);
     const bool expected[] = { true, true, false, true, false, false, true, false };
     for (int i = 0; i < 8; i++) assert_int_equal(rungs[i].front, expected[i]);
 }
@@ -171,8 +171,8 @@ static void equal_rungs_leave_one_on_the_front(void **state)
 {
     (void)state;
     WrRung rungs[] = { made_rung(1, 0.1), made_rung(1, 0.1), made_rung(1, 0.1) };
-    WrLadder ladder = { .rungs = rungs, .count = 3 };
-    wr_ladder_front(&ladder);
+    WrAccuracyBenchmark benchmark = { .rungs = rungs, .count = 3 };
+    wr_accuracy_benchmark_front(&benchmark);
     assert_int_equal(rungs[0].front + rungs[1].front + rungs[2].front, 1);
 }
 
@@ -189,10 +189,12 @@ static WrRung arithmetic_rung(int dial, double value, double own_rms)
 static bool at_fault(WrRung *rungs, int count, double as_it_stands, int which)
 {
     WrScene *scene = wr_scene_new();
-    WrLadder ladder = { .rungs = rungs, .count = count, .arithmetic_rms = as_it_stands };
+    WrAccuracyBenchmark benchmark = { .rungs = rungs,
+                                      .count = count,
+                                      .arithmetic_rms = as_it_stands };
     WrText text = { 0 };
-    wr_ladder_faults(&ladder, scene);
-    wr_report_text(&ladder, "", &text);
+    wr_accuracy_benchmark_faults(&benchmark, scene);
+    wr_report_text(&benchmark, "", &text);
     const bool told = strstr(wr_text_get(&text), "a fault of the program") != NULL;
     bool any = false;
     for (int i = 0; i < count; i++) any |= rungs[i].fault;
@@ -238,14 +240,14 @@ static WrField *waves(int size)
     return field;
 }
 
-static const WrRung *rung_named(const WrLadder *ladder, const char *name)
+static const WrRung *rung_named(const WrAccuracyBenchmark *benchmark, const char *name)
 {
     WrText text = { 0 };
     const WrRung *found = NULL;
-    for (int i = 0; i < ladder->count && !found; i++) {
+    for (int i = 0; i < benchmark->count && !found; i++) {
         wr_text_clear(&text);
-        wr_setting_print(&ladder->rungs[i].setting, &text);
-        if (strcmp(wr_text_get(&text), name) == 0) found = &ladder->rungs[i];
+        wr_setting_print(&benchmark->rungs[i].setting, &text);
+        if (strcmp(wr_text_get(&text), name) == 0) found = &benchmark->rungs[i];
     }
     wr_text_fini(&text);
     assert_non_null(found);
@@ -256,7 +258,7 @@ static const WrRung *rung_named(const WrLadder *ladder, const char *name)
 typedef struct Measured {
     WrField *field;
     WrScene *scene;
-    WrLadder ladder;
+    WrAccuracyBenchmark benchmark;
 } Measured;
 
 static int measure(void **state)
@@ -268,15 +270,15 @@ static int measure(void **state)
     wr_shape_default(WR_SURFACE_sphere, &m->scene->shape);
     m->scene->replicate_u = 3;
     m->scene->height = 0.05;
-    const WrLadderRequest request = { .field = m->field,
-                                      .scene = m->scene,
-                                      .width = 48,
-                                      .height = 40,
-                                      .threads = 1,
-                                      .runs = 3,
-                                      .most = 16,
-                                      .axis = WR_AXIS_COUNT };
-    if (!wr_ladder_measure(&request, &m->ladder, &err)) fail_msg("%s", err.text);
+    const WrAccuracyBenchmarkRequest request = { .field = m->field,
+                                                 .scene = m->scene,
+                                                 .width = 48,
+                                                 .height = 40,
+                                                 .threads = 1,
+                                                 .runs = 3,
+                                                 .most = 16,
+                                                 .axis = WR_AXIS_COUNT };
+    if (!wr_accuracy_benchmark_measure(&request, &m->benchmark, &err)) fail_msg("%s", err.text);
     *state = m;
     return 0;
 }
@@ -284,7 +286,7 @@ static int measure(void **state)
 static int forget(void **state)
 {
     Measured *m = *state;
-    wr_ladder_fini(&m->ladder);
+    wr_accuracy_benchmark_fini(&m->benchmark);
     wr_scene_free(m->scene);
     wr_field_free(m->field);
     wr_free(m);
@@ -296,36 +298,36 @@ static void more_samples_come_nearer_where_theory_says_so(void **state)
     /* At the sphere's silhouette k x k samples have an error of O(1/k) at worst: 16 x 16 must be far better than one,
        and slopes of higher order better than none. */
     const Measured *m = *state;
-    const WrRung *one = &m->ladder.rungs[0];
+    const WrRung *one = &m->benchmark.rungs[0];
     const WrRung *many =
-        rung_named(&m->ladder, "scheme=bspline-fit mode=exact aa=supersample samples=16");
-    const WrRung *flat = rung_named(&m->ladder, "mode=none");
+        rung_named(&m->benchmark, "scheme=bspline-fit mode=exact aa=supersample samples=16");
+    const WrRung *flat = rung_named(&m->benchmark, "mode=none");
     assert_true(one->current);
     assert_true(many->errors.rms < one->errors.rms / 4);
     assert_true(many->errors.coverage_rms < one->errors.coverage_rms / 4);
-    assert_true(flat->own_rms > 4 * rung_named(&m->ladder, "mode=exact")->own_rms);
+    assert_true(flat->own_rms > 4 * rung_named(&m->benchmark, "mode=exact")->own_rms);
     assert_true(isnan(many->own_rms)); /* a combination belongs to no axis */
 }
 
 static void no_rung_of_arithmetic_is_at_fault(void **state)
 {
     const Measured *m = *state;
-    assert_true(m->ladder.arithmetic_rms > 0);
-    for (int i = 0; i < m->ladder.count; i++) assert_false(m->ladder.rungs[i].fault);
+    assert_true(m->benchmark.arithmetic_rms > 0);
+    for (int i = 0; i < m->benchmark.count; i++) assert_false(m->benchmark.rungs[i].fault);
 }
 
 static void every_rung_is_timed_and_the_reference_tells_of_itself(void **state)
 {
     const Measured *m = *state;
-    for (int i = 0; i < m->ladder.count; i++) {
-        const WrRung *rung = &m->ladder.rungs[i];
+    for (int i = 0; i < m->benchmark.count; i++) {
+        const WrRung *rung = &m->benchmark.rungs[i];
         assert_string_equal(rung->note.text, "");
         assert_true(rung->seconds > 0 && rung->runs >= 3 && rung->spread >= 0);
         assert_true(rung->shaded > 0);
     }
-    assert_int_equal(m->ladder.reference.samples, 16);
-    assert_true(m->ladder.reference.last_rms > 0);
-    assert_true(m->ladder.blinn_phong > 0 && m->ladder.blinn_colour > 0);
+    assert_int_equal(m->benchmark.reference.samples, 16);
+    assert_true(m->benchmark.reference.last_rms > 0);
+    assert_true(m->benchmark.blinn_phong > 0 && m->benchmark.blinn_colour > 0);
 }
 
 static int fields_of(const char *line)
@@ -343,12 +345,12 @@ static void the_csv_has_the_same_columns_in_every_line(void **state)
 {
     const Measured *m = *state;
     WrText text = { 0 };
-    wr_report_csv(&m->ladder, &text);
+    wr_report_csv(&m->benchmark, &text);
     int lines = 0;
     const int columns = fields_of(wr_text_get(&text));
     for (const char *line = wr_text_get(&text); *line; line = strchr(line, '\n') + 1, lines++)
         assert_int_equal(fields_of(line), columns);
-    assert_int_equal(lines, m->ladder.count + 1);
+    assert_int_equal(lines, m->benchmark.count + 1);
     wr_text_fini(&text);
 }
 
@@ -356,10 +358,10 @@ static void the_table_names_every_rung_and_the_papers_claim(void **state)
 {
     const Measured *m = *state;
     WrText text = { 0 }, setting = { 0 };
-    wr_report_text(&m->ladder, "waves", &text);
-    for (int i = 0; i < m->ladder.count; i++) {
+    wr_report_text(&m->benchmark, "waves", &text);
+    for (int i = 0; i < m->benchmark.count; i++) {
         wr_text_clear(&setting);
-        wr_setting_print(&m->ladder.rungs[i].setting, &setting);
+        wr_setting_print(&m->benchmark.rungs[i].setting, &setting);
         assert_non_null(strstr(wr_text_get(&text), wr_text_get(&setting)));
     }
     assert_non_null(strstr(wr_text_get(&text), "about 4 times Phong"));
@@ -372,19 +374,19 @@ static void a_plot_is_drawn_whole_or_not_at_all(void **state)
 {
     const Measured *m = *state;
     WrError err;
-    char folder[] = "/tmp/wrinkle-ladder-XXXXXX";
+    char folder[] = "/tmp/wrinkle-benchmark-XXXXXX";
     assert_non_null(mkdtemp(folder));
     char *svg = wr_path_join(folder, "it's.svg"), *bmp = wr_path_join(folder, "plot.bmp");
     char *bytes;
     size_t length;
-    if (!wr_report_plot(&m->ladder, "a 'name' with \"quotes\"", svg, &err))
+    if (!wr_report_plot(&m->benchmark, "a 'name' with \"quotes\"", svg, &err))
         fail_msg("%s", err.text);
     assert_true(wr_file_read(svg, 1 << 24, &bytes, &length, &err));
     assert_non_null(strstr(bytes, "</svg>"));
     assert_non_null(strstr(bytes, "the front, fast to near"));
     assert_non_null(strstr(bytes, "antialiasing"));
     assert_non_null(strstr(bytes, "time of a frame, ms"));
-    assert_false(wr_report_plot(&m->ladder, "", bmp, &err));
+    assert_false(wr_report_plot(&m->benchmark, "", bmp, &err));
     assert_non_null(strstr(err.text, ".png or .svg"));
     assert_int_not_equal(access(bmp, F_OK), 0);
     unlink(svg);
@@ -406,16 +408,16 @@ static void a_cancelled_measurement_leaves_nothing(void **state)
     const Measured *m = *state;
     WrError err;
     WrProgress progress = { 0 };
-    WrLadder ladder = { 0 };
+    WrAccuracyBenchmark benchmark = { 0 };
     stop_at_once(&progress);
-    const WrLadderRequest request = { .field = m->field,
-                                      .scene = m->scene,
-                                      .width = 16,
-                                      .height = 16,
-                                      .axis = WR_AXIS_COUNT,
-                                      .progress = &progress };
-    assert_false(wr_ladder_measure(&request, &ladder, &err));
-    assert_null(ladder.rungs);
+    const WrAccuracyBenchmarkRequest request = { .field = m->field,
+                                                 .scene = m->scene,
+                                                 .width = 16,
+                                                 .height = 16,
+                                                 .axis = WR_AXIS_COUNT,
+                                                 .progress = &progress };
+    assert_false(wr_accuracy_benchmark_measure(&request, &benchmark, &err));
+    assert_null(benchmark.rungs);
     assert_string_equal(err.text, "cancelled");
 }
 

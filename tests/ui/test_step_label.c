@@ -40,7 +40,7 @@ static void lines_are_said_in_words(void **state)
     };
     for (size_t i = 0; i < sizeof said / sizeof *said; i++) {
         WrText out = { 0 };
-        wr_line_words(said[i][0], &out);
+        wr_step_label(said[i][0], &out);
         assert_string_equal(wr_text_get(&out), said[i][1]);
         wr_text_fini(&out);
     }
@@ -48,12 +48,12 @@ static void lines_are_said_in_words(void **state)
     char line[40000] = "stroke points=";
     for (int i = 0; i < 6000; i++) strcat(line, i ? ";0,0" : "0,0");
     WrText out = { 0 };
-    wr_line_words(line, &out);
+    wr_step_label(line, &out);
     assert_string_equal(wr_text_get(&out), "Stroke, 6000 samples");
     wr_text_clear(&out);
     for (size_t i = 0; i + 2 < sizeof line; i++) line[i] = i % 2 ? ' ' : 'x';
     line[sizeof line - 2] = '\0';
-    wr_line_words(line, &out);
+    wr_step_label(line, &out);
     assert_string_equal(wr_text_get(&out), "X, x x");
     wr_text_fini(&out);
 }

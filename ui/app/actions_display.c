@@ -5,13 +5,13 @@
 #include "ui/state/settings.h"
 #include "ui/toolkit/focus.h"
 
-void wr_act_look_grey(WrApp *app)
+void wr_act_display_grey(WrApp *app)
 {
     app->settings->look.shown = WR_CANVAS_HEIGHTS;
     app->settings->look.colours = WR_CANVAS_GREY;
 }
 
-void wr_act_look_signed(WrApp *app)
+void wr_act_display_signed(WrApp *app)
 {
     app->settings->look.shown = WR_CANVAS_HEIGHTS;
     app->settings->look.colours = WR_CANVAS_SIGNED;
@@ -19,17 +19,17 @@ void wr_act_look_signed(WrApp *app)
 
 bool wr_is_grey(const WrApp *app)
 {
-    const WrCanvasLook *look = &app->settings->look;
+    const WrCanvasDisplay *look = &app->settings->look;
     return look->shown == WR_CANVAS_HEIGHTS && look->colours == WR_CANVAS_GREY;
 }
 
 bool wr_is_signed(const WrApp *app)
 {
-    const WrCanvasLook *look = &app->settings->look;
+    const WrCanvasDisplay *look = &app->settings->look;
     return look->shown == WR_CANVAS_HEIGHTS && look->colours == WR_CANVAS_SIGNED;
 }
 
-void wr_act_look_contours(WrApp *app)
+void wr_act_display_contours(WrApp *app)
 {
     app->settings->look.shown = WR_CANVAS_HEIGHTS;
     app->settings->look.colours = WR_CANVAS_CONTOURS;
@@ -37,11 +37,11 @@ void wr_act_look_contours(WrApp *app)
 
 bool wr_is_contours(const WrApp *app)
 {
-    const WrCanvasLook *look = &app->settings->look;
+    const WrCanvasDisplay *look = &app->settings->look;
     return look->shown == WR_CANVAS_HEIGHTS && look->colours == WR_CANVAS_CONTOURS;
 }
 
-void wr_act_look_relief(WrApp *app)
+void wr_act_display_relief(WrApp *app)
 {
     app->settings->look.shown = WR_CANVAS_LIT;
 }
@@ -51,7 +51,7 @@ bool wr_is_relief(const WrApp *app)
     return app->settings->look.shown == WR_CANVAS_LIT;
 }
 
-void wr_act_look_normals(WrApp *app)
+void wr_act_display_normals(WrApp *app)
 {
     app->settings->look.shown = WR_CANVAS_BENT;
 }
@@ -61,7 +61,7 @@ bool wr_canvas_shows_normals(const WrApp *app)
     return app->settings->look.shown == WR_CANVAS_BENT;
 }
 
-void wr_act_look_occlusion(WrApp *app)
+void wr_act_display_occlusion(WrApp *app)
 {
     app->settings->look.shown = WR_CANVAS_OCCLUSION;
 }
@@ -71,7 +71,7 @@ bool wr_is_occlusion(const WrApp *app)
     return app->settings->look.shown == WR_CANVAS_OCCLUSION;
 }
 
-void wr_act_look_curvature(WrApp *app)
+void wr_act_display_curvature(WrApp *app)
 {
     app->settings->look.shown = WR_CANVAS_CURVATURE;
 }
@@ -81,7 +81,7 @@ bool wr_is_curvature(const WrApp *app)
     return app->settings->look.shown == WR_CANVAS_CURVATURE;
 }
 
-void wr_act_look_cavity(WrApp *app)
+void wr_act_display_cavity(WrApp *app)
 {
     app->settings->look.shown = WR_CANVAS_CAVITY;
 }
@@ -91,7 +91,7 @@ bool wr_is_cavity(const WrApp *app)
     return app->settings->look.shown == WR_CANVAS_CAVITY;
 }
 
-void wr_act_look_slope(WrApp *app)
+void wr_act_display_slope(WrApp *app)
 {
     app->settings->look.shown = WR_CANVAS_SLOPE;
 }
@@ -101,7 +101,7 @@ bool wr_is_slope(const WrApp *app)
     return app->settings->look.shown == WR_CANVAS_SLOPE;
 }
 
-void wr_act_look_roughness(WrApp *app)
+void wr_act_display_roughness(WrApp *app)
 {
     app->settings->look.shown = WR_CANVAS_ROUGHNESS;
 }

@@ -147,7 +147,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
 
 void wr_app_end(WrApp *app)
 {
-    wr_app_start_end(app);
+    wr_app_start_join(app);
     wr_busy_stop(app);
     wr_idle_probe_free(app->rest);
     wr_preview_free(app->preview);
@@ -221,7 +221,7 @@ static void handle(WrApp *app, const SDL_Event *event)
     wr_gui_event(app->gui, event);
     app->input_at = wr_clock_seconds();
     wr_app_redraw(app);
-    if (wr_busy_look(app, event)) return;
+    if (wr_busy_view_event(app, event)) return;
     if (event->type == SDL_QUIT) { /* a signal; a second one skips the question */
         if (app->dialog->now == WR_DIALOG_UNSAVED) app->quit = true;
         else wr_app_quit(app);
@@ -335,7 +335,7 @@ static void draw(WrApp *app, double now)
     wr_input_collect(app); /* these came while the previous frame was on the screen */
     wr_gui_frame_end(app->gui);
     wr_input_shown(app);
-    wr_input_router_look(app);
+    wr_input_router_update_hover(app);
     set_cursor(app);
     app->drawn_at = now;
     if (app->redraw < 1 && wr_gui_unsettled(app->gui)) app->redraw = 1;

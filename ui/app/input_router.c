@@ -263,7 +263,7 @@ static void move(WrApp *app, const WrPointer *at)
     look(app, x, y);
 }
 
-void wr_input_router_look(WrApp *app)
+void wr_input_router_update_hover(WrApp *app)
 {
     WrInputRouter *hand = app->hand;
     bool canvas = hand->on_canvas, patch = hand->on_patch;

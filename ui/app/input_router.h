@@ -10,6 +10,6 @@ void wr_input_router_event(WrApp *app, const SDL_Event *event);
 void wr_input_router_pen(WrApp *app, const WrPenEvent *event);
 /* Update the view under the pointer after a frame, since widgets may have appeared or vanished without a pointer
    motion. */
-void wr_input_router_look(WrApp *app);
+void wr_input_router_update_hover(WrApp *app);
 
 extern const WrPart wr_part_hand;

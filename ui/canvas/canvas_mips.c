@@ -16,7 +16,7 @@ typedef struct Block {
     bool rough;
 } Block;
 
-struct WrCanvasCells {
+struct WrCanvasMips {
     WrField *field; /* shared */
     int level, tiles_u, tiles_v;
     Block *blocks;               /* [tiles_v * tiles_u] */
@@ -30,12 +30,12 @@ struct WrCanvasCells {
     void *ctx;
 };
 
-WrCanvasCells *wr_cells_new(void)
+WrCanvasMips *wr_canvas_mips_new(void)
 {
-    return wr_alloc(1, sizeof(WrCanvasCells));
+    return wr_alloc(1, sizeof(WrCanvasMips));
 }
 
-static void drop_blocks(WrCanvasCells *cells)
+static void drop_blocks(WrCanvasMips *cells)
 {
     for (int i = 0; cells->blocks && i < cells->tiles_u * cells->tiles_v; i++) {
         wr_free(cells->blocks[i].mean);
@@ -44,7 +44,7 @@ static void drop_blocks(WrCanvasCells *cells)
     cells->bytes = 0;
 }
 
-static void drop_all(WrCanvasCells *cells)
+static void drop_all(WrCanvasMips *cells)
 {
     drop_blocks(cells);
     wr_free(cells->blocks);
@@ -55,10 +55,10 @@ static void drop_all(WrCanvasCells *cells)
     wr_free(cells->row_high);
     wr_free(cells->row_known);
     wr_field_free(cells->field);
-    *cells = (WrCanvasCells){ 0 };
+    *cells = (WrCanvasMips){ 0 };
 }
 
-void wr_cells_free(WrCanvasCells *cells)
+void wr_canvas_mips_free(WrCanvasMips *cells)
 {
     if (!cells) return;
     drop_all(cells);
@@ -67,7 +67,7 @@ void wr_cells_free(WrCanvasCells *cells)
 
 static void tile_changed(int tx, int ty, void *ctx)
 {
-    WrCanvasCells *cells = ctx;
+    WrCanvasMips *cells = ctx;
     int at = ty * cells->tiles_u + tx;
     wr_free(cells->blocks[at].mean);
     cells->blocks[at] = (Block){ 0 };
@@ -82,8 +82,8 @@ static bool same_frame(const WrField *a, const WrField *b)
            wr_field_wrap_v(a) == wr_field_wrap_v(b);
 }
 
-bool wr_cells_update(WrCanvasCells *cells, const WrField *field, int level, WrTileVisitor changed,
-                     void *ctx)
+bool wr_canvas_mips_update(WrCanvasMips *cells, const WrField *field, int level,
+                           WrTileVisitor changed, void *ctx)
 {
     bool same = cells->field && same_frame(cells->field, field);
     WrField *share = wr_field_share(field);
@@ -109,7 +109,7 @@ bool wr_cells_update(WrCanvasCells *cells, const WrField *field, int level, WrTi
 }
 
 /* Means over squares of 2^level texels; squares at the table's edge contain only texels inside. */
-static void make_means(const WrCanvasCells *cells, int tx, int ty, const float *tile, float *mean)
+static void make_means(const WrCanvasMips *cells, int tx, int ty, const float *tile, float *mean)
 {
     int step = 1 << cells->level, side = WR_TILE >> cells->level;
     int w = wr_field_width(cells->field) - tx * WR_TILE;
@@ -130,14 +130,14 @@ static void make_means(const WrCanvasCells *cells, int tx, int ty, const float *
 }
 
 /* One texel in place of each mean: the first, which is always inside the table. */
-static void make_rough(const WrCanvasCells *cells, const float *tile, float *mean)
+static void make_rough(const WrCanvasMips *cells, const float *tile, float *mean)
 {
     int step = 1 << cells->level, side = WR_TILE >> cells->level;
     for (int j = 0; j < side; j++)
         for (int i = 0; i < side; i++) mean[side * j + i] = tile[WR_TILE * step * j + step * i];
 }
 
-const float *wr_cells_block(WrCanvasCells *cells, int tx, int ty, double deadline, float *flat)
+const float *wr_canvas_mips_block(WrCanvasMips *cells, int tx, int ty, double deadline, float *flat)
 {
     Block *block = &cells->blocks[ty * cells->tiles_u + tx];
     if (block->mean && !block->rough) return block->mean;
@@ -167,17 +167,17 @@ const float *wr_cells_block(WrCanvasCells *cells, int tx, int ty, double deadlin
     return block->mean;
 }
 
-bool wr_cells_rough(const WrCanvasCells *cells)
+bool wr_canvas_mips_rough(const WrCanvasMips *cells)
 {
     return cells->rough;
 }
 
-void wr_cells_forget_rough(WrCanvasCells *cells)
+void wr_canvas_mips_forget_rough(WrCanvasMips *cells)
 {
     cells->rough = false;
 }
 
-static void tile_range(const WrCanvasCells *cells, int tx, int ty, float *low, float *high)
+static void tile_range(const WrCanvasMips *cells, int tx, int ty, float *low, float *high)
 {
     const float *tile = wr_field_tile(cells->field, tx, ty);
     *low = *high = tile ? tile[0] : wr_field_level(cells->field);
@@ -193,7 +193,7 @@ static void tile_range(const WrCanvasCells *cells, int tx, int ty, float *low, f
     }
 }
 
-static void make_ranges(WrCanvasCells *cells)
+static void make_ranges(WrCanvasMips *cells)
 {
     const size_t rows = (size_t)cells->tiles_v, tiles = (size_t)cells->tiles_u * rows;
     cells->tile_known = wr_alloc(tiles, sizeof(bool));
@@ -205,7 +205,7 @@ static void make_ranges(WrCanvasCells *cells)
 }
 
 /* Update the range of a row from its changed tiles. */
-static void row_range(WrCanvasCells *cells, int ty)
+static void row_range(WrCanvasMips *cells, int ty)
 {
     float low = INFINITY, high = -INFINITY;
     for (int tx = 0; tx < cells->tiles_u; tx++) {
@@ -221,7 +221,7 @@ static void row_range(WrCanvasCells *cells, int ty)
     cells->row_known[ty] = true;
 }
 
-void wr_cells_range(WrCanvasCells *cells, float *low, float *high)
+void wr_canvas_mips_range(WrCanvasMips *cells, float *low, float *high)
 {
     if (!cells->tile_known) make_ranges(cells);
     for (int ty = 0; ty < cells->tiles_v; ty++) {
@@ -231,10 +231,10 @@ void wr_cells_range(WrCanvasCells *cells, float *low, float *high)
     }
 }
 
-int wr_cells_level(double zoom)
+int wr_canvas_mips_level(double zoom)
 {
     int level = 0;
-    while (level < WR_CELL_LEVEL_MAX && zoom * (double)(2 << level) <= 1.0) level++;
+    while (level < WR_CANVAS_MIPS_LEVEL_MAX && zoom * (double)(2 << level) <= 1.0) level++;
     return level;
 }
 

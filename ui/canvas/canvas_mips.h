@@ -5,28 +5,29 @@
 
 #include <stdbool.h>
 
-#define WR_CELL_LEVEL_MAX 6 /* one value per tile */
+#define WR_CANVAS_MIPS_LEVEL_MAX 6 /* one value per tile */
 
-typedef struct WrCanvasCells WrCanvasCells;
+typedef struct WrCanvasMips WrCanvasMips;
 
-WrCanvasCells *wr_cells_new(void);
-void wr_cells_free(WrCanvasCells *cells);
+WrCanvasMips *wr_canvas_mips_new(void);
+void wr_canvas_mips_free(WrCanvasMips *cells);
 
 /* Update to `field` (shared, kept until the next call) at `level`. Blocks of unchanged tiles are kept; changed(tx,
  * ty, ctx) is called for each tile that may have changed. Returns false, without calls, if everything may have
  * changed (another size or level). */
-bool wr_cells_update(WrCanvasCells *cells, const WrField *field, int level, WrTileVisitor changed,
-                     void *ctx);
+bool wr_canvas_mips_update(WrCanvasMips *cells, const WrField *field, int level,
+                           WrTileVisitor changed, void *ctx);
 
 /* The block of a tile: [side * side] means, side = 64 >> level, row by row; NULL if the whole tile holds *flat.
- * Blocks not computed before `deadline` (wr_clock_seconds) are rough: single texels instead of means; wr_cells_rough
+ * Blocks not computed before `deadline` (wr_clock_seconds) are rough: single texels instead of means; wr_canvas_mips_rough
  * then returns true, and another update would improve them. Valid until the next update. */
-const float *wr_cells_block(WrCanvasCells *cells, int tx, int ty, double deadline, float *flat);
-bool wr_cells_rough(const WrCanvasCells *cells);
-void wr_cells_forget_rough(WrCanvasCells *cells); /* before the next update */
+const float *wr_canvas_mips_block(WrCanvasMips *cells, int tx, int ty, double deadline,
+                                  float *flat);
+bool wr_canvas_mips_rough(const WrCanvasMips *cells);
+void wr_canvas_mips_forget_rough(WrCanvasMips *cells); /* before the next update */
 
 /* Smallest and largest height of the field; only tiles changed since the last call are read. */
-void wr_cells_range(WrCanvasCells *cells, float *low, float *high);
+void wr_canvas_mips_range(WrCanvasMips *cells, float *low, float *high);
 
 /* Weights of the cells under one row or column of pixels: the exact box filter over the pixel's footprint. */
 #define WR_TAPS 4
@@ -40,4 +41,4 @@ typedef struct WrCellTaps {
  * unwrapped. */
 WrCellTaps wr_taps_make(double from, double to, int size, int level, bool repeats);
 /* The level at which a cell is half a pixel to one pixel; 0 from zoom 1/2 up. */
-int wr_cells_level(double zoom);
+int wr_canvas_mips_level(double zoom);

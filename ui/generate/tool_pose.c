@@ -104,7 +104,7 @@ static int find(const WrApp *app, const Points *points, const WrPointer *at)
    cell's edges. */
 static WrSelectPoint place(const WrApp *app, const Points *points, const WrPointer *at)
 {
-    WrSelectPoint home = wr_overlay_home(app, at->u, at->v);
+    WrSelectPoint home = wr_overlay_wrap_offset(app, at->u, at->v);
     if (points->count > 0) home = (WrSelectPoint){ 0.0, 0.0 };
     return (WrSelectPoint){ at->u + home.u, at->v + home.v };
 }

@@ -396,7 +396,7 @@ static void forget(WrApp *app)
 
 const WrPart wr_part_patch = { .update = patch_update,
                                .next_time = wr_patch_next_time,
-                               .look = wr_patch_look,
+                               .view_event = wr_patch_view_event,
                                .draw = patch_draw,
                                .settle = settle,
                                .another = another,

@@ -71,7 +71,7 @@ static bool wheel(WrApp *app, const SDL_MouseWheelEvent *event)
     return true;
 }
 
-bool wr_patch_look(WrApp *app, const SDL_Event *event)
+bool wr_patch_view_event(WrApp *app, const SDL_Event *event)
 {
     const bool held = app->patch->meanwhile == WR_PATCH_HELD;
     if (held && event->type == SDL_MOUSEMOTION) {

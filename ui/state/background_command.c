@@ -142,7 +142,7 @@ static void forget(WrApp *app, void *ctx, bool ok, const WrError *err)
     (void)err;
 }
 
-void wr_busy_run_background(WrApp *app, const char *what, WrBusyWork *work, void *ctx)
+void wr_busy_run_upkeep(WrApp *app, const char *what, WrBusyWork *work, void *ctx)
 {
     WrError err;
     if (app->busy) return;
@@ -285,13 +285,13 @@ bool wr_busy_event(WrApp *app, const SDL_Event *event)
     return true;
 }
 
-bool wr_busy_look(WrApp *app, const SDL_Event *event)
+bool wr_busy_view_event(WrApp *app, const SDL_Event *event)
 {
     if (!app->busy || app->dialog->now != WR_DIALOG_NONE) return false;
     const bool begins = event->type == SDL_MOUSEBUTTONDOWN || event->type == SDL_MOUSEWHEEL;
     if (begins && wr_gui_owns_point(app->gui, app->hand->x, app->hand->y)) return false;
     for (const WrPart *const *p = app->registry->parts; *p; p++)
-        if ((*p)->look && (*p)->look(app, event)) return true;
+        if ((*p)->view_event && (*p)->view_event(app, event)) return true;
     return false;
 }
 

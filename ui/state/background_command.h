@@ -37,7 +37,7 @@ bool wr_busy_run(WrApp *app, WrBusyKind kind, const char *what, WrBusyWork *work
                  WrError *err);
 /* Start background upkeep (WR_BUSY_TEND) and return. It may still run after the call, so *ctx must stay valid (NULL
    is allowed); failures are not reported. Does nothing while a command runs. */
-void wr_busy_run_background(WrApp *app, const char *what, WrBusyWork *work, void *ctx);
+void wr_busy_run_upkeep(WrApp *app, const char *what, WrBusyWork *work, void *ctx);
 /* Show the reason of the last failure: an error, or a note if the user cancelled. */
 void wr_busy_fail(WrApp *app, const char *what, const WrError *err);
 /* Run the line of the edit preview on the current document. If the preview has finished, its result is used. */
@@ -82,7 +82,7 @@ void wr_busy_update(WrApp *app);
 /* Handle an event while a command runs: true if it must not reach the widgets. */
 bool wr_busy_event(WrApp *app, const SDL_Event *event);
 /* Handle it after the widgets: true if the event only moved a component's view. */
-bool wr_busy_look(WrApp *app, const SDL_Event *event);
+bool wr_busy_view_event(WrApp *app, const SDL_Event *event);
 /* Draw progress in place of the status line; false if there is none to show. */
 bool wr_busy_bar(WrApp *app);
 void wr_busy_stop(WrApp *app); /* the window closes: cancel the running command */

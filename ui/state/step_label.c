@@ -194,7 +194,7 @@ static const char *layer_deed(const Words *w)
     return lock ? "Layer %.20s locked" : NULL;
 }
 
-void wr_line_words(const char *line, WrText *out)
+void wr_step_label(const char *line, WrText *out)
 {
     Words w = words_of(line);
     const char *verb = w.count > 0 ? w.word[0].text : "", *kind = plain(&w, 1);

@@ -4,4 +4,4 @@
 typedef struct WrText WrText;
 
 /* Append the name of a command line in the window's language to out. */
-void wr_line_words(const char *line, WrText *out);
+void wr_step_label(const char *line, WrText *out);

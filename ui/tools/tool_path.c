@@ -95,7 +95,7 @@ static void write_line(const WrApp *app, WrText *line)
     const WrDrawState *draw = app->draw;
     const WrAnchor *list = draw->anchors.data;
     WrSelectPoint first = wr_overlay_uv(app, list[0].x, list[0].y);
-    WrSelectPoint home = wr_overlay_home(app, first.u, first.v);
+    WrSelectPoint home = wr_overlay_wrap_offset(app, first.u, first.v);
     bool fills = app->settings->drawing.fills, closed = draw->closed || fills;
     wr_text_add(line, is_path(app) ? "shape path points=" : "shape polygon points=");
     add_point(line, app, list[0].x, list[0].y, home);

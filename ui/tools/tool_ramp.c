@@ -65,7 +65,7 @@ static void release(WrApp *app, const WrPointer *at)
     if (hypot(draw->x1 - draw->x0, draw->y1 - draw->y0) * app->view->zoom < 3.0) return;
     WrSelectPoint a = wr_overlay_uv(app, draw->x0, draw->y0);
     WrSelectPoint b = wr_overlay_uv(app, draw->x1, draw->y1);
-    WrSelectPoint home = wr_overlay_home(app, a.u, a.v);
+    WrSelectPoint home = wr_overlay_wrap_offset(app, a.u, a.v);
     WrText line = { 0 };
     wr_text_addf(&line, "ramp %s", wr_ramp_names[how->ramp]);
     wr_line_number(&line, "from", wr_line_round(a.u + home.u, 7));

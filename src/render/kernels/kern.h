@@ -96,8 +96,8 @@ typedef enum WrSeen {
 } WrSeen;
 
 /* Terms of an albedo, padded with 0 to whole vectors. */
-#define WR_TEXTURED_REFLECTION_TERMS 12
-_Static_assert(WR_TEXTURED_REFLECTION_TERMS >= WR_ALBEDO_TERMS, "all terms");
+#define WR_SVBRDF_TERMS 12
+_Static_assert(WR_SVBRDF_TERMS >= WR_ALBEDO_TERMS, "all terms");
 
 /* Environment blurred by one width, in the layout of WrKernMirror. */
 typedef struct WrKernMipLevel {

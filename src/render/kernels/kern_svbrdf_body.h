@@ -12,22 +12,21 @@ typedef struct Steps {
 
 ALWAYS void find_step(REAL rough, int i, Steps *to)
 {
-    const REAL x = between(rough, K_(0), K_(1)) * (REAL)(WR_TEXTURED_REFLECTION_STEPS - 1),
-               whole = r_floor(x);
-    to->low[i] = among((int)whole, WR_TEXTURED_REFLECTION_STEPS);
+    const REAL x = between(rough, K_(0), K_(1)) * (REAL)(WR_SVBRDF_STEPS - 1), whole = r_floor(x);
+    to->low[i] = among((int)whole, WR_SVBRDF_STEPS);
     to->t[i] = x - whole;
 }
 
 ALWAYS int next_step(int low)
 {
-    return low + 1 < WR_TEXTURED_REFLECTION_STEPS ? low + 1 : low;
+    return low + 1 < WR_SVBRDF_STEPS ? low + 1 : low;
 }
 
 /* reflect_terms of x without its last sum: four partial sums per sample.
    Albedo polynomials of degree 11 in x = sqrt(cos), with coefficients tabulated for STEPS roughnesses and
    interpolated linearly. Four lanes hold the powers 0 to 3; Horner's scheme in x^4 combines coefficients k, k
    + 4, k + 8. */
-ALWAYS void vary_parts(const REAL (*table)[WR_TEXTURED_REFLECTION_TERMS], const Steps *at,
+ALWAYS void vary_parts(const REAL (*table)[WR_SVBRDF_TERMS], const Steps *at,
                        const REAL *restrict x, int count, REAL *restrict part)
 {
     for (int i = 0; i < count; i++) {
@@ -222,7 +221,7 @@ typedef struct Rungs {
 ALWAYS void find_rung(REAL alpha, int i, Rungs *to)
 {
     const REAL least = K_(0.015625), wide = between(alpha, least, K_(1)), log = -r_log2(wide);
-    const int last = WR_TEXTURED_REFLECTION_RUNGS - 2, low = among((int)r_floor(log), last + 1);
+    const int last = WR_SVBRDF_RUNGS - 2, low = among((int)r_floor(log), last + 1);
     const bool under = alpha < least, ends = low == last;
     to->low[i] = under ? last : low;
     to->high[i] = under ? last + 1 : ends ? low : low + 1;
@@ -289,10 +288,9 @@ ALWAYS void mix_rungs(const VARY *vary, const Rungs *at, int count, REAL *restri
 
 /* Shares of the mirrored environment: by metalness, unless that is constant.
    of[0] for non-metal, of[1] for metal; the share is linear in metalness. */
-ALWAYS void
-mirror_shares(const REAL (*of)[WR_TEXTURED_REFLECTION_STEPS][WR_TEXTURED_REFLECTION_TERMS],
-              bool alike, const Steps *at, const REAL *restrict x, const STRIP *strip,
-              REAL *restrict out)
+ALWAYS void mirror_shares(const REAL (*of)[WR_SVBRDF_STEPS][WR_SVBRDF_TERMS], bool alike,
+                          const Steps *at, const REAL *restrict x, const STRIP *strip,
+                          REAL *restrict out)
 {
     REAL plain[4 * WR_SPAN], metal[4 * WR_SPAN];
     const int count = strip->count;
