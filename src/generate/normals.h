@@ -4,7 +4,7 @@
 #pragma once
 #include "base/enum_rows.h"
 #include "generate/fft_plane.h"
-#include "generate/terrain.h"
+#include "generate/sheet.h"
 #include "image/normal_encoding.h"
 
 #include <stdbool.h>
