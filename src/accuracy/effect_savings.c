@@ -1,6 +1,6 @@
 #include "accuracy/effect_savings.h"
 
-#include "accuracy/ladder_internal.h"
+#include "accuracy/accuracy_benchmark_internal.h"
 #include "base/progress.h"
 #include "render/frame/frame.h"
 

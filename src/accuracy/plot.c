@@ -1,7 +1,7 @@
 /* Placement of numbers beside their points: for each point in turn, the best free place around it. */
 #include "accuracy/plot.h"
 
-#include "accuracy/ladder.h"
+#include "accuracy/accuracy_benchmark.h"
 #include "accuracy/report.h"
 #include "base/enum_rows.h"
 #include "base/exactmath.h"
@@ -242,18 +242,18 @@ bool wr_plot_has_point(const WrRung *rung)
 }
 
 /* Errors below the reference's own are not measurable, so they are drawn at its line. */
-static double shown_error(const WrLadder *ladder, const WrRung *rung)
+static double shown_error(const WrAccuracyBenchmark *benchmark, const WrRung *rung)
 {
-    const double own = ladder->reference.last_rms;
+    const double own = benchmark->reference.last_rms;
     return isfinite(own) ? fmax(rung->errors.rms, own) : rung->errors.rms;
 }
 
-/* The front, fastest first: in order of insertion, which is quick for the few settings of a ladder.
+/* The front, fastest first: in order of insertion, which is quick for the few settings of a benchmark.
    The front is the set of rungs that no other rung beats in both time and error. */
 static void find_front(WrPlot *plot)
 {
-    const WrRung *rungs = plot->ladder->rungs;
-    for (int i = 0; i < plot->ladder->count; i++) {
+    const WrRung *rungs = plot->benchmark->rungs;
+    for (int i = 0; i < plot->benchmark->count; i++) {
         if (!rungs[i].front || !wr_plot_has_point(&rungs[i])) continue;
         int at = plot->fronts++;
         for (; at > 0 && rungs[plot->front[at - 1]].seconds > rungs[i].seconds; at--)
@@ -262,24 +262,24 @@ static void find_front(WrPlot *plot)
     }
 }
 
-bool wr_plot_init(const WrLadder *ladder, WrPlot *out)
+bool wr_plot_init(const WrAccuracyBenchmark *benchmark, WrPlot *out)
 {
-    const size_t room = (size_t)ladder->count + 1;
-    *out = (WrPlot){ .ladder = ladder, .time = { 1, 10 }, .error = { 1, 10 } };
+    const size_t room = (size_t)benchmark->count + 1;
+    *out = (WrPlot){ .benchmark = benchmark, .time = { 1, 10 }, .error = { 1, 10 } };
     out->spots = wr_alloc(room, sizeof *out->spots);
     out->front = wr_alloc(room, sizeof *out->front);
     double *times = wr_alloc(room, sizeof *times), *errors = wr_alloc(room, sizeof *errors);
     double least = INFINITY;
     int n = 0;
-    for (int i = 0; i < ladder->count; i++) {
-        if (!wr_plot_has_point(&ladder->rungs[i])) continue;
-        times[n] = 1e3 * ladder->rungs[i].seconds;
-        errors[n++] = shown_error(ladder, &ladder->rungs[i]);
+    for (int i = 0; i < benchmark->count; i++) {
+        if (!wr_plot_has_point(&benchmark->rungs[i])) continue;
+        times[n] = 1e3 * benchmark->rungs[i].seconds;
+        errors[n++] = shown_error(benchmark, &benchmark->rungs[i]);
         least = fmin(least, errors[n - 1]);
     }
     const bool good = wr_plot_axis(times, n, &out->time);
     /* The reference's own error is included if it is not far below. */
-    if (ladder->reference.last_rms > least / 10) errors[n++] = ladder->reference.last_rms;
+    if (benchmark->reference.last_rms > least / 10) errors[n++] = benchmark->reference.last_rms;
     wr_plot_axis(errors, n, &out->error);
     wr_free(times);
     wr_free(errors);
@@ -309,11 +309,11 @@ void wr_plot_lay_out(WrPlot *plot, double x, double y, double w, double h)
     plot->y = y;
     plot->w = w;
     plot->h = h;
-    for (int i = 0; i < plot->ladder->count; i++) {
-        const WrRung *rung = &plot->ladder->rungs[i];
+    for (int i = 0; i < plot->benchmark->count; i++) {
+        const WrRung *rung = &plot->benchmark->rungs[i];
         plot->spots[i] = wr_plot_has_point(rung)
                              ? (WrPlotSpot){ x_of(plot, 1e3 * rung->seconds),
-                                             y_of(plot, shown_error(plot->ladder, rung)) }
+                                             y_of(plot, shown_error(plot->benchmark, rung)) }
                              : (WrPlotSpot){ -1e9, -1e9 };
     }
 }
@@ -321,7 +321,7 @@ void wr_plot_lay_out(WrPlot *plot, double x, double y, double w, double h)
 /* Height of the reference's line in the plot; false if it is below the axis. */
 static bool plot_reference(const WrPlot *plot, double *y)
 {
-    const double own = plot->ladder->reference.last_rms;
+    const double own = plot->benchmark->reference.last_rms;
     *y = y_of(plot, own);
     return own > plot->error.low && own < plot->error.high;
 }
@@ -384,13 +384,13 @@ void wr_plot_draw(const WrPlot *plot, const WrPlotCanvas *canvas, const char *re
     draw_reference(plot, canvas, reference);
     draw_front(plot, canvas);
     for (int front = 0; front < 2; front++) /* points of the front on top */
-        for (int i = 0; i < plot->ladder->count; i++) {
-            const WrRung *rung = &plot->ladder->rungs[i];
+        for (int i = 0; i < plot->benchmark->count; i++) {
+            const WrRung *rung = &plot->benchmark->rungs[i];
             if (rung->front == (front == 1) && wr_plot_has_point(rung))
                 canvas->mark(canvas->ctx, plot->spots[i], (3 + front) * canvas->unit,
                              WR_PLOT_SERIES + rung->axis);
         }
-    if (ringed >= 0 && wr_plot_has_point(&plot->ladder->rungs[ringed]))
+    if (ringed >= 0 && wr_plot_has_point(&plot->benchmark->rungs[ringed]))
         canvas->ring(canvas->ctx, plot->spots[ringed], 7.5 * canvas->unit, 2 * canvas->unit);
 }
 
@@ -501,11 +501,11 @@ static void word(void *ctx, const char *text, double x, double y, double anchor,
 /* The front's points, then all others. The caller frees. */
 static WrPlotSpot *list_spots(const WrPlot *plot, int *count)
 {
-    const WrRung *rungs = plot->ladder->rungs;
-    WrPlotSpot *spots = wr_alloc((size_t)plot->ladder->count + 1, sizeof *spots);
+    const WrRung *rungs = plot->benchmark->rungs;
+    WrPlotSpot *spots = wr_alloc((size_t)plot->benchmark->count + 1, sizeof *spots);
     *count = 0;
     for (int i = 0; i < plot->fronts; i++) spots[(*count)++] = plot->spots[plot->front[i]];
-    for (int i = 0; i < plot->ladder->count; i++)
+    for (int i = 0; i < plot->benchmark->count; i++)
         if (wr_plot_has_point(&rungs[i]) && !rungs[i].front) spots[(*count)++] = plot->spots[i];
     return spots;
 }
@@ -555,8 +555,8 @@ static void draw_numbers(const WrPlot *plot, WrVectorDrawing *to)
 
 static void draw_spreads(const WrPlot *plot, WrVectorDrawing *to)
 {
-    for (int i = 0; i < plot->ladder->count; i++) {
-        const WrRung *rung = &plot->ladder->rungs[i];
+    for (int i = 0; i < plot->benchmark->count; i++) {
+        const WrRung *rung = &plot->benchmark->rungs[i];
         if (!wr_plot_has_point(rung)) continue;
         const double start = wr_plot_place(&plot->time, 1e3 * (rung->seconds - rung->spread)),
                      end = wr_plot_place(&plot->time, 1e3 * (rung->seconds + rung->spread));
@@ -569,21 +569,22 @@ static void draw_spreads(const WrPlot *plot, WrVectorDrawing *to)
 
 /* ---- the key ---- */
 
-static bool has_series(const WrLadder *ladder, int axis)
+static bool has_series(const WrAccuracyBenchmark *benchmark, int axis)
 {
-    for (int i = 0; i < ladder->count; i++)
-        if (wr_plot_has_point(&ladder->rungs[i]) && (int)ladder->rungs[i].axis == axis) return true;
+    for (int i = 0; i < benchmark->count; i++)
+        if (wr_plot_has_point(&benchmark->rungs[i]) && (int)benchmark->rungs[i].axis == axis)
+            return true;
     return false;
 }
 
-static void draw_key(const WrLadder *ladder, bool ringed, WrVectorDrawing *to)
+static void draw_key(const WrAccuracyBenchmark *benchmark, bool ringed, WrVectorDrawing *to)
 {
     double y = PLOT_TOP + 10;
     const WrPlotSpot front[] = { { KEY_LEFT - 10, y }, { KEY_LEFT + 10, y } };
     line(to, front, 2, 1.5 * SCALE, WR_PLOT_FRONT);
     write_word(to, "front", KEY_LEFT + 20, y, SIZE, 0);
     for (int axis = 0; axis <= WR_AXIS_COUNT; axis++) {
-        if (!has_series(ladder, axis)) continue;
+        if (!has_series(benchmark, axis)) continue;
         y += LINE;
         mark(to, (WrPlotSpot){ KEY_LEFT, y }, 4 * SCALE, WR_PLOT_SERIES + axis);
         write_word(to, axis < WR_AXIS_COUNT ? wr_axis_labels[axis] : "combinations", KEY_LEFT + 20,
@@ -642,7 +643,7 @@ static void add_row(List *list, const char *number, const WrRung *rung)
 /* Lists the front, and the scene's own setting if it is not on it. */
 static void add_list(const WrPlot *plot, int ringed, List *list)
 {
-    const WrRung *rungs = plot->ladder->rungs;
+    const WrRung *rungs = plot->benchmark->rungs;
     add_word(list, LEFT, 0, "the front, fast to near");
     list->lines++;
     add_word(list, TIME_RIGHT, 1, "ms");
@@ -660,15 +661,16 @@ static void add_list(const WrPlot *plot, int ringed, List *list)
 /* ---- the page ---- */
 
 /* Truncates a long name at its start, since the end is more specific. */
-static void draw_title(const WrLadder *ladder, const char *name, WrVectorDrawing *to)
+static void draw_title(const WrAccuracyBenchmark *benchmark, const char *name, WrVectorDrawing *to)
 {
     const size_t length = strlen(name);
     const char *from = length > NAME_FITS ? name + length - NAME_FITS : name;
     WrText title = { 0 };
     while ((*from & 0xc0) == 0x80) from++; /* inside a character */
     wr_text_addf(&title, "%s%s%serror against time, %d x %d pixels, %d %s",
-                 from > name ? "..." : "", from, name[0] ? ": " : "", ladder->width, ladder->height,
-                 ladder->threads, ladder->threads == 1 ? "thread" : "threads");
+                 from > name ? "..." : "", from, name[0] ? ": " : "", benchmark->width,
+                 benchmark->height, benchmark->threads,
+                 benchmark->threads == 1 ? "thread" : "threads");
     write_word(to, wr_text_get(&title), (PLOT_LEFT + PLOT_RIGHT) / 2.0, 24, TITLE, 0.5);
     wr_text_fini(&title);
     write_word(to, "RMS error of linear intensity", LEFT, PLOT_TOP - 24, SIZE, 0);
@@ -676,10 +678,10 @@ static void draw_title(const WrLadder *ladder, const char *name, WrVectorDrawing
                (PLOT_LEFT + PLOT_RIGHT) / 2.0, PLOT_BOTTOM + 48, SIZE, 0.5);
 }
 
-static int find_current(const WrLadder *ladder)
+static int find_current(const WrAccuracyBenchmark *benchmark)
 {
-    for (int i = 0; i < ladder->count; i++)
-        if (ladder->rungs[i].current && wr_plot_has_point(&ladder->rungs[i])) return i;
+    for (int i = 0; i < benchmark->count; i++)
+        if (benchmark->rungs[i].current && wr_plot_has_point(&benchmark->rungs[i])) return i;
     return -1;
 }
 
@@ -695,15 +697,16 @@ static void draw_page(const WrPlot *plot, const char *name, int ringed, WrVector
                                   .ring = ring,
                                   .word = word };
     List list = { .to = to };
-    draw_title(plot->ladder, name, to);
+    draw_title(plot->benchmark, name, to);
     draw_spreads(plot, to);
     draw_numbers(plot, to);
     wr_plot_draw(plot, &canvas, "the reference, at its last doubling", ringed);
-    draw_key(plot->ladder, ringed >= 0, to);
+    draw_key(plot->benchmark, ringed >= 0, to);
     add_list(plot, ringed, &list);
 }
 
-bool wr_report_plot(const WrLadder *ladder, const char *name, const char *path, WrError *err)
+bool wr_report_plot(const WrAccuracyBenchmark *benchmark, const char *name, const char *path,
+                    WrError *err)
 {
     char ending[16];
     WrPlot plot;
@@ -711,9 +714,9 @@ bool wr_report_plot(const WrLadder *ladder, const char *name, const char *path, 
     wr_path_ending(path, ending);
     if (strcmp(ending, "svg") != 0 && strcmp(ending, "pdf") != 0 && strcmp(ending, "png") != 0)
         return wr_fail(err, "plot %s: the name must end in .pdf, .png or .svg", path);
-    wr_plot_init(ladder, &plot);
+    wr_plot_init(benchmark, &plot);
     wr_plot_lay_out(&plot, PLOT_LEFT, PLOT_TOP, PLOT_RIGHT - PLOT_LEFT, PLOT_BOTTOM - PLOT_TOP);
-    const int ringed = find_current(ladder);
+    const int ringed = find_current(benchmark);
     add_list(&plot, ringed, &list);
     WrVectorDrawing *to = wr_vector_drawing_new(path, WIDTH, LIST_TOP + LINE * list.lines, 3, err);
     if (to) draw_page(&plot, name, ringed, to);

@@ -1,10 +1,10 @@
-/* plot.h - plot of a ladder: error against time, both logarithmic. It is described once for all canvases: axes, ticks, points,
+/* plot.h - plot of a benchmark: error against time, both logarithmic. It is described once for all canvases: axes, ticks, points,
    the Pareto front as steps, the reference's own error, a ring around the scene's own setting. Pixels; y points down. */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>
 
-typedef struct WrLadder WrLadder;
+typedef struct WrAccuracyBenchmark WrAccuracyBenchmark;
 typedef struct WrRung WrRung;
 
 typedef struct WrPlotSpot {
@@ -38,17 +38,17 @@ char *wr_plot_number(double value, char *text);
 #define WR_PLOT_LINE 64  /* most points of a canvas's line */
 
 typedef struct WrPlot {
-    const WrLadder *ladder; /* borrowed */
-    WrPlotAxis time, error; /* ms; RMS */
-    double x, y, w, h;      /* area between the axes */
-    WrPlotSpot *spots;      /* [ladder->count]; far outside for a rung without a point */
-    int *front, fronts;     /* rungs on the Pareto front, fastest first */
+    const WrAccuracyBenchmark *benchmark; /* borrowed */
+    WrPlotAxis time, error;               /* ms; RMS */
+    double x, y, w, h;                    /* area between the axes */
+    WrPlotSpot *spots;  /* [benchmark->count]; far outside for a rung without a point */
+    int *front, fronts; /* rungs on the Pareto front, fastest first */
 } WrPlot;
 
 /* True if a rung has a point: a measured approximation with a time and an error above 0. */
 bool wr_plot_has_point(const WrRung *rung);
 /* Finds axes and front; wr_plot_fini frees them. False if no rung has a point: then the axes are from 1 to 10. */
-bool wr_plot_init(const WrLadder *ladder, WrPlot *out);
+bool wr_plot_init(const WrAccuracyBenchmark *benchmark, WrPlot *out);
 void wr_plot_fini(WrPlot *plot);
 /* Finds the points for that area between the axes. */
 void wr_plot_lay_out(WrPlot *plot, double x, double y, double w, double h);

@@ -1,4 +1,4 @@
-/* Output of a ladder as a table, as CSV and as JSON. */
+/* Output of a benchmark as a table, as CSV and as JSON. */
 #include "accuracy/report.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ static void add_heading(WrText *text, const char *title)
                  "rms", "own rms", "99.9 %", "max", "angle", "coverage");
 }
 
-static void add_rung(const WrLadder *ladder, const WrRung *rung, WrText *text)
+static void add_rung(const WrAccuracyBenchmark *benchmark, const WrRung *rung, WrText *text)
 {
     WrText setting = { 0 };
     wr_setting_print(&rung->setting, &setting);
@@ -29,7 +29,7 @@ static void add_rung(const WrLadder *ladder, const WrRung *rung, WrText *text)
         return;
     }
     /* ns/px is time per covered pixel, so that scenes of different coverage compare. */
-    const double pixels = (double)ladder->width * ladder->height;
+    const double pixels = (double)benchmark->width * benchmark->height;
     const double covered = rung->errors.covered > 0 ? (double)rung->errors.covered : pixels;
     wr_text_addf(text, " %9.3f %7.3f %6.1f", 1e3 * rung->seconds, 1e3 * rung->spread,
                  1e9 * rung->seconds / covered);
@@ -46,20 +46,21 @@ static void add_rung(const WrLadder *ladder, const WrRung *rung, WrText *text)
     wr_text_add(text, "\n");
 }
 
-static void add_axis(const WrLadder *ladder, int axis, const char *title, WrText *text)
+static void add_axis(const WrAccuracyBenchmark *benchmark, int axis, const char *title,
+                     WrText *text)
 {
     bool any = false;
-    for (int i = 0; i < ladder->count; i++) {
-        if ((int)ladder->rungs[i].axis != axis) continue;
+    for (int i = 0; i < benchmark->count; i++) {
+        if ((int)benchmark->rungs[i].axis != axis) continue;
         if (!any) add_heading(text, title);
         any = true;
-        add_rung(ladder, &ladder->rungs[i], text);
+        add_rung(benchmark, &benchmark->rungs[i], text);
     }
 }
 
-static void add_reference(const WrLadder *ladder, WrText *text)
+static void add_reference(const WrAccuracyBenchmark *benchmark, WrText *text)
 {
-    const WrReference *reference = &ladder->reference;
+    const WrReference *reference = &benchmark->reference;
     wr_text_addf(
         text,
         "\nreference: double precision, %d x %d samples a pixel, the last doubling changed "
@@ -74,39 +75,39 @@ static void add_reference(const WrLadder *ladder, WrText *text)
                      (long long)reference->lost);
 }
 
-static void add_faults(const WrLadder *ladder, WrText *text)
+static void add_faults(const WrAccuracyBenchmark *benchmark, WrText *text)
 {
-    for (int i = 0; i < ladder->count; i++) {
-        if (!ladder->rungs[i].fault) continue;
+    for (int i = 0; i < benchmark->count; i++) {
+        if (!benchmark->rungs[i].fault) continue;
         wr_text_add(text, "a fault of the program: ");
-        wr_ladder_fault_print(&ladder->rungs[i], text);
+        wr_accuracy_benchmark_fault_print(&benchmark->rungs[i], text);
         wr_text_add(text, ", though it should be nearer; please report it with this document\n");
     }
 }
 
 /* Both ratios are those that Blinn (1978) states; the measured ones are those of this scene. */
-static void add_claim(const WrLadder *ladder, WrText *text)
+static void add_claim(const WrAccuracyBenchmark *benchmark, WrText *text)
 {
     wr_text_addf(
         text,
         "the paper: bump costs about 4 times Phong and 2 times a colour picture; here %.2f and "
         "%.2f\n",
-        ladder->blinn_phong, ladder->blinn_colour);
+        benchmark->blinn_phong, benchmark->blinn_colour);
 }
 
-void wr_report_text(const WrLadder *ladder, const char *name, WrText *text)
+void wr_report_text(const WrAccuracyBenchmark *benchmark, const char *name, WrText *text)
 {
     wr_text_addf(text,
                  "%s%s%d x %d pixels, %d %s; * is on the front: nothing is both faster and "
                  "nearer\n",
-                 name, name[0] ? ", " : "", ladder->width, ladder->height, ladder->threads,
-                 ladder->threads == 1 ? "thread" : "threads");
+                 name, name[0] ? ", " : "", benchmark->width, benchmark->height, benchmark->threads,
+                 benchmark->threads == 1 ? "thread" : "threads");
     for (int axis = 0; axis < WR_AXIS_COUNT; axis++)
-        add_axis(ladder, axis, wr_axis_labels[axis], text);
-    add_axis(ladder, WR_AXIS_COUNT, "as it stands, and combinations", text);
-    add_reference(ladder, text);
-    add_claim(ladder, text);
-    add_faults(ladder, text);
+        add_axis(benchmark, axis, wr_axis_labels[axis], text);
+    add_axis(benchmark, WR_AXIS_COUNT, "as it stands, and combinations", text);
+    add_reference(benchmark, text);
+    add_claim(benchmark, text);
+    add_faults(benchmark, text);
 }
 
 /* ---- numbers of a rung, for CSV and JSON ---- */
@@ -163,7 +164,7 @@ static void add_csv_string(WrText *text, const char *bytes)
     wr_text_add(text, "\"");
 }
 
-void wr_report_csv(const WrLadder *ladder, WrText *text)
+void wr_report_csv(const WrAccuracyBenchmark *benchmark, WrText *text)
 {
     Number numbers[NUMBERS];
     WrText setting = { 0 };
@@ -172,8 +173,8 @@ void wr_report_csv(const WrLadder *ladder, WrText *text)
     const int count = numbers_of(&none, numbers);
     for (int n = 0; n < count; n++) wr_text_addf(text, ",%s", numbers[n].name);
     wr_text_add(text, "\r\n");
-    for (int i = 0; i < ladder->count; i++) {
-        const WrRung *rung = &ladder->rungs[i];
+    for (int i = 0; i < benchmark->count; i++) {
+        const WrRung *rung = &benchmark->rungs[i];
         wr_text_clear(&setting);
         wr_setting_print(&rung->setting, &setting);
         add_csv_string(text, axis_name(rung));
@@ -212,7 +213,7 @@ static void add_json_rung(const WrRung *rung, WrText *text)
     }
     if (rung->fault) {
         wr_text_clear(&setting);
-        wr_ladder_fault_print(rung, &setting);
+        wr_accuracy_benchmark_fault_print(rung, &setting);
         wr_text_add(text, ",\"fault\":");
         wr_text_add_json_string(text, wr_text_get(&setting));
     }
@@ -225,26 +226,26 @@ static void add_json_rung(const WrRung *rung, WrText *text)
     wr_text_fini(&setting);
 }
 
-void wr_report_json(const WrLadder *ladder, const char *name, WrText *text)
+void wr_report_json(const WrAccuracyBenchmark *benchmark, const char *name, WrText *text)
 {
-    const WrReference *reference = &ladder->reference;
+    const WrReference *reference = &benchmark->reference;
     wr_text_add(text, "{\"document\":");
     wr_text_add_json_string(text, name);
     wr_text_addf(text, ",\"width\":%d,\"height\":%d,\"threads\":%d,\"reference\":{\"samples\":%d",
-                 ladder->width, ladder->height, ladder->threads, reference->samples);
+                 benchmark->width, benchmark->height, benchmark->threads, reference->samples);
     wr_text_add(text, ",\"last_rms\":");
     wr_text_add_json_number(text, reference->last_rms);
     wr_text_add(text, ",\"last_max\":");
     wr_text_add_json_number(text, reference->last_max);
     wr_text_addf(text, ",\"converged\":%s,\"lost\":%lld},\"claim\":{\"bump_over_phong\":",
                  reference->converged ? "true" : "false", (long long)reference->lost);
-    wr_text_add_json_number(text, ladder->blinn_phong);
+    wr_text_add_json_number(text, benchmark->blinn_phong);
     wr_text_add(text, ",\"bump_over_colour\":");
-    wr_text_add_json_number(text, ladder->blinn_colour);
+    wr_text_add_json_number(text, benchmark->blinn_colour);
     wr_text_add(text, "},\"rungs\":[");
-    for (int i = 0; i < ladder->count; i++) {
+    for (int i = 0; i < benchmark->count; i++) {
         if (i > 0) wr_text_add(text, ",\n");
-        add_json_rung(&ladder->rungs[i], text);
+        add_json_rung(&benchmark->rungs[i], text);
     }
     wr_text_add(text, "]}\n");
 }

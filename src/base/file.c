@@ -503,7 +503,7 @@ void wr_file_sweep(const char *folder)
             long pid = file_owner(name);
             if (!pid || wr_process_lives(pid)) continue;
             if (pass == 0) file_group_finish(folder, dir, name);
-            else wr_folder_drop_unheld(dir, name);
+            else wr_folder_remove_unheld_entry(dir, name);
         }
         wr_folder_close(dir);
     }

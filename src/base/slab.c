@@ -122,7 +122,7 @@ static void free_slab(WrSlab *slab)
 
 /* With the address sanitizer every piece is an allocation of its own: inside a block, a use after free would go unnoticed. */
 #ifdef __SANITIZE_ADDRESS__
-void *wr_slab_take(WrSlabs *slabs)
+void *wr_slab_alloc(WrSlabs *slabs)
 {
     (void)take;
     __atomic_fetch_add(&taken, 1, __ATOMIC_RELAXED);
@@ -135,7 +135,7 @@ void wr_slab_free(WrSlabs *slabs, void *piece)
     wr_free(piece);
 }
 #else
-void *wr_slab_take(WrSlabs *slabs)
+void *wr_slab_alloc(WrSlabs *slabs)
 {
     wr_mutex_lock(&slabs->lock);
     void *piece = take(slabs);

@@ -20,7 +20,7 @@ typedef struct WrSlabs {
 #define WR_SLABS_OF(size) .bytes = (size), .lock = WR_MUTEX_READY
 
 /* Returns a piece aligned to WR_ALIGN with undefined content; aborts when out of memory, like memory.h. */
-void *wr_slab_take(WrSlabs *slabs);
+void *wr_slab_alloc(WrSlabs *slabs);
 /* Frees a piece of the same slabs; NULL does nothing. Some empty blocks are cached for reuse, because
  * the system clears fresh pages; the others return to the system. */
 void wr_slab_free(WrSlabs *slabs, void *piece);

@@ -75,7 +75,7 @@ static void fill_one(int index, int worker, void *ctx)
     }
     if (maker->targets.kind != WR_BLEND_TARGET_NONE) {
         target = wr_alloc(WR_TILE * WR_TILE, sizeof *target);
-        wr_blend_target_tile(&maker->targets, make.tx, make.ty, target);
+        wr_targets_compute_tile(&maker->targets, make.tx, make.ty, target);
         make.target = target;
     }
     wr_stroke_resolve(maker, &make);

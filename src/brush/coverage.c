@@ -186,7 +186,7 @@ static void extreme_tile(const WrTargets *t, int tx, int ty, float sign, float *
     wr_free(runs);
 }
 
-void wr_blend_target_tile(const WrTargets *t, int tx, int ty, float *out)
+void wr_targets_compute_tile(const WrTargets *t, int tx, int ty, float *out)
 {
     switch (t->kind) {
     case WR_BLEND_TARGET_NONE: break;
@@ -438,7 +438,7 @@ void wr_coverage_add(WrCoverage *cover, const WrDabShape *shape)
 static void make_target(WrCoverage *cover, WrPage *page)
 {
     page->target = wr_alloc(WR_TILE * WR_TILE, sizeof(float));
-    wr_blend_target_tile(&cover->maker.targets, page->tx, page->ty, page->target);
+    wr_targets_compute_tile(&cover->maker.targets, page->tx, page->ty, page->target);
 }
 
 const float *wr_coverage_target(WrCoverage *cover, int tx, int ty)

@@ -23,7 +23,7 @@ typedef struct WrTargets {
 } WrTargets;
 
 /* Computes the targets of tile (tx, ty), row by row; out: [WR_TILE * WR_TILE]. Any number of threads. */
-void wr_blend_target_tile(const WrTargets *targets, int tx, int ty, float *out);
+void wr_targets_compute_tile(const WrTargets *targets, int tx, int ty, float *out);
 
 /* Copies count_i x count_j texels at (i, j), contiguous rows; indices wrap on periodic axes and are
  * clamped to the ends of others. */

@@ -158,7 +158,7 @@ void wr_engine_push(WrEngine *engine, const WrEnginePoint *point)
     }
 }
 
-void wr_engine_finish(WrEngine *engine)
+void wr_engine_pen_up(WrEngine *engine)
 {
     engine->finished = true;
 }

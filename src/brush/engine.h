@@ -50,4 +50,4 @@ void wr_engine_push(WrEngine *engine, const WrEnginePoint *point);
 /* Makes one step, which may make dabs. False if there was none to do. */
 bool wr_engine_step(WrEngine *engine);
 /* Called when the pen is lifted: the rest of the path becomes available as further steps. */
-void wr_engine_finish(WrEngine *engine);
+void wr_engine_pen_up(WrEngine *engine);

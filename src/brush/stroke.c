@@ -431,7 +431,7 @@ static void finish(WrStroke *stroke)
     wr_stroke_work(stroke, HUGE_VAL);
     WrDab dab;
     if (stroke->waiting) draw(stroke, &stroke->held);
-    if (stroke->engine) wr_engine_finish(stroke->engine);
+    if (stroke->engine) wr_engine_pen_up(stroke->engine);
     if (!stroke->engine && spaced_last(&stroke->spaced, &dab)) wr_draw_dab(&stroke->draw, &dab);
     wr_stroke_work(stroke, HUGE_VAL);
 }

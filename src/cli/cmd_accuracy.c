@@ -1,5 +1,5 @@
 #include "accuracy/illusion.h"
-#include "accuracy/ladder.h"
+#include "accuracy/accuracy_benchmark.h"
 #include "accuracy/report.h"
 #include "base/error.h"
 #include "base/file.h"
@@ -48,8 +48,8 @@ static bool write_map(const WrIllusion *it, const char *path, WrError *err)
 }
 
 /* Measure the picture of that request, write the map and append the result to text. name: of the document. */
-static bool illusion_run(const WrCli *cli, const WrLadderRequest *request, const char *name,
-                         WrText *text, WrError *err)
+static bool illusion_run(const WrCli *cli, const WrAccuracyBenchmarkRequest *request,
+                         const char *name, WrText *text, WrError *err)
 {
     const WrIllusionRequest wanted = { .fields = request->fields,
                                        .field = request->field,
@@ -144,17 +144,17 @@ static bool check_line(const WrCli *cli, WrError *err)
 }
 
 /* Write the table and its plots as one atomic set. */
-static bool write_files(const WrCli *cli, const WrLadder *ladder, WrError *err)
+static bool write_files(const WrCli *cli, const WrAccuracyBenchmark *benchmark, WrError *err)
 {
     WrText csv = { 0 };
     bool good = true;
     WrFileGroup *group = wr_file_group_begin();
     if (cli->csv) {
-        wr_report_csv(ladder, &csv);
+        wr_report_csv(benchmark, &csv);
         good = wr_file_write(cli->csv, wr_text_get(&csv), csv.length, err);
     }
     for (int i = 0; good && i < cli->plot_count; i++)
-        good = wr_report_plot(ladder, wr_cli_file_name(cli), cli->plots[i], err);
+        good = wr_report_plot(benchmark, wr_cli_file_name(cli), cli->plots[i], err);
     wr_text_fini(&csv);
     if (good) return wr_file_group_commit(group, err);
     wr_file_group_abort(group);
@@ -164,7 +164,7 @@ static bool write_files(const WrCli *cli, const WrLadder *ladder, WrError *err)
 /* ---- the measurements ---- */
 
 typedef struct Work {
-    WrLadderRequest request;
+    WrAccuracyBenchmarkRequest request;
     WrProgress progress;
     Differences differences;
     bool terminal, faulty; /* faulty: a rung's result shows an error in the program */
@@ -179,30 +179,31 @@ static void prepare(const WrCli *cli, WrSession *session, Work *work)
     work->differences.folder = cli->differences;
     work->progress = (WrProgress){ (volatile int *)cli->cancel, report_progress, &work->terminal };
     work->tables = wr_document_tables(document, document->scene, NULL, cli->pool);
-    work->request = (WrLadderRequest){ .field = wr_document_composite(document, cli->pool),
-                                       .fields = wr_tables_fields(work->tables),
-                                       .scene = document->scene,
-                                       .width = cli->sized ? cli->width : WR_ACCURACY_SIDE,
-                                       .height = cli->sized ? cli->height : WR_ACCURACY_SIDE,
-                                       .turn_deg = cli->turned ? cli->turn_deg : 0,
-                                       .threads = cli->threads > 0 ? cli->threads : 1,
-                                       .runs = cli->runs,
-                                       .budget = cli->budget,
-                                       .axis = (WrAxis)find_axis(cli->axis),
-                                       .progress = &work->progress,
-                                       .seen = cli->differences ? write_difference : NULL,
-                                       .ctx = &work->differences };
+    work->request =
+        (WrAccuracyBenchmarkRequest){ .field = wr_document_composite(document, cli->pool),
+                                      .fields = wr_tables_fields(work->tables),
+                                      .scene = document->scene,
+                                      .width = cli->sized ? cli->width : WR_ACCURACY_SIDE,
+                                      .height = cli->sized ? cli->height : WR_ACCURACY_SIDE,
+                                      .turn_deg = cli->turned ? cli->turn_deg : 0,
+                                      .threads = cli->threads > 0 ? cli->threads : 1,
+                                      .runs = cli->runs,
+                                      .budget = cli->budget,
+                                      .axis = (WrAxis)find_axis(cli->axis),
+                                      .progress = &work->progress,
+                                      .seen = cli->differences ? write_difference : NULL,
+                                      .ctx = &work->differences };
 }
 
 static bool climb(const WrCli *cli, Work *work, WrError *err)
 {
-    WrLadder ladder = { 0 };
-    const bool good =
-        wr_ladder_measure(&work->request, &ladder, err) && write_files(cli, &ladder, err);
-    if (good && cli->json) wr_report_json(&ladder, wr_cli_file_name(cli), &work->text);
-    else if (good) wr_report_text(&ladder, wr_cli_file_name(cli), &work->text);
-    for (int i = 0; i < ladder.count; i++) work->faulty |= ladder.rungs[i].fault;
-    wr_ladder_fini(&ladder);
+    WrAccuracyBenchmark benchmark = { 0 };
+    const bool good = wr_accuracy_benchmark_measure(&work->request, &benchmark, err) &&
+                      write_files(cli, &benchmark, err);
+    if (good && cli->json) wr_report_json(&benchmark, wr_cli_file_name(cli), &work->text);
+    else if (good) wr_report_text(&benchmark, wr_cli_file_name(cli), &work->text);
+    for (int i = 0; i < benchmark.count; i++) work->faulty |= benchmark.rungs[i].fault;
+    wr_accuracy_benchmark_fini(&benchmark);
     return good;
 }
 

@@ -38,7 +38,7 @@ static bool read_options(const WrCli *cli, const WrExportKind *kind, WrExportOpt
 /* Names of kinds, then of sets. */
 static const char *kind_or_set(const void *ctx, int i)
 {
-    const WrSetNames *sets = ctx;
+    const WrMapSetNames *sets = ctx;
     if (i < WR_EXPORT_KIND_COUNT) return wr_export_kinds[i].name;
     i -= WR_EXPORT_KIND_COUNT;
     return i < sets->names.count ? sets->names.data[i] : NULL;
@@ -47,10 +47,10 @@ static const char *kind_or_set(const void *ctx, int i)
 /* Error for a name that is neither a kind nor a set. */
 static bool fail_unknown(const char *name, WrError *err)
 {
-    WrSetNames sets = wr_set_names();
+    WrMapSetNames sets = wr_map_set_names();
     int unused;
     wr_cli_find_word("--as", name, kind_or_set, &sets, &unused, err);
-    wr_set_names_free(&sets);
+    wr_map_set_names_free(&sets);
     return false;
 }
 
@@ -121,10 +121,10 @@ static bool export_file(const WrCli *cli, const WrExportKind *kind, Last *last, 
 }
 
 /* Copy all words except name=, which sets the name of the cell. Returns their number; at most one more than fit. */
-static int take_name(const WrCli *cli, const char *words[WR_SET_WORDS + 1], WrText *name)
+static int take_name(const WrCli *cli, const char *words[WR_MAP_SET_WORDS_MAX + 1], WrText *name)
 {
     int count = 0;
-    for (int i = 0; i < cli->word_count && count <= WR_SET_WORDS; i++) {
+    for (int i = 0; i < cli->word_count && count <= WR_MAP_SET_WORDS_MAX; i++) {
         if (strncmp(cli->words[i], "name=", 5) != 0) {
             words[count++] = cli->words[i];
             continue;
@@ -135,18 +135,18 @@ static int take_name(const WrCli *cli, const char *words[WR_SET_WORDS + 1], WrTe
     return count;
 }
 
-static bool export_maps(const WrCli *cli, const WrSet *set, Last *last, WrText *report,
+static bool export_maps(const WrCli *cli, const WrMapSet *set, Last *last, WrText *report,
                         WrError *err)
 {
     WrSession *session = load(cli, last, err);
     if (!session) return false;
     WrText name = { 0 };
-    const char *words[WR_SET_WORDS + 1];
-    wr_set_cell_name(cli->file, &name);
-    WrSetOrder order = { set, cli->out, NULL, words, take_name(cli, words, &name) };
+    const char *words[WR_MAP_SET_WORDS_MAX + 1];
+    wr_map_set_cell_name(cli->file, &name);
+    WrMapSetRequest order = { set, cli->out, NULL, words, take_name(cli, words, &name) };
     order.name = wr_text_get(&name);
     bool good = is_last(session, last) ||
-                wr_export_set(&order, wr_session_document(session), cli->pool, report, err);
+                wr_export_map_set(&order, wr_session_document(session), cli->pool, report, err);
     wr_text_fini(&name);
     wr_session_free(session);
     return good;
@@ -154,10 +154,10 @@ static bool export_maps(const WrCli *cli, const WrSet *set, Last *last, WrText *
 
 static bool is_set(const char *name)
 {
-    WrSetNames sets = wr_set_names();
+    WrMapSetNames sets = wr_map_set_names();
     bool found = false;
     for (int i = 0; i < sets.names.count; i++) found |= strcmp(sets.names.data[i], name) == 0;
-    wr_set_names_free(&sets);
+    wr_map_set_names_free(&sets);
     return found;
 }
 
@@ -166,9 +166,9 @@ static bool export_as(const WrCli *cli, Last *last, WrText *report, WrError *err
     const WrExportKind *kind = wr_export_find(cli->kind);
     if (kind) return export_file(cli, kind, last, report, err);
     if (!is_set(cli->kind)) return fail_unknown(cli->kind, err);
-    WrSet *set = wr_set_find(cli->kind, err);
+    WrMapSet *set = wr_map_set_find(cli->kind, err);
     bool good = set && export_maps(cli, set, last, report, err);
-    wr_set_free(set);
+    wr_map_set_free(set);
     return good;
 }
 

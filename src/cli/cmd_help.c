@@ -105,10 +105,10 @@ static void cli_markdown_effects(WrText *text)
 }
 
 /* Print a kind of map and its settings as in a line of a set. */
-static void add_map(const WrSetMap *map, WrText *text)
+static void add_map(const WrMapSetEntry *map, WrText *text)
 {
     wr_text_addf(text, "`%sNAME%s` (%s", map->before, map->after, map->kind->name);
-    for (int i = 0; i < WR_SET_SETTINGS && map->settings[i]; i++)
+    for (int i = 0; i < WR_MAP_SET_SETTINGS_MAX && map->settings[i]; i++)
         wr_text_addf(text, " %s", map->settings[i]);
     wr_text_add(text, ")");
 }
@@ -116,9 +116,9 @@ static void add_map(const WrSetMap *map, WrText *text)
 static void cli_markdown_sets(WrText *text)
 {
     wr_text_add(text, "| set | is | files |\n| --- | --- | --- |\n");
-    for (int i = 0; i < WR_SET_ROWS; i++) {
-        const WrSetRow *row = &wr_set_rows[i];
-        WrSet *set = wr_set_parse(row->name, row->maps, row->name, NULL);
+    for (int i = 0; i < WR_MAP_SET_ROWS; i++) {
+        const WrMapSetRow *row = &wr_map_set_rows[i];
+        WrMapSet *set = wr_map_set_parse(row->name, row->maps, row->name, NULL);
         wr_text_addf(text, "| `%s` | ", row->name);
         wr_help_markdown_cell(text, row->about);
         wr_text_add(text, " | ");
@@ -127,7 +127,7 @@ static void cli_markdown_sets(WrText *text)
             add_map(&set->maps.data[k], text);
         }
         wr_text_add(text, " |\n");
-        wr_set_free(set);
+        wr_map_set_free(set);
     }
 }
 

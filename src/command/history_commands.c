@@ -116,7 +116,7 @@ static bool run_view(WrSession *session, WrCall *call, WrError *err)
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     wr_scene_set_pose(scene, &view);
     wr_session_replace_scene(session, scene);
-    wr_history_look(session->state.history, session->state.document);
+    wr_history_record_view(session->state.history, session->state.document);
     return true;
 }
 

@@ -255,7 +255,7 @@ static bool layer_add(WrSession *session, WrCall *call, WrError *err)
     WrText made = { 0 };
     if (!check_room(document, err) || !find(session, call, "above", &below, err)) return false;
     free_name(document, &made);
-    WrLayer layer = wr_layer_new(name ? name : wr_text_get(&made), document->layers[0].heights);
+    WrLayer layer = wr_layer_make(name ? name : wr_text_get(&made), document->layers[0].heights);
     wr_text_fini(&made);
     take_settings(call, &layer);
     wr_document_insert(document, below + 1, layer);
@@ -436,7 +436,7 @@ static bool layer_paste(WrSession *session, WrCall *call, WrError *err)
     WrText name = { 0 };
     if (!check_room(document, err)) return false;
     free_name(document, &name);
-    const WrLayer layer = wr_layer_new(wr_text_get(&name), document->layers[0].heights);
+    const WrLayer layer = wr_layer_make(wr_text_get(&name), document->layers[0].heights);
     wr_text_fini(&name);
     return wr_layer_paste(session, call, layer, err);
 }

@@ -125,7 +125,7 @@ static bool object_take_table(WrSession *session, WrCall *call, WrScene *scene, 
     wr_free(path);
     if (!heights) return false;
     char *own = layer_name(document, name);
-    WrLayer layer = wr_layer_new(own, like);
+    WrLayer layer = wr_layer_make(own, like);
     wr_field_free(layer.heights);
     wr_field_free(layer.cover);
     layer.heights = heights;

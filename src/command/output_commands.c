@@ -233,13 +233,13 @@ const WrCommand wr_command_render = { .name = "render",
 
 /* Words passed on to the maps: all arguments except the names. */
 typedef struct Words {
-    char *words[WR_SET_WORDS + 1]; /* owned */
+    char *words[WR_MAP_SET_WORDS_MAX + 1]; /* owned */
     int count;
 } Words;
 
 static void take_words(const WrCall *call, Words *out)
 {
-    for (int i = 0; i < call->count && out->count <= WR_SET_WORDS; i++) {
+    for (int i = 0; i < call->count && out->count <= WR_MAP_SET_WORDS_MAX; i++) {
         if (!call->args[i].given || call->specs[i].positional ||
             strcmp(call->specs[i].name, "name") == 0)
             continue;
@@ -249,19 +249,20 @@ static void take_words(const WrCall *call, Words *out)
     }
 }
 
-static bool run_set(WrSession *session, const WrCall *call, const WrSet *set, WrError *err)
+static bool run_set(WrSession *session, const WrCall *call, const WrMapSet *set, WrError *err)
 {
     Words words = { 0 };
     WrText name = { 0 }, list = { 0 };
     if (wr_call_given(call, "name")) wr_text_add(&name, wr_call_arg(call, "name")->text);
-    else wr_set_cell_name(session->state.path, &name);
+    else wr_map_set_cell_name(session->state.path, &name);
     take_words(call, &words);
-    const WrSetOrder order = { .set = set,
-                               .folder = wr_call_arg(call, "FOLDER")->text,
-                               .name = wr_text_get(&name),
-                               .words = (const char *const *)words.words,
-                               .word_count = words.count };
-    bool good = wr_export_set(&order, session->state.document, session->options.pool, &list, err);
+    const WrMapSetRequest order = { .set = set,
+                                    .folder = wr_call_arg(call, "FOLDER")->text,
+                                    .name = wr_text_get(&name),
+                                    .words = (const char *const *)words.words,
+                                    .word_count = words.count };
+    bool good =
+        wr_export_map_set(&order, session->state.document, session->options.pool, &list, err);
     for (const char *at = wr_text_get(&list); good && *at;) {
         const size_t length = strcspn(at, "\n");
         wr_session_note(session, "%.*s", (int)length, at);
@@ -275,12 +276,12 @@ static bool run_set(WrSession *session, const WrCall *call, const WrSet *set, Wr
 
 static bool run_maps(WrSession *session, WrCall *call, WrError *err)
 {
-    WrSet *set = wr_set_find(wr_call_arg(call, "SET")->text, err);
+    WrMapSet *set = wr_map_set_find(wr_call_arg(call, "SET")->text, err);
     if (!set) return false;
     bool good = wr_document_whole(session->state.document, session->options.pool, err) &&
                 (!wr_progress_stopped() || wr_fail(err, "cancelled")) &&
                 run_set(session, call, set, err);
-    wr_set_free(set);
+    wr_map_set_free(set);
     return good;
 }
 

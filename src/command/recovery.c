@@ -298,7 +298,7 @@ static bool replay(Replay *r, bool from_saved, WrError *err)
     const WrProgress *whole = wr_progress_enter(&part, 0.0, START_PART);
     bool good = from_saved ? update_saved(r, err) : update_start(r, err);
     wr_progress_set(whole);
-    if (good) wr_session_rebase(r->session);
+    if (good) wr_session_restart_history(r->session);
     r->end = r->beyond ? read->total : wr_journal_sound_end(read, r->from, r->known);
     for (int i = r->from; good && wr_progress_report(done_part(r, i)) && i < r->end;) {
         if (!replay_line(r, i)) break;

@@ -200,16 +200,16 @@ static void session_note_view(WrSession *session)
     WrViews *views = session->state.views;
     int64_t before = wr_views_number(views);
     WrSceneView view = wr_scene_view(session->state.document->scene);
-    wr_views_note(views, &view);
+    wr_views_make_current(views, &view);
     if (wr_views_number(views) != before) session->view_top = wr_views_number(views);
 }
 
-int wr_session_views_back(const WrSession *session)
+int wr_session_undoable_views(const WrSession *session)
 {
     return wr_views_back(session->state.views);
 }
 
-int wr_session_views_forward(const WrSession *session)
+int wr_session_redoable_views(const WrSession *session)
 {
     return wr_views_forward(session->state.views);
 }
@@ -478,7 +478,7 @@ static bool run_call(WrSession *session, WrCall *call, WrError *err)
     if (session->depth > 0) return good;
     good = good && wr_session_follow(session, err);
     if (!good) wr_session_restore(session);
-    else if (view) wr_history_look(session->state.history, session->state.document);
+    else if (view) wr_history_record_view(session->state.history, session->state.document);
     else wr_session_remember(session, call);
     if (good) session_note_view(session);
     wr_session_journal_after(session, good, !view);
@@ -699,7 +699,7 @@ WrHash wr_session_hash(const WrSession *session)
 
 /* ---- replacing the document as a whole ---- */
 
-void wr_session_rebase(WrSession *session)
+void wr_session_restart_history(WrSession *session)
 {
     WrSceneView view = wr_scene_view(session->state.document->scene);
     wr_history_free(session->state.history);
@@ -713,7 +713,7 @@ WrSessionState wr_session_begin_state(WrSession *session, WrDocument *document)
 {
     WrSessionState old = session->state;
     session->state = (WrSessionState){ .document = document };
-    wr_session_rebase(session);
+    wr_session_restart_history(session);
     return old;
 }
 

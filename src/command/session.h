@@ -42,7 +42,7 @@ typedef struct WrSessionOptions {
     bool full;
     const char *isa; /* kernel set for renders: NULL or "auto"; copied, checked at first use */
     /* keep a journal of the document: a crash loses at most the running command
-       (document/journal.h) */
+       (document/recovery_journal.h) */
     bool journal;
     /* every command also updates the composite, so that readers need not compute it; for the
        window */
@@ -170,8 +170,8 @@ bool wr_session_history_go(WrSession *session, int position, WrError *err);
 
 /* Numbers of views that can be undone and redone. Views are not edits: they have their own history (commands
    `camera`, `rotate` and `view`) and do not make a document unsaved. */
-int wr_session_views_back(const WrSession *session);
-int wr_session_views_forward(const WrSession *session);
+int wr_session_undoable_views(const WrSession *session);
+int wr_session_redoable_views(const WrSession *session);
 
 /* Memory of all kept steps, memory of one step (0 if dropped), and the budget in bytes: 1 GiB by default. The oldest
    states are dropped first; the last step can always be undone. */

@@ -335,7 +335,7 @@ static bool open_document(WrSession *session, const char *path, WrError *err)
 {
     WrFileIdentity stamp = wr_file_identity(path); /* taken before the file is read */
     if (!note_origin(session, path, err) || !wr_session_load(session, path, err)) return false;
-    wr_session_rebase(session);
+    wr_session_restart_history(session);
     session->state.path = wr_strdup(path);
     session->state.stamp = stamp;
     return true;

@@ -8,7 +8,7 @@
 #include "document/document.h"
 #include "document/document_file.h"
 #include "document/history.h"
-#include "document/journal.h"
+#include "document/recovery_journal.h"
 #include "document/object_tables.h"
 #include "image/image.h"
 #include "scene/scene.h"
@@ -111,7 +111,7 @@ bool wr_session_go_to(WrSession *session, int state, WrError *err);
 /* Restore the document to the history's present state. */
 void wr_session_restore(WrSession *session);
 /* Restart the history at the current document, with a new revision. */
-void wr_session_rebase(WrSession *session);
+void wr_session_restart_history(WrSession *session);
 /* Replace the state by a new document (ownership passes to the session); returns the old state. Afterwards either
    keep the new one as opened, or restore the old one. Either consumes *old. */
 /* An empty document with the samples per pixel of options.smooth. */

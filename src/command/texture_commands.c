@@ -327,7 +327,7 @@ static bool take_normals(WrSession *session, WrCall *call, const char *name, WrN
     if (file && session->loading) {
         map->green_down = wr_call_choice(call, "green") == WR_GREEN_DOWN;
         map->channels = wr_call_choice(call, "channels") == 1 ? 2 : 3;
-        image = wr_normal_map_keep(file, object, err);
+        image = wr_normal_map_share(file, object, err);
     } else if (file) {
         image = read_normals(session, call, name, file, map, err);
     }
@@ -694,7 +694,7 @@ static bool run_line(WrSession *session, const WrText *line, WrError *err)
     return good;
 }
 
-static bool take_numbers(WrSession *session, const WrGltfLook *look, WrError *err)
+static bool take_numbers(WrSession *session, const WrGltfMaterial *look, WrError *err)
 {
     WrText line = { 0 };
     wr_text_add(&line,
@@ -752,7 +752,7 @@ static bool take_picture(WrSession *session, const char *file, int image, const 
 }
 
 /* Note roughness and metalness factors that a picture replaces. */
-static void note_factors(const WrScene *scene, const WrGltfLook *look, GltfReport *report)
+static void note_factors(const WrScene *scene, const WrGltfMaterial *look, GltfReport *report)
 {
     const double factor[WR_FACET_KINDS] = {
         [WR_FACET_ROUGHNESS] = look->roughness, [WR_FACET_METALNESS] = look->metalness
@@ -771,7 +771,7 @@ static void note_factors(const WrScene *scene, const WrGltfLook *look, GltfRepor
     }
 }
 
-static bool take_pictures(WrSession *session, const char *file, const WrGltfLook *look,
+static bool take_pictures(WrSession *session, const char *file, const WrGltfMaterial *look,
                           GltfReport *report, WrError *err)
 {
     WrText strength = { 0 };
@@ -790,7 +790,7 @@ static bool take_pictures(WrSession *session, const char *file, const WrGltfLook
     return good;
 }
 
-static void note(WrSession *session, const char *path, const WrGltfLook *look,
+static void note(WrSession *session, const char *path, const WrGltfMaterial *look,
                  const GltfReport *report)
 {
     WrText text = { 0 };
@@ -811,7 +811,7 @@ static void note(WrSession *session, const char *path, const WrGltfLook *look,
     wr_text_fini(&text);
 }
 
-static bool take(WrSession *session, const char *name, const char *path, const WrGltfLook *look,
+static bool take(WrSession *session, const char *name, const char *path, const WrGltfMaterial *look,
                  WrError *err)
 {
     GltfReport report = { 0 };
@@ -838,13 +838,14 @@ static void print_gltf(const WrScene *scene, WrText *text)
 
 static bool run_gltf(WrSession *session, WrCall *call, WrError *err)
 {
-    WrGltfLook look;
+    WrGltfMaterial look;
     if (session->loading) return wr_fail(err, "gltf is no command of a document: it opens files");
     const char *name = wr_call_arg(call, "FILE")->text;
     const char *part = wr_call_given(call, "part") ? wr_call_arg(call, "part")->text : NULL;
     char *path = wr_session_input_path(session, name);
     const bool good = wr_session_check_sha256(call, path, err) &&
-                      wr_gltf_look(path, part, &look, err) && take(session, name, path, &look, err);
+                      wr_gltf_read_material(path, part, &look, err) &&
+                      take(session, name, path, &look, err);
     wr_free(path);
     return good;
 }

@@ -35,14 +35,14 @@ static WrField *empty_like(const WrField *field, float level)
                         wr_field_wrap_v(field), level, NULL);
 }
 
-WrLayer wr_layer_new(const char *name, const WrField *like)
+WrLayer wr_layer_make(const char *name, const WrField *like)
 {
     WrLayer layer = layer_of(name, empty_like(like, 0.0f));
     layer.cover = empty_like(like, 0.0f);
     return layer;
 }
 
-WrLayer wr_layer_new_filter(const char *name, const WrFilter *filter, const WrField *like)
+WrLayer wr_layer_make_filter(const char *name, const WrFilter *filter, const WrField *like)
 {
     WrLayer layer = layer_of(name, empty_like(like, 0.0f));
     layer.blend = WR_BLEND_MIX;
@@ -240,7 +240,7 @@ void wr_document_insert(WrDocument *document, int index, WrLayer layer)
 
 void wr_document_add_filter(WrDocument *document, const char *name, const WrFilter *filter)
 {
-    WrLayer layer = wr_layer_new_filter(name, filter, document->layers[0].heights);
+    WrLayer layer = wr_layer_make_filter(name, filter, document->layers[0].heights);
     layer.mask = share_or_null(document->selection);
     const int place = document->active + 1;
     wr_document_insert(document, place, layer);

@@ -89,10 +89,10 @@ size_t wr_document_difference(const WrDocument *before, const WrDocument *after)
 /* ---- layers ---- */
 
 /* A layer of the field's size and wrap: heights 0, cover 0, add, opacity 1. */
-WrLayer wr_layer_new(const char *name, const WrField *like);
-WrLayer wr_layer_new_filter(const char *name, const WrFilter *filter,
-                            const WrField *like); /* mix, opacity 1 */
-WrLayer wr_layer_share(const WrLayer *layer);     /* a copy with shared fields */
+WrLayer wr_layer_make(const char *name, const WrField *like);
+WrLayer wr_layer_make_filter(const char *name, const WrFilter *filter,
+                             const WrField *like); /* mix, opacity 1 */
+WrLayer wr_layer_share(const WrLayer *layer);      /* a copy with shared fields */
 void wr_layer_fini(WrLayer *layer);
 /* Target of edits: the active layer itself; or, if they go to its mask, `stand_in`, a plain layer with the
    mask's values as heights, which shares its texels with the mask as long as they are written in place. Every

@@ -349,7 +349,7 @@ uint64_t wr_history_mark(const WrHistory *history)
 
 /* ---- views ---- */
 
-void wr_history_look(WrHistory *history, const WrDocument *document)
+void wr_history_record_view(WrHistory *history, const WrDocument *document)
 {
     WrDocument **present = own_state(history, history->position);
     wr_document_free(*present);
@@ -452,7 +452,7 @@ WrViews *wr_views_clone(const WrViews *views)
     return clone;
 }
 
-void wr_views_note(WrViews *views, const WrSceneView *view)
+void wr_views_make_current(WrViews *views, const WrSceneView *view)
 {
     if (wr_scene_view_equal(&views->list.data[views->position], view)) return;
     views->list.count = views->position + 1;

@@ -50,7 +50,7 @@ size_t wr_history_bytes(const WrHistory *history);                /* of all stor
 uint64_t wr_history_mark(const WrHistory *history);               /* of the current state */
 
 /* Records a changed view of the current state: `document` differs from it in nothing else. */
-void wr_history_look(WrHistory *history, const WrDocument *document);
+void wr_history_record_view(WrHistory *history, const WrDocument *document);
 /* The last view of a state while it was current; false if the state was discarded. */
 bool wr_history_view(const WrHistory *history, int state, WrSceneView *view);
 /* The heights of a state's active layer, or for a filter of the layer below; NULL: it was discarded. Borrowed
@@ -82,7 +82,7 @@ WrViews *wr_views_clone(const WrViews *views); /* the caller owns it */
 
 /* Makes `view` the current one. If it equals the current view there is no step; else the views after that are
    removed. */
-void wr_views_note(WrViews *views, const WrSceneView *view);
+void wr_views_make_current(WrViews *views, const WrSceneView *view);
 
 int wr_views_back(const WrViews *views);    /* number of steps possible back */
 int wr_views_forward(const WrViews *views); /* and forward */

@@ -13,7 +13,7 @@
 #include "document/document_file.h"
 #include "document/ora_stack.h"
 #include "field/field.h"
-#include "image/coding.h"
+#include "image/normal_encoding.h"
 #include "image/image.h"
 #include "scene/objects.h"
 #include "system/fd.h"

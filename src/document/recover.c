@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/text.h"
-#include "document/journal.h"
+#include "document/recovery_journal.h"
 #include "system/child.h"
 #include "system/fd.h"
 #include "system/path.h"

@@ -8,7 +8,7 @@
    user; save the result, or start a journal of the session from a snapshot of it; read that file again; and only
    if everything was restored, wr_journal_claim_remove. */
 #pragma once
-#include "document/journal.h"
+#include "document/recovery_journal.h"
 
 #include <stdbool.h>
 #include <stddef.h>

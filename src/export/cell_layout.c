@@ -359,7 +359,7 @@ static bool resize(Sheet *s, WrError *err)
     return made != NULL;
 }
 
-WrField *wr_export_build_layout(WrExportJob *job, bool *good, WrError *err)
+WrField *wr_export_build_table(WrExportJob *job, bool *good, WrError *err)
 {
     const WrExportOptions *o = &job->options;
     if (o->lay == WR_LAY_PLAIN && o->repeat_u <= 1 && o->repeat_v <= 1 && o->resize_w == 0 &&

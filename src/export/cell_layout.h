@@ -14,7 +14,7 @@ typedef struct WrText WrText;
 /* Builds the table that the job's options request; stores the cell's size in the options and the copies in the
    job. A formula's heights are sampled into it. NULL with *good unchanged if nothing is requested; NULL and an
    error on failure. */
-WrField *wr_export_build_layout(WrExportJob *job, bool *good, WrError *err);
+WrField *wr_export_build_table(WrExportJob *job, bool *good, WrError *err);
 
 /* Seam continuity of the job's cell in its arrangement. */
 WrCertificate wr_export_certify_seam(const WrExportJob *job);

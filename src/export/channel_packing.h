@@ -2,7 +2,7 @@
    chosen contents, each from 0 to 1. Used in rows of wr_export_kinds.
    Private to this module. */
 #pragma once
-#include "export/options.h"
+#include "export/option_parsers.h"
 
 WrExportSet wr_export_set_red, wr_export_set_green, wr_export_set_blue, wr_export_set_alpha;
 

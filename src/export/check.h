@@ -20,7 +20,7 @@
 #pragma once
 #include "base/enum_rows.h"
 #include "field/seam_check.h"
-#include "image/coding.h"
+#include "image/normal_encoding.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -6,7 +6,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "export/job.h"
-#include "export/picture.h"
+#include "export/preview.h"
 #include "image/image.h"
 #include "image/caption.h"
 
@@ -71,7 +71,7 @@ static void span(int i, int n, int texels, int *from, int *to)
     if (*to <= *from) *to = *from + 1;
 }
 
-static void put_pixel(const WrExportPicture *p, const int x[2], const int y[2], uint8_t out[3])
+static void put_pixel(const WrExportPreview *p, const int x[2], const int y[2], uint8_t out[3])
 {
     int64_t sum[3] = { 0, 0, 0 };
     const int64_t count = (int64_t)(x[1] - x[0]) * (y[1] - y[0]);
@@ -104,7 +104,7 @@ static void put_name(WrContact *c, const char *name, int left, int top)
     wr_free(grey);
 }
 
-void wr_contact_add(WrContact *c, const char *name, const WrExportPicture *picture)
+void wr_contact_add(WrContact *c, const char *name, const WrExportPreview *picture)
 {
     const int w = side(picture->width, picture->height, c->tile);
     const int h = side(picture->height, picture->width, c->tile);
@@ -203,12 +203,12 @@ bool wr_export_contact_write(WrExportJob *job, const char *path, WrError *err)
     bool good = contact != NULL;
     for (int i = 0; i < count && good; i++) {
         WrProgressPart share;
-        WrExportPicture picture;
+        WrExportPreview picture;
         const WrProgress *whole = wr_progress_enter(&share, (double)i / count, (i + 1.0) / count);
-        good = wr_export_picture_like(job, kinds[i], &picture, err) &&
+        good = wr_export_preview_like(job, kinds[i], &picture, err) &&
                (!wr_progress_stopped() || wr_fail(err, "cancelled"));
         if (good) wr_contact_add(contact, kinds[i]->name, &picture);
-        wr_export_picture_fini(&picture);
+        wr_export_preview_fini(&picture);
         wr_progress_set(whole);
     }
     if (good) {

@@ -5,7 +5,7 @@
 
 typedef struct WrError WrError;
 typedef struct WrExportOptions WrExportOptions;
-typedef struct WrExportPicture WrExportPicture;
+typedef struct WrExportPreview WrExportPreview;
 
 typedef struct WrContact WrContact;
 
@@ -14,7 +14,7 @@ typedef struct WrContact WrContact;
 WrContact *wr_contact_new(const char *path, int count, int tile, WrError *err);
 void wr_contact_free(WrContact *contact); /* NULL is fine */
 /* Adds the next map, averaged if it is larger than its tile. Names are omitted if no font is installed. */
-void wr_contact_add(WrContact *contact, const char *name, const WrExportPicture *picture);
+void wr_contact_add(WrContact *contact, const char *name, const WrExportPreview *picture);
 /* Writes the file atomically. */
 bool wr_contact_write(WrContact *contact, WrError *err);
 

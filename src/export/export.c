@@ -10,7 +10,7 @@
 #include "document/object_tables.h"
 #include "export/contact_sheet.h"
 #include "export/job.h"
-#include "export/picture.h"
+#include "export/preview.h"
 #include "export/mip_files.h"
 #include "export/cell_layout.h"
 #include "field/analytic.h"
@@ -155,7 +155,7 @@ static bool settle_options(const WrExportKind *kind, int channels, const WrScene
         return wr_fail(err, "%s: %s files end in .%s", path, kind->name, kind->ending);
     if (kind->on_surface && !kind->make && !wr_export_object_check(scene, err)) return false;
     if (kind->write) return true; /* it handles the depth itself */
-    if (wr_sidecar_takes(path)) {
+    if (wr_is_raw_path(path)) {
         if (!settle_numbers(kind, path, options, err)) return false;
     } else if (options->depth == 0) {
         WrPixelType type;
@@ -164,7 +164,7 @@ static bool settle_options(const WrExportKind *kind, int channels, const WrScene
     }
     if (options->depth == 16 && strcmp(wr_path_ending(path, ending), "exr") == 0)
         options->half = true, options->depth = 32;
-    if (channels > 4 && wr_sidecar_takes(path))
+    if (channels > 4 && wr_is_raw_path(path))
         return wr_fail(err, "%s: %d channels: files of numbers hold up to 4", path, channels);
     if (channels > 4 && options->depth != 32)
         return wr_fail(err,
@@ -175,7 +175,7 @@ static bool settle_options(const WrExportKind *kind, int channels, const WrScene
                        path);
     if (options->depth != 8 && options->depth != 16 && options->depth != 32)
         return wr_fail(err, "depth %d: must be 8, 16 or 32", options->depth);
-    if (!wr_sidecar_takes(path) &&
+    if (!wr_is_raw_path(path) &&
         !wr_image_can_write(path, wr_export_pixels(options->depth), channels, true, err))
         return false;
     if (options->dither && options->depth != 8)
@@ -266,7 +266,7 @@ static bool write_one(WrExportJob *job, const char *path, WrError *err)
                                     .depth = job->options.depth,
                                     .half = job->options.half };
     job->report.seam = wr_export_certify_seam(job);
-    return job->picture       ? wr_export_fill_picture(job, err)
+    return job->picture       ? wr_export_fill_preview(job, err)
            : job->kind->write ? job->kind->write(job, path, err)
                               : wr_export_write(job, path, err);
 }
@@ -326,13 +326,13 @@ static bool run_job(WrExportJob *job, const char *path, WrError *err)
     bool good = settle_options(job->kind, job->channels, job->scene, path, &job->options, err);
     if (!good) return false;
     settle_axes(job->kind, job->options.axes);
-    job->numbers = wr_sidecar_takes(path);
+    job->numbers = wr_is_raw_path(path);
     job->sidecar = job->options.sidecar == WR_EXPORT_SIDECAR_ON ||
                    (job->options.sidecar == WR_EXPORT_SIDECAR_LEFT_OUT && job->numbers);
     job->analytic = job->scene->analytic.kind != WR_ANALYTIC_OFF;
     set_grid(job);
     job->cell = job->field;
-    WrField *sheet = wr_export_build_layout(job, &good, err);
+    WrField *sheet = wr_export_build_table(job, &good, err);
     if (sheet) job->field = sheet, job->analytic = false;
     good =
         good && (!job->picture && (job->sidecar || job->options.mips) ? write_files(job, path, err)
@@ -383,11 +383,11 @@ static const char *picture_path(WrExportJob *job)
     return job->kind->floats ? "x.exr" : "x.png";
 }
 
-bool wr_export_picture(const WrExportKind *kind, const WrDocument *document,
-                       const WrExportOptions *options, WrPool *pool, WrExportPicture *picture,
+bool wr_export_preview(const WrExportKind *kind, const WrDocument *document,
+                       const WrExportOptions *options, WrPool *pool, WrExportPreview *picture,
                        WrError *err)
 {
-    *picture = (WrExportPicture){ 0 };
+    *picture = (WrExportPreview){ 0 };
     if (kind->write) return wr_fail(err, "%s: no picture of the table", kind->label);
     WrExportJob job = { .kind = kind, .options = *options, .pool = pool, .picture = picture };
     bool ok = run_on(&job, document, picture_path(&job), err);
@@ -395,10 +395,10 @@ bool wr_export_picture(const WrExportKind *kind, const WrDocument *document,
     return ok;
 }
 
-bool wr_export_picture_like(const WrExportJob *like, const WrExportKind *kind,
-                            WrExportPicture *picture, WrError *err)
+bool wr_export_preview_like(const WrExportJob *like, const WrExportKind *kind,
+                            WrExportPreview *picture, WrError *err)
 {
-    *picture = (WrExportPicture){ 0 };
+    *picture = (WrExportPreview){ 0 };
     WrExportJob job = { .kind = kind,
                         .field = like->field,
                         .scene = like->scene,

@@ -6,7 +6,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "export/job.h"
-#include "export/picture.h"
+#include "export/preview.h"
 #include "scene/scene.h"
 #include "surface/surface.h"
 #include "surface/triangles.h"
@@ -282,18 +282,18 @@ static bool encode(Source *source, int height, bool data, Map *map, WrError *err
 static bool add_map(Glb *glb, const char *kind, int which, const double repeat[2], WrError *err)
 {
     WrExportJob job = *glb->job;
-    WrExportPicture picture;
+    WrExportPreview picture;
     job.options.depth = 8;
     if (which == NORMAL) { /* slopes are those of one cell as it lies on the surface, on average */
         job.options.cell_w = glb->model.per_u / fabs(repeat[0]);
         job.options.cell_h = glb->model.per_v / fabs(repeat[1]);
     }
-    bool good = wr_export_picture_like(&job, wr_export_find(kind), &picture, err);
+    bool good = wr_export_preview_like(&job, wr_export_find(kind), &picture, err);
     Source source = { picture.width, picture.rgb, NULL };
     Map *map = &glb->maps[which];
     good = good && encode(&source, picture.height, true, map, err);
     memcpy(map->repeat, repeat, sizeof map->repeat);
-    wr_export_picture_fini(&picture);
+    wr_export_preview_fini(&picture);
     return good;
 }
 

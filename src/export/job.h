@@ -27,7 +27,7 @@ struct WrExportJob {
     int width, height, channels;
     char channel_names[WR_EXPORT_CHANNELS][WR_EXPORT_NAME]; /* for kinds that compute them */
     float *map; /* [height][width][channels] for kinds that compute it as a whole */
-    struct WrExportPicture *picture; /* output if no file is written; NULL: a file */
+    struct WrExportPreview *picture; /* output if no file is written; NULL: a file */
     bool numbers;                    /* a raw file (write.c) */
     bool sidecar;                    /* a sidecar is written beside the file */
     bool analytic;                   /* F is the scene's formula, not the table */
@@ -60,12 +60,12 @@ void wr_export_run(WrExportJob *job, int y, int rows, WrExportPiece piece, void 
 bool wr_export_write(WrExportJob *job, const char *path, WrError *err);
 WrPixelType wr_export_pixels(int depth);
 
-/* picture.c: fills a picture instead of writing a file. */
-bool wr_export_fill_picture(WrExportJob *job, WrError *err);
-/* As wr_export_picture, for another kind, with that job's document and options. */
-struct WrExportPicture;
-bool wr_export_picture_like(const WrExportJob *job, const WrExportKind *kind,
-                            struct WrExportPicture *picture, WrError *err);
+/* preview.c: fills a picture instead of writing a file. */
+bool wr_export_fill_preview(WrExportJob *job, WrError *err);
+/* As wr_export_preview, for another kind, with that job's document and options. */
+struct WrExportPreview;
+bool wr_export_preview_like(const WrExportJob *job, const WrExportKind *kind,
+                            struct WrExportPreview *picture, WrError *err);
 bool wr_export_contact_write(WrExportJob *job, const char *path, WrError *err);
 
 /* Smallest and largest number over all pieces, computed by several threads. */

@@ -5,7 +5,7 @@
 #include "export/contact_sheet.h"
 #include "export/job.h"
 #include "export/line_drawing.h"
-#include "export/options.h"
+#include "export/option_parsers.h"
 #include "export/channel_packing.h"
 #include "field/scheme.h"
 

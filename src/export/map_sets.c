@@ -9,7 +9,7 @@
 #include "base/text.h"
 #include "export/contact_sheet.h"
 #include "export/export.h"
-#include "export/picture.h"
+#include "export/preview.h"
 #include "image/image.h"
 #include "system/path.h"
 
@@ -26,7 +26,7 @@
 #define BLANKS " \t\r"
 
 /* Heights are floats for programs that read and scale floats; otherwise 16 bits. */
-const WrSetRow wr_set_rows[] = {
+const WrMapSetRow wr_map_set_rows[] = {
     { "blender",
       "heights as floats, normals, occlusion, roughness, named as Node Wrangler looks for them",
       "height *_displacement.exr depth=32\n"
@@ -76,16 +76,16 @@ const WrSetRow wr_set_rows[] = {
     { "povray", "a height field of 16 bits, which is a bump map as well",
       "height *_hf.png depth=16\n" },
 };
-_Static_assert(WR_LENGTH(wr_set_rows) == WR_SET_ROWS, "map_sets.h counts them");
+_Static_assert(WR_LENGTH(wr_map_set_rows) == WR_MAP_SET_ROWS, "map_sets.h counts them");
 
-void wr_set_free(WrSet *set)
+void wr_map_set_free(WrMapSet *set)
 {
     if (!set) return;
     for (int i = 0; i < set->maps.count; i++) {
-        WrSetMap *map = &set->maps.data[i];
+        WrMapSetEntry *map = &set->maps.data[i];
         wr_free(map->before);
         wr_free(map->after);
-        for (int k = 0; k < WR_SET_SETTINGS; k++) wr_free(map->settings[k]);
+        for (int k = 0; k < WR_MAP_SET_SETTINGS_MAX; k++) wr_free(map->settings[k]);
     }
     wr_array_free(&set->maps);
     wr_free(set->name);
@@ -104,7 +104,7 @@ static const char *line_word(const void *ctx, int i)
                                        : NULL;
 }
 
-static bool find_kind(const char *word, WrSetMap *map, WrError *err)
+static bool find_kind(const char *word, WrMapSetEntry *map, WrError *err)
 {
     map->kind = wr_export_find(word);
     if (map->kind) return true;
@@ -114,7 +114,7 @@ static bool find_kind(const char *word, WrSetMap *map, WrError *err)
 }
 
 /* Parses "T_*_N.png": a name without a folder, not hidden. */
-static bool take_file(const char *word, WrSetMap *map, WrError *err)
+static bool take_file(const char *word, WrMapSetEntry *map, WrError *err)
 {
     const char *star = strchr(word, '*');
     WrPixelType type;
@@ -136,14 +136,14 @@ static bool take_file(const char *word, WrSetMap *map, WrError *err)
 
 /* The setting is tried on default options, so that an error is reported when the set is read, with its line, and not after
    half of its files are written. */
-static bool take_setting(const char *word, int index, WrSetMap *map, WrError *err)
+static bool take_setting(const char *word, int index, WrMapSetEntry *map, WrError *err)
 {
     WrExportOptions options = wr_export_default();
     const char *equals = strchr(word, '=');
     if (!equals || equals == word)
         return wr_fail(err, "'%.60s': must be a setting, name=value", word);
-    if (index >= WR_SET_SETTINGS)
-        return wr_fail(err, "more than %d settings of one map", WR_SET_SETTINGS);
+    if (index >= WR_MAP_SET_SETTINGS_MAX)
+        return wr_fail(err, "more than %d settings of one map", WR_MAP_SET_SETTINGS_MAX);
     char *name = wr_strndup(word, (size_t)(equals - word));
     for (int i = 0; i < index; i++)
         if (strncmp(map->settings[i], word, strlen(name) + 1) == 0) {
@@ -157,11 +157,11 @@ static bool take_setting(const char *word, int index, WrSetMap *map, WrError *er
     return good;
 }
 
-static bool check_file(const WrSetMap *map, WrError *err)
+static bool check_file(const WrMapSetEntry *map, WrError *err)
 {
     WrExportOptions options = wr_export_default();
     if (map->kind->write) return true;
-    for (int i = 0; i < WR_SET_SETTINGS && map->settings[i]; i++)
+    for (int i = 0; i < WR_MAP_SET_SETTINGS_MAX && map->settings[i]; i++)
         if (strncmp(map->settings[i], "depth=", 6) == 0)
             wr_export_option(map->kind, &options, "depth", map->settings[i] + 6, err);
     const int depth = map->kind->floats ? 32 : options.depth;
@@ -174,18 +174,19 @@ static bool check_file(const WrSetMap *map, WrError *err)
     return good;
 }
 
-static bool is_same_file(const WrSetMap *a, const WrSetMap *b)
+static bool is_same_file(const WrMapSetEntry *a, const WrMapSetEntry *b)
 {
     return strcmp(a->before, b->before) == 0 && strcmp(a->after, b->after) == 0;
 }
 
 /* Parses a map line. words: [count], the first is not "about". The map is added first, so that it is freed with
    the set. */
-static bool take_map(WrSet *set, char **words, int count, WrError *err)
+static bool take_map(WrMapSet *set, char **words, int count, WrError *err)
 {
-    if (set->maps.count == WR_SET_MAPS) return wr_fail(err, "more than %d maps", WR_SET_MAPS);
-    wr_array_push(&set->maps, (WrSetMap){ 0 });
-    WrSetMap *map = &set->maps.data[set->maps.count - 1];
+    if (set->maps.count == WR_MAP_SET_ENTRIES_MAX)
+        return wr_fail(err, "more than %d maps", WR_MAP_SET_ENTRIES_MAX);
+    wr_array_push(&set->maps, (WrMapSetEntry){ 0 });
+    WrMapSetEntry *map = &set->maps.data[set->maps.count - 1];
     if (!find_kind(words[0], map, err)) return false;
     if (count < 2)
         return wr_fail(err, "%s: needs a file's name, such as T_*_N.png", map->kind->name);
@@ -199,9 +200,9 @@ static bool take_map(WrSet *set, char **words, int count, WrError *err)
 }
 
 /* Parses a line without its end; modifies it. */
-static bool take_line(WrSet *set, char *line, WrError *err)
+static bool take_line(WrMapSet *set, char *line, WrError *err)
 {
-    char *words[WR_SET_SETTINGS + 4];
+    char *words[WR_MAP_SET_SETTINGS_MAX + 4];
     int count = 0;
     for (const char *c = line; *c; c++)
         if (((unsigned char)*c < ' ' && !strchr(BLANKS, *c)) || *c == 0x7f)
@@ -216,7 +217,7 @@ static bool take_line(WrSet *set, char *line, WrError *err)
     }
     while (*line) {
         if (count == (int)WR_LENGTH(words))
-            return wr_fail(err, "more than %d settings of one map", WR_SET_SETTINGS);
+            return wr_fail(err, "more than %d settings of one map", WR_MAP_SET_SETTINGS_MAX);
         words[count++] = line;
         line += strcspn(line, BLANKS);
         if (*line) *line++ = '\0';
@@ -225,9 +226,9 @@ static bool take_line(WrSet *set, char *line, WrError *err)
     return take_map(set, words, count, err);
 }
 
-WrSet *wr_set_parse(const char *name, const char *text, const char *where, WrError *err)
+WrMapSet *wr_map_set_parse(const char *name, const char *text, const char *where, WrError *err)
 {
-    WrSet *set = wr_alloc(1, sizeof *set);
+    WrMapSet *set = wr_alloc(1, sizeof *set);
     int number = 0;
     bool good = true;
     set->name = wr_strdup(name);
@@ -245,7 +246,7 @@ WrSet *wr_set_parse(const char *name, const char *text, const char *where, WrErr
         good = wr_fail(err, "%s: no map in it: a line such as \"normal+y *_normal.png\" is one",
                        where);
     if (good) return set;
-    wr_set_free(set);
+    wr_map_set_free(set);
     return NULL;
 }
 
@@ -255,7 +256,7 @@ static bool is_name(const char *name, size_t length)
 {
     const size_t letters = strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                         "0123456789-_+");
-    return length > 0 && length <= WR_SET_NAME && letters >= length;
+    return length > 0 && length <= WR_MAP_SET_NAME_MAX && letters >= length;
 }
 
 /* NULL: no such file. Caller frees. A user's file replaces a built-in set of the same name. */
@@ -271,7 +272,7 @@ static char *own_path(const char *name)
     return NULL;
 }
 
-static WrSet *read_own(const char *name, const char *path, WrError *err)
+static WrMapSet *read_own(const char *name, const char *path, WrError *err)
 {
     char *text;
     size_t length;
@@ -279,23 +280,23 @@ static WrSet *read_own(const char *name, const char *path, WrError *err)
     int fd = wr_file_open(path, UINT64_MAX, &size, err);
     if (fd < 0) return NULL;
     wr_fd_close(fd);
-    if (size > WR_SET_FILE_MAX) {
+    if (size > WR_MAP_SET_FILE_MAX) {
         wr_fail(err, "%s: %llu bytes: a set has at most %d", path, (unsigned long long)size,
-                WR_SET_FILE_MAX);
+                WR_MAP_SET_FILE_MAX);
         return NULL;
     }
-    if (!wr_file_read(path, WR_SET_FILE_MAX, &text, &length, err)) return NULL;
-    WrSet *set = NULL;
-    if (strlen(text) == length) set = wr_set_parse(name, text, path, err);
+    if (!wr_file_read(path, WR_MAP_SET_FILE_MAX, &text, &length, err)) return NULL;
+    WrMapSet *set = NULL;
+    if (strlen(text) == length) set = wr_map_set_parse(name, text, path, err);
     else wr_fail(err, "%s: a NUL byte: a set is plain text", path);
     if (set) set->own = true;
     wr_free(text);
     return set;
 }
 
-static WrSet *read_row(const WrSetRow *row, WrError *err)
+static WrMapSet *read_row(const WrMapSetRow *row, WrError *err)
 {
-    WrSet *set = wr_set_parse(row->name, row->maps, row->name, err);
+    WrMapSet *set = wr_map_set_parse(row->name, row->maps, row->name, err);
     if (!set) return NULL;
     wr_free(set->about);
     set->about = wr_strdup(row->about);
@@ -304,13 +305,13 @@ static WrSet *read_row(const WrSetRow *row, WrError *err)
 
 static const char *set_name(const void *ctx, int i)
 {
-    const WrSetNames *names = ctx;
+    const WrMapSetNames *names = ctx;
     return i < names->names.count ? names->names.data[i] : NULL;
 }
 
 static void fail_unknown(const char *name, WrError *err)
 {
-    WrSetNames names = wr_set_names();
+    WrMapSetNames names = wr_map_set_names();
     char *folder = wr_config_path("sets");
     WrText what = { 0 };
     wr_text_addf(&what, "%.60s: unknown set, and there is no %.60s" SET_ENDING " in %.160s", name,
@@ -318,19 +319,19 @@ static void fail_unknown(const char *name, WrError *err)
     wr_fail_word(err, wr_text_get(&what), name, set_name, &names);
     wr_text_fini(&what);
     wr_free(folder);
-    wr_set_names_free(&names);
+    wr_map_set_names_free(&names);
 }
 
-WrSet *wr_set_find(const char *name, WrError *err)
+WrMapSet *wr_map_set_find(const char *name, WrError *err)
 {
     char *path = own_path(name);
     if (path) {
-        WrSet *set = read_own(name, path, err);
+        WrMapSet *set = read_own(name, path, err);
         wr_free(path);
         return set;
     }
-    for (int i = 0; i < WR_SET_ROWS; i++)
-        if (strcmp(wr_set_rows[i].name, name) == 0) return read_row(&wr_set_rows[i], err);
+    for (int i = 0; i < WR_MAP_SET_ROWS; i++)
+        if (strcmp(wr_map_set_rows[i].name, name) == 0) return read_row(&wr_map_set_rows[i], err);
     fail_unknown(name, err);
     return NULL;
 }
@@ -342,20 +343,20 @@ static int by_name(const void *a, const void *b)
 
 static bool is_row(const char *name)
 {
-    for (int i = 0; i < WR_SET_ROWS; i++)
-        if (strcmp(wr_set_rows[i].name, name) == 0) return true;
+    for (int i = 0; i < WR_MAP_SET_ROWS; i++)
+        if (strcmp(wr_map_set_rows[i].name, name) == 0) return true;
     return false;
 }
 
-WrSetNames wr_set_names(void)
+WrMapSetNames wr_map_set_names(void)
 {
-    WrSetNames list = { 0 };
-    for (int i = 0; i < WR_SET_ROWS; i++)
-        wr_array_push(&list.names, wr_strdup(wr_set_rows[i].name));
+    WrMapSetNames list = { 0 };
+    for (int i = 0; i < WR_MAP_SET_ROWS; i++)
+        wr_array_push(&list.names, wr_strdup(wr_map_set_rows[i].name));
     char *path = wr_config_path("sets");
     WrFolder *folder = path ? wr_folder_open(path) : NULL;
     const char *file;
-    while (folder && list.names.count < WR_SET_ROWS + WR_SETS_MAX &&
+    while (folder && list.names.count < WR_MAP_SET_ROWS + WR_MAP_SETS_MAX &&
            (file = wr_folder_next(folder))) {
         const size_t length = strlen(file), ending = sizeof SET_ENDING - 1;
         if (length <= ending || strcmp(file + length - ending, SET_ENDING) != 0) continue;
@@ -365,12 +366,12 @@ WrSetNames wr_set_names(void)
     }
     wr_folder_close(folder);
     wr_free(path);
-    qsort(list.names.data + WR_SET_ROWS, (size_t)(list.names.count - WR_SET_ROWS), sizeof(char *),
-          by_name);
+    qsort(list.names.data + WR_MAP_SET_ROWS, (size_t)(list.names.count - WR_MAP_SET_ROWS),
+          sizeof(char *), by_name);
     return list;
 }
 
-void wr_set_names_free(WrSetNames *list)
+void wr_map_set_names_free(WrMapSetNames *list)
 {
     for (int i = 0; i < list->names.count; i++) wr_free(list->names.data[i]);
     wr_array_free(&list->names);
@@ -403,26 +404,27 @@ static bool set_word(const WrExportKind *kind, WrExportOptions *options, const c
 }
 
 /* Applies the set's settings, then the user's, which have priority. taken: [word_count]. */
-static bool settle_map(const WrSetOrder *order, const WrSetMap *map, WrExportOptions *options,
-                       bool *taken, WrError *err)
+static bool settle_map(const WrMapSetRequest *order, const WrMapSetEntry *map,
+                       WrExportOptions *options, bool *taken, WrError *err)
 {
     bool own;
     *options = wr_export_default();
-    for (int i = 0; i < WR_SET_SETTINGS && map->settings[i]; i++)
+    for (int i = 0; i < WR_MAP_SET_SETTINGS_MAX && map->settings[i]; i++)
         if (!set_word(map->kind, options, map->settings[i], &own, err)) return false;
     for (int i = 0; i < order->word_count; i++)
         if (!set_word(map->kind, options, order->words[i], &taken[i], err)) return false;
     return true;
 }
 
-bool wr_set_options(const WrSetOrder *order, int map, WrExportOptions *options, WrError *err)
+bool wr_map_set_options(const WrMapSetRequest *order, int map, WrExportOptions *options,
+                        WrError *err)
 {
-    bool taken[WR_SET_WORDS];
+    bool taken[WR_MAP_SET_WORDS_MAX];
     return settle_map(order, &order->set->maps.data[map], options, taken, err);
 }
 
 /* The contact sheet requested by the words; NULL: none. */
-static const char *contact_of(const WrSetOrder *order)
+static const char *contact_of(const WrMapSetRequest *order)
 {
     for (int i = 0; i < order->word_count; i++)
         if (strncmp(order->words[i], CONTACT, sizeof CONTACT - 1) == 0)
@@ -430,16 +432,18 @@ static const char *contact_of(const WrSetOrder *order)
     return NULL;
 }
 
-static bool settle(const WrSetOrder *order, WrExportOptions options[WR_SET_MAPS], WrError *err)
+static bool settle(const WrMapSetRequest *order, WrExportOptions options[WR_MAP_SET_ENTRIES_MAX],
+                   WrError *err)
 {
-    bool taken[WR_SET_WORDS] = { false };
+    bool taken[WR_MAP_SET_WORDS_MAX] = { false };
     const char *contact = contact_of(order);
     if (contact && (!*contact || *contact == '.' || strchr(contact, '/')))
         return wr_fail(
             err, CONTACT "%.80s: must be a picture's name, such as contact.png, without a folder",
             contact);
-    if (order->word_count > WR_SET_WORDS)
-        return wr_fail(err, "%d options: a set has up to %d", order->word_count, WR_SET_WORDS);
+    if (order->word_count > WR_MAP_SET_WORDS_MAX)
+        return wr_fail(err, "%d options: a set has up to %d", order->word_count,
+                       WR_MAP_SET_WORDS_MAX);
     for (int i = 0; i < order->set->maps.count; i++)
         if (!settle_map(order, &order->set->maps.data[i], &options[i], taken, err)) return false;
     for (int i = 0; i < order->word_count; i++)
@@ -451,16 +455,16 @@ static bool settle(const WrSetOrder *order, WrExportOptions options[WR_SET_MAPS]
 
 /* ---- files ---- */
 
-void wr_set_file(const WrSetOrder *order, int map, WrText *path)
+void wr_map_set_file(const WrMapSetRequest *order, int map, WrText *path)
 {
-    const WrSetMap *row = &order->set->maps.data[map];
+    const WrMapSetEntry *row = &order->set->maps.data[map];
     const size_t length = strlen(order->folder);
     const bool slash = length > 0 && order->folder[length - 1] == '/';
     wr_text_addf(path, "%s%s%s%s%s", order->folder, slash ? "" : "/", row->before, order->name,
                  row->after);
 }
 
-static bool check_names(const WrSetOrder *order, WrError *err)
+static bool check_names(const WrMapSetRequest *order, WrError *err)
 {
     bool plain = *order->name != '\0';
     for (const char *c = order->name; *c; c++)
@@ -477,12 +481,12 @@ static bool check_names(const WrSetOrder *order, WrError *err)
     return true;
 }
 
-static bool write_map(const WrSetOrder *order, int map, const WrExportOptions *options,
+static bool write_map(const WrMapSetRequest *order, int map, const WrExportOptions *options,
                       const WrDocument *document, WrPool *pool, WrText *list, WrError *err)
 {
     WrText path = { 0 };
     WrExportReport report;
-    wr_set_file(order, map, &path);
+    wr_map_set_file(order, map, &path);
     bool good = wr_export(order->set->maps.data[map].kind, document, options, pool,
                           wr_text_get(&path), &report, err);
     if (good) {
@@ -494,7 +498,7 @@ static bool write_map(const WrSetOrder *order, int map, const WrExportOptions *o
     return good;
 }
 
-static bool write_maps(const WrSetOrder *order, const WrExportOptions *options,
+static bool write_maps(const WrMapSetRequest *order, const WrExportOptions *options,
                        const WrDocument *document, WrPool *pool, WrText *list, WrError *err)
 {
     const int count = order->set->maps.count;
@@ -511,7 +515,7 @@ static bool write_maps(const WrSetOrder *order, const WrExportOptions *options,
 /* ---- the contact sheet ---- */
 
 /* Indices of the maps that are pictures of the table, into `shown`; returns their number. */
-static int shown_of(const WrSet *set, int shown[WR_SET_MAPS])
+static int shown_of(const WrMapSet *set, int shown[WR_MAP_SET_ENTRIES_MAX])
 {
     int count = 0;
     for (int i = 0; i < set->maps.count; i++)
@@ -519,27 +523,27 @@ static int shown_of(const WrSet *set, int shown[WR_SET_MAPS])
     return count;
 }
 
-static bool add_map(WrContact *contact, const WrSetOrder *order, int map,
+static bool add_map(WrContact *contact, const WrMapSetRequest *order, int map,
                     const WrExportOptions *options, const WrDocument *document, WrPool *pool,
                     WrError *err)
 {
-    const WrSetMap *row = &order->set->maps.data[map];
+    const WrMapSetEntry *row = &order->set->maps.data[map];
     WrText name = { 0 };
-    WrExportPicture picture;
-    const bool good = wr_export_picture(row->kind, document, options, pool, &picture, err);
+    WrExportPreview picture;
+    const bool good = wr_export_preview(row->kind, document, options, pool, &picture, err);
     wr_text_addf(&name, "%s%s%s", row->before, order->name, row->after);
     if (good) wr_contact_add(contact, wr_text_get(&name), &picture);
-    wr_export_picture_fini(&picture);
+    wr_export_preview_fini(&picture);
     wr_text_fini(&name);
     return good;
 }
 
-static bool is_map(const WrSetOrder *order, const char *name)
+static bool is_map(const WrMapSetRequest *order, const char *name)
 {
     WrText own = { 0 };
     bool same = false;
     for (int i = 0; i < order->set->maps.count && !same; i++) {
-        const WrSetMap *row = &order->set->maps.data[i];
+        const WrMapSetEntry *row = &order->set->maps.data[i];
         wr_text_clear(&own);
         wr_text_addf(&own, "%s%s%s", row->before, order->name, row->after);
         same = strcmp(wr_text_get(&own), name) == 0;
@@ -548,10 +552,10 @@ static bool is_map(const WrSetOrder *order, const char *name)
     return same;
 }
 
-static bool write_contact(const WrSetOrder *order, const WrExportOptions *options,
+static bool write_contact(const WrMapSetRequest *order, const WrExportOptions *options,
                           const WrDocument *document, WrPool *pool, WrText *list, WrError *err)
 {
-    int shown[WR_SET_MAPS];
+    int shown[WR_MAP_SET_ENTRIES_MAX];
     const int count = shown_of(order->set, shown);
     if (count == 0)
         return wr_fail(err, CONTACT "%.80s: no map of the set %s is a picture of the table",
@@ -571,10 +575,10 @@ static bool write_contact(const WrSetOrder *order, const WrExportOptions *option
     return good;
 }
 
-bool wr_export_set(const WrSetOrder *order, const WrDocument *document, WrPool *pool, WrText *list,
-                   WrError *err)
+bool wr_export_map_set(const WrMapSetRequest *order, const WrDocument *document, WrPool *pool,
+                       WrText *list, WrError *err)
 {
-    WrExportOptions options[WR_SET_MAPS];
+    WrExportOptions options[WR_MAP_SET_ENTRIES_MAX];
     const size_t before = list->length;
     if (!check_names(order, err) || !settle(order, options, err)) return false;
     /* All files of a set are renamed together at the end: after an error or a crash no mixture of old and new maps remains. */
@@ -590,7 +594,7 @@ bool wr_export_set(const WrSetOrder *order, const WrDocument *document, WrPool *
     return good;
 }
 
-void wr_set_cell_name(const char *path, WrText *name)
+void wr_map_set_cell_name(const char *path, WrText *name)
 {
     const char *file = path && *path ? path : "wrinkle", *slash = strrchr(file, '/');
     const char *base = slash ? slash + 1 : file, *dot = strrchr(base, '.');

@@ -1,5 +1,5 @@
 /* map_sets.h - sets of maps of one cell for other programs, with the file names that they expect. A set is text,
-   one map a line; those of known programs are rows of wr_set_rows, the user's are files NAME.set in the folder
+   one map a line; those of known programs are rows of wr_map_set_rows, the user's are files NAME.set in the folder
    `sets` of the user's settings ($XDG_CONFIG_HOME/wrinkle, base/file.h):
 
      # a comment
@@ -22,63 +22,64 @@ typedef struct WrExportOptions WrExportOptions;
 typedef struct WrPool WrPool;
 typedef struct WrText WrText;
 
-#define WR_SET_MAPS 32        /* maximum maps of a set */
-#define WR_SET_SETTINGS 8     /* maximum settings of a map */
-#define WR_SET_WORDS 16       /* maximum words of the user */
-#define WR_SET_FILE_MAX 65536 /* maximum bytes of a set's file */
-#define WR_SET_NAME 40        /* maximum letters of a set's name */
-#define WR_SETS_MAX 256       /* maximum files of the folder that are read */
+#define WR_MAP_SET_ENTRIES_MAX 32 /* maximum maps of a set */
+#define WR_MAP_SET_SETTINGS_MAX 8 /* maximum settings of a map */
+#define WR_MAP_SET_WORDS_MAX 16   /* maximum words of the user */
+#define WR_MAP_SET_FILE_MAX 65536 /* maximum bytes of a set's file */
+#define WR_MAP_SET_NAME_MAX 40    /* maximum letters of a set's name */
+#define WR_MAP_SETS_MAX 256       /* maximum files of the folder that are read */
 
-typedef struct WrSetMap {
+typedef struct WrMapSetEntry {
     const WrExportKind *kind;
     /* parts of the file's name around the cell's name; owned; after includes the extension */
     char *before, *after;
-    char *settings[WR_SET_SETTINGS]; /* "depth=8"; owned; NULL ends the list */
-} WrSetMap;
+    char *settings[WR_MAP_SET_SETTINGS_MAX]; /* "depth=8"; owned; NULL ends the list */
+} WrMapSetEntry;
 
-typedef struct WrSet {
+typedef struct WrMapSet {
     char *name, *about; /* owned */
     bool own;           /* defined by the user */
-    WR_ARRAY(WrSetMap) maps;
-} WrSet;
+    WR_ARRAY(WrMapSetEntry) maps;
+} WrMapSet;
 
 /* The sets of known programs. */
-typedef struct WrSetRow {
+typedef struct WrMapSetRow {
     const char *name, *about, *maps;
-} WrSetRow;
-#define WR_SET_ROWS 9
-extern const WrSetRow wr_set_rows[];
+} WrMapSetRow;
+#define WR_MAP_SET_ROWS 9
+extern const WrMapSetRow wr_map_set_rows[];
 
-/* The set of that name; the user's have priority. Owned by the caller (wr_set_free). NULL and an error: there is
+/* The set of that name; the user's have priority. Owned by the caller (wr_map_set_free). NULL and an error: there is
    none, with a list of the existing ones; or its file is invalid, with file and line. */
-WrSet *wr_set_find(const char *name, WrError *err);
-void wr_set_free(WrSet *set); /* NULL is fine */
+WrMapSet *wr_map_set_find(const char *name, WrError *err);
+void wr_map_set_free(WrMapSet *set); /* NULL is fine */
 /* Parses a set from text; errors begin with "where:line: ". */
-WrSet *wr_set_parse(const char *name, const char *text, const char *where, WrError *err);
+WrMapSet *wr_map_set_parse(const char *name, const char *text, const char *where, WrError *err);
 
 /* All names: built-in ones in the table's order, then the user's in theirs. */
-typedef struct WrSetNames {
+typedef struct WrMapSetNames {
     WR_ARRAY(char *) names; /* owned */
-} WrSetNames;
-WrSetNames wr_set_names(void);
-void wr_set_names_free(WrSetNames *names);
+} WrMapSetNames;
+WrMapSetNames wr_map_set_names(void);
+void wr_map_set_names_free(WrMapSetNames *names);
 
 /* Request to write one set. */
-typedef struct WrSetOrder {
-    const WrSet *set;
+typedef struct WrMapSetRequest {
+    const WrMapSet *set;
     const char *folder; /* must exist */
     const char *name;   /* of the cell, used in the files' names: without a folder */
     const char *const *
         words; /* [word_count] "cell=2,1": applied to the maps that have the option; at least one must.
                   "contact=FILE": a contact sheet beside them */
     int word_count;
-} WrSetOrder;
+} WrMapSetRequest;
 
 /* Options of one map: the set's settings, then the words. False and a message: a word that the map's kind
    refuses. */
-bool wr_set_options(const WrSetOrder *order, int map, WrExportOptions *options, WrError *err);
+bool wr_map_set_options(const WrMapSetRequest *order, int map, WrExportOptions *options,
+                        WrError *err);
 /* Path of one map: FOLDER/T_clay_N.png */
-void wr_set_file(const WrSetOrder *order, int map, WrText *path);
+void wr_map_set_file(const WrMapSetRequest *order, int map, WrText *path);
 
 /* Writes all files of a set, or replaces none (base/file.h, wr_file_group_begin): each is written and verified,
    then all are renamed.
@@ -86,7 +87,7 @@ void wr_set_file(const WrSetOrder *order, int map, WrText *path);
    list    list of the written files, one per line
    Errors  those of wr_export; a word that no map of the set accepts; a read-only folder; a cell's name with
            a slash or a control character */
-bool wr_export_set(const WrSetOrder *order, const WrDocument *document, WrPool *pool, WrText *list,
-                   WrError *err);
+bool wr_export_map_set(const WrMapSetRequest *order, const WrDocument *document, WrPool *pool,
+                       WrText *list, WrError *err);
 /* The cell's name from a file's name, without folder and extension; NULL or "": "wrinkle". */
-void wr_set_cell_name(const char *path, WrText *name);
+void wr_map_set_cell_name(const char *path, WrText *name);

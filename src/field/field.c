@@ -107,7 +107,7 @@ static Node *own_node(Counted **slot, int depth)
 
 static Tile *new_tile(void)
 {
-    Tile *tile = wr_slab_take(&tile_slabs);
+    Tile *tile = wr_slab_alloc(&tile_slabs);
     atomic_init(&tile->counted.refs, 1);
     return tile;
 }

@@ -180,7 +180,7 @@ static void unshear(Making *m, const Course *c, int direction, const Line *line)
 {
     const WrHorizon *h = m->horizon;
     const double rate = (double)c->drift / ((double)c->turns * c->along);
-    float *plane = h->slope + (size_t)direction * wr_horizon_plane(h), most = 0;
+    float *plane = h->slope + (size_t)direction * wr_horizon_plane_size(h), most = 0;
     for (int along = 0; along < c->along; along++)
         for (int across = 0; across < c->across; across++) {
             const double at = across - along * rate, low = floor(at);
@@ -305,8 +305,8 @@ bool wr_horizon_make(WrHorizon *horizon, const WrField *field, int directions, d
     Making making = { .horizon = horizon, .sign = sign };
     wr_horizon_drop(horizon);
     *horizon = (WrHorizon){ wr_field_width(field), wr_field_height(field), directions, NULL, 0 };
-    horizon->slope = wr_try_alloc(wr_horizon_plane(horizon) * (size_t)directions, sizeof(float),
-                                  "horizons of the table", err);
+    horizon->slope = wr_try_alloc(wr_horizon_plane_size(horizon) * (size_t)directions,
+                                  sizeof(float), "horizons of the table", err);
     return horizon->slope && make_of(&making, field, pool, err);
 }
 

@@ -46,7 +46,7 @@ typedef struct WrHorizon {
 } WrHorizon;
 
 /* Distance from one direction's plane to the next. */
-static inline size_t wr_horizon_plane(const WrHorizon *h)
+static inline size_t wr_horizon_plane_size(const WrHorizon *h)
 {
     return ((size_t)h->width + 1) * ((size_t)h->height + 1);
 }
@@ -54,8 +54,8 @@ static inline size_t wr_horizon_plane(const WrHorizon *h)
 /* Slope at texel (i, j), also one past the last, in direction k. */
 static inline float wr_horizon_at(const WrHorizon *h, int i, int j, int k)
 {
-    return h
-        ->slope[(size_t)k * wr_horizon_plane(h) + (size_t)j * ((size_t)h->width + 1) + (size_t)i];
+    return h->slope[(size_t)k * wr_horizon_plane_size(h) + (size_t)j * ((size_t)h->width + 1) +
+                    (size_t)i];
 }
 
 /* Heights are first multiplied by `sign`, 1 or -1, for a relief displayed inside out. Lines are closed:

@@ -1,5 +1,5 @@
 /* scheme.h - interpolation schemes: F and its derivatives from table entries, the first axis of the
-   accuracy ladder.
+   accuracy benchmark.
 
    | scheme      | value                | derivative                             | order F, Fu | continuity |
    | nearest     | the texel            | central difference at that texel       | 1, 1        | none       |
@@ -66,7 +66,7 @@ int wr_scheme_find(const char *name);
 void wr_field_sample(const WrField *field, WrScheme scheme, size_t count, const double *u,
                      const double *v, double *f, double *fu, double *fv);
 
-/* The paper's formula to the letter, for the historical rung of the ladder and for tests: four bilinear
+/* The paper's formula to the letter, for the historical rung of the accuracy benchmark and for tests: four bilinear
  * look-ups, FU = (FVAL(U + E, V) - FVAL(U - E, V)) / (2 E) with E = 1/W, FV with 1/H. Equals `central`
  * to rounding, except within 1.5 texels of the ends of a clamped axis, where FVAL is constant outside.
  * Either output may be NULL. */

@@ -7,6 +7,7 @@
 #include "base/pool.h"
 #include "base/progress.h"
 #include "field/field.h"
+#include "generate/terrain.h"
 
 #include <math.h>
 

@@ -3,7 +3,7 @@
    Both only move material: the sum of heights is preserved, to rounding. A flat table is unchanged,
    bit for bit. On clamped axes no material leaves the table. */
 #pragma once
-#include "generate/terrain.h"
+#include "generate/sheet.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -554,7 +554,7 @@ bool wr_normals_integrate(const WrNormals *normals, WrIntegral *how, const WrGen
         w.have[a] = w.want[a] ? wr_try_alloc(count, sizeof *made.z, "a normal map", err) : NULL;
         good = good && w.have[a] && prepare(&w, a, slopes[a], err);
     }
-    good = good && wr_sheet_new(&made, normals->width, normals->height, wrap, err) &&
+    good = good && wr_sheet_init(&made, normals->width, normals->height, wrap, err) &&
            solve(&w, made.z, err) && compare(&w, made.z, how, err);
     for (int a = 0; a < 2; a++) {
         wr_free(w.want[a]);

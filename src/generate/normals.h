@@ -4,8 +4,8 @@
 #pragma once
 #include "base/enum_rows.h"
 #include "generate/fft_plane.h"
-#include "generate/terrain.h"
-#include "image/coding.h"
+#include "generate/sheet.h"
+#include "image/normal_encoding.h"
 
 #include <stdbool.h>
 #include <stdint.h>

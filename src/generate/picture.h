@@ -2,7 +2,7 @@
    Private to this module. */
 #pragma once
 #include "base/enum_rows.h"
-#include "generate/terrain.h"
+#include "generate/sheet.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -361,7 +361,7 @@ bool wr_picture_cut(WrSheet *sheet, int width, int height, const WrGenerateJob *
     WrSheet made = { .z = NULL };
     bool good = steps_of(&steps, sheet, err) && close_axis(&steps, 0, width, false, err) &&
                 close_axis(&steps, 1, height, sheet->wrap[0] == WR_WRAP_PERIODIC, err) &&
-                wr_sheet_new(&made, width, height, sheet->wrap, err) &&
+                wr_sheet_init(&made, width, height, sheet->wrap, err) &&
                 even_out(&steps, &made, job, err);
     steps_fini(&steps);
     if (!good) {
@@ -627,7 +627,7 @@ bool wr_picture_photo(const WrParamValue *values, const WrGenerateJob *job, WrRe
     WrSheet sheet = { .z = NULL };
     WrImage *image = wr_picture_read(&p, "layer", (WrImageRequest){ 0 }, job, err);
     bool good = image && check(&p, image, path, err) &&
-                wr_sheet_new(&sheet, image->width, image->height, wrap, err);
+                wr_sheet_init(&sheet, image->width, image->height, wrap, err);
     if (good) {
         read_light(image, wr_param_whole(&p, "channel"), is_light(&p, image, job), &sheet);
         if (image->replaced > 0)

@@ -9,7 +9,7 @@
 #include "field/ops.h"
 #include "field/select.h"
 #include "generate/generator.h"
-#include "generate/text.h"
+#include "generate/text_relief.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "generate/generator.h"
-#include "generate/text.h"
+#include "generate/text_relief.h"
 #include "generate/tile_builder.h"
 
 #include <string.h>

@@ -4,7 +4,7 @@
 #include "base/progress.h"
 #include "field/field.h"
 #include "generate/pattern.h"
-#include "generate/text.h"
+#include "generate/text_relief.h"
 
 #include <math.h>
 #include <string.h>

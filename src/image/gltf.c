@@ -234,7 +234,7 @@ static json_object *any(json_object *of, const char *name)
 
 /* ---- a material ---- */
 
-static void leave(WrGltfLook *look, const char *what)
+static void leave(WrGltfMaterial *look, const char *what)
 {
     const size_t length = strlen(look->left), more = strlen(what);
     if (strstr(look->left, what) || length + more + 3 > sizeof look->left) return;
@@ -243,7 +243,7 @@ static void leave(WrGltfLook *look, const char *what)
 
 /* The image index of a texture reference; -1 if none, or if its mapping is not supported. */
 static int image_of(const Gltf *file, json_object *material, json_object *reference,
-                    const char *what, WrGltfLook *look)
+                    const char *what, WrGltfMaterial *look)
 {
     char words[96];
     if (!reference) return -1;
@@ -261,7 +261,7 @@ static int image_of(const Gltf *file, json_object *material, json_object *refere
     return -1;
 }
 
-static void leave_others(json_object *material, WrGltfLook *look)
+static void leave_others(json_object *material, WrGltfMaterial *look)
 {
     static const double black[3] = { 0, 0, 0 };
     json_object *glow = wr_gltf_member(material, "emissiveFactor", json_type_array);
@@ -286,7 +286,7 @@ static void leave_others(json_object *material, WrGltfLook *look)
     }
 }
 
-static bool read_factors(const Gltf *file, json_object *pbr, WrGltfLook *look, WrError *err)
+static bool read_factors(const Gltf *file, json_object *pbr, WrGltfMaterial *look, WrError *err)
 {
     json_object *colour = wr_gltf_member(pbr, "baseColorFactor", json_type_array);
     double *const to[4] = { &look->colour[0], &look->colour[1], &look->colour[2], &look->alpha };
@@ -303,7 +303,8 @@ static bool read_factors(const Gltf *file, json_object *pbr, WrGltfLook *look, W
            share_of(file, "roughnessFactor", any(pbr, "roughnessFactor"), &look->roughness, err);
 }
 
-static bool read_material(const Gltf *file, json_object *material, WrGltfLook *look, WrError *err)
+static bool read_material(const Gltf *file, json_object *material, WrGltfMaterial *look,
+                          WrError *err)
 {
     json_object *pbr = wr_gltf_member(material, "pbrMetallicRoughness", json_type_object);
     json_object *normal = wr_gltf_member(material, "normalTexture", json_type_object);
@@ -349,20 +350,20 @@ static int find_material(json_object *materials, const char *which)
     return *which && !*end && number >= 1 && number <= INT32_MAX ? (int)(number - 1) : -1;
 }
 
-bool wr_gltf_look(const char *path, const char *which, WrGltfLook *out, WrError *err)
+bool wr_gltf_read_material(const char *path, const char *which, WrGltfMaterial *out, WrError *err)
 {
     Gltf file;
     if (!open_gltf(path, &file, err)) return false;
     json_object *materials = wr_gltf_member(file.root, "materials", json_type_array);
     const int count = materials ? (int)json_object_array_length(materials) : 0;
-    *out = (WrGltfLook){ .colour = { 1, 1, 1 },
-                         .alpha = 1,
-                         .metalness = 1,
-                         .roughness = 1,
-                         .normal_scale = 1,
-                         .base = -1,
-                         .facets = -1,
-                         .normal = -1 };
+    *out = (WrGltfMaterial){ .colour = { 1, 1, 1 },
+                             .alpha = 1,
+                             .metalness = 1,
+                             .roughness = 1,
+                             .normal_scale = 1,
+                             .base = -1,
+                             .facets = -1,
+                             .normal = -1 };
     bool good = count > 0 || wr_fail(err, "%s: has no materials", path);
     const int index = !good ? -1 : which ? find_material(materials, which) : first_used(&file);
     json_object *material = good ? wr_gltf_element(materials, index) : NULL;

@@ -35,7 +35,7 @@ bool wr_gltf_pack(const char *path, WrText *out, bool *packed, WrError *err);
 
 /* One material of the file; missing values have glTF's defaults. Images are indices into the file's
    images, from 0; -1: none. */
-typedef struct WrGltfLook {
+typedef struct WrGltfMaterial {
     char name[WR_GLTF_NAME];     /* any bytes, truncated; may be empty */
     int index, count;            /* index from 0, and the number of materials */
     double colour[3], alpha;     /* baseColorFactor, linear, 0..1 */
@@ -45,7 +45,7 @@ typedef struct WrGltfLook {
     int facets;                  /* roughness in G, metalness in B */
     /* Unsupported properties: "emissive light, transparency"; or empty. */
     char left[400];
-} WrGltfLook;
+} WrGltfMaterial;
 
 /* Reads a material.
  *
@@ -53,7 +53,7 @@ typedef struct WrGltfLook {
  * Errors   name the file: unreadable, no .gltf or .glb, damaged, without materials or that one; a
  *          number is out of range
  * Threads  any number at once */
-bool wr_gltf_look(const char *path, const char *which, WrGltfLook *out, WrError *err);
+bool wr_gltf_read_material(const char *path, const char *which, WrGltfMaterial *out, WrError *err);
 
 /* True for the name of an embedded image: "FILE.glb#2" is image 2 (from 0) of a glTF file. *length:
  * length of the file's name; *image: the index. */

@@ -529,7 +529,7 @@ static void settle_library()
 
 struct WrCodecReader {
     int fd;
-    std::string path; /* of fd, for formats that need a path (system/sandbox_open.h) and for
+    std::string path; /* of fd, for formats that need a path (system/open_interposer.h) and for
                          messages */
     std::unique_ptr<FILE, int (*)(FILE *)> file{ nullptr, std::fclose }; /* a copy of fd */
     std::unique_ptr<Filesystem::IOFile> proxy;                           /* must outlive `in` */

@@ -327,7 +327,7 @@ static WrImage *read_whole(WrImageRows *rows, WrError *err)
 
 WrImageRows *wr_image_rows_open(const char *path, const WrImageRequest *wish, WrError *err)
 {
-    if (wr_sidecar_takes(path)) return wr_sidecar_rows(path, wish, err);
+    if (wr_is_raw_path(path)) return wr_sidecar_rows(path, wish, err);
     return open_rows(path, wr_reader_file(path, WR_FILE_MAX, err), wish, err);
 }
 

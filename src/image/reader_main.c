@@ -17,7 +17,7 @@
 #include "system/path.h"
 #include "system/process.h"
 #include "system/sandbox.h"
-#include "system/sandbox_open.h"
+#include "system/open_interposer.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -27,7 +27,7 @@
 /* ---- answers ---- */
 
 #define CHANNEL 3
-#define PICTURE WR_SANDBOX_OPEN_FILE
+#define PICTURE WR_INTERPOSED_FILE
 /* Memory for reading a small image: tables and buffers of the libraries. */
 #define MEMORY_BASE ((uint64_t)512 << 20)
 

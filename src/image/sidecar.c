@@ -16,7 +16,7 @@
 #define MOST_BYTES (1 << 20) /* of a sidecar */
 #define DEPTH 8
 
-bool wr_sidecar_takes(const char *path)
+bool wr_is_raw_path(const char *path)
 {
     static const char *const endings[] = { "raw", "r16", "r32" };
     char buffer[16];

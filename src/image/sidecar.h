@@ -8,7 +8,7 @@ typedef struct WrImageRequest WrImageRequest;
 typedef struct WrText WrText;
 
 /* True for the extensions of raw files: raw, r16, r32. */
-bool wr_sidecar_takes(const char *path);
+bool wr_is_raw_path(const char *path);
 /* True if the file has a sidecar. */
 bool wr_sidecar_is_there(const char *path);
 /* Path of the sidecar. */

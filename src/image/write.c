@@ -5,7 +5,7 @@
 #include "base/progress.h"
 #include "base/spool.h"
 #include "image/decode.h"
-#include "image/exr_chunks.h"
+#include "image/exr_chunk_check.h"
 #include "image/image.h"
 #include "image/oiio.h"
 #include "image/read_internal.h"

@@ -34,7 +34,7 @@ typedef struct WrFadeInfo {
 extern const WrFadeInfo wr_fades[WR_FADE_COUNT];
 
 /* alpha(x); exactly 0, 1/2, 1 at x = 0, 1/2, 1. */
-static inline double wr_fade_alpha(const WrFadeInfo *fade, double x)
+static inline double wr_fade_value(const WrFadeInfo *fade, double x)
 {
     const double *c = fade->c;
     return x * (c[1] + x * (c[2] + x * (c[3] + x * (c[4] + x * c[5]))));

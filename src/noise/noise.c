@@ -264,7 +264,7 @@ static double noise_blend(const WrFadeInfo *fade, int dim, const double *x, WrNo
                           double *slope)
 {
     for (int a = 0; a < dim; a++) {
-        const double alpha = wr_fade_alpha(fade, x[a]), rate = wr_fade_slope(fade, x[a]);
+        const double alpha = wr_fade_value(fade, x[a]), rate = wr_fade_slope(fade, x[a]);
         for (int k = 0; k < 1 << (dim - 1 - a); k++)
             corner[k] = blend(&corner[2 * k], &corner[2 * k + 1], dim, a, alpha, rate);
     }

@@ -23,7 +23,7 @@ static void place(const WrFadeInfo *fade, double frequency, double offset, int i
         double t = frequency * ((i + k + 0.5) / width) + offset, whole = floor(t), x = t - whole;
         columns->cell[k] = (int32_t)(whole - first);
         columns->x[k] = (float)x;
-        columns->alpha[k] = (float)wr_fade_alpha(&alpha, x);
+        columns->alpha[k] = (float)wr_fade_value(&alpha, x);
         columns->rate[k] = (float)wr_fade_slope(&alpha, x);
     }
 }
@@ -39,7 +39,7 @@ static void stand(const WrFadeInfo *fade, double frequency, double offset, int j
         double y = t - whole;
         rows->whole[k] = whole;
         rows->y[k] = (float)y;
-        rows->alpha[k] = (float)wr_fade_alpha(&alpha, y);
+        rows->alpha[k] = (float)wr_fade_value(&alpha, y);
         rows->rate[k] = (float)wr_fade_slope(&alpha, y);
     }
 }

@@ -184,7 +184,7 @@ typedef struct Turns {
 
 static void reach_turns(Reach *r, const Turns *turns, WrVec3 p)
 {
-    for (int k = 0; k < turns->count; k++) reach_point(r, wr_place_world(&turns->place[k], p));
+    for (int k = 0; k < turns->count; k++) reach_point(r, wr_object_to_world(&turns->place[k], p));
 }
 
 static void reach_object(Reach *r, const WrScene *object, const Turns *turns)

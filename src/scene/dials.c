@@ -1,6 +1,6 @@
 /* The table of dials.
-   A dial is one approximation with its rungs: `choices` names, or a list of numbers for the ladder in `rungs`
-   (NAN ends it). get and set work on any scene, so that commands, the ladder, the tolerance search and the
+   A dial is one approximation with its rungs: `choices` names, or a list of numbers for the accuracy benchmark in `rungs`
+   (NAN ends it). get and set work on any scene, so that commands, the accuracy benchmark, the tolerance search and the
    window need no code per dial. */
 #include "scene/dials.h"
 
@@ -192,7 +192,7 @@ static bool with_facets(const WrScene *scene)
 
 /* ---- the table ---- */
 
-/* Rungs of a ladder, from coarse to fine; the present value is measured besides. NAN ends a list. */
+/* Rungs, from coarse to fine; the present value is measured besides. NAN ends a list. */
 
 static const double sample_rungs[] = { 2, 3, 4, 8, 16, NAN };
 static const double contrast_rungs[] = { 0.05, 0.02, 0.005, 0.002, 0.0005, NAN };

@@ -1,7 +1,7 @@
 /* dials.h - the dials of accuracy: settings of the scene for every approximation that a picture may
    make.
 
-   One table, wr_dials, generates the command's arguments, the scene's lines, the ladder of `wrinkle
+   One table, wr_dials, generates the command's arguments, the scene's lines, the accuracy benchmark of `wrinkle
    accuracy` and the window's Accuracy panel. A new dial is one member of WrDials (or of the scene) and
    one row. */
 #pragma once
@@ -158,7 +158,7 @@ typedef enum WrDialId {
     WR_DIAL_COUNT
 } WrDialId;
 
-/* The ladder's axes. */
+/* The accuracy benchmark's axes. */
 typedef enum WrAxis {
     WR_AXIS_DERIVATIVE,
     WR_AXIS_NORMAL,
@@ -185,7 +185,7 @@ typedef struct WrDial {
     /* True if the dial can change the scene's picture for the present values of the other dials
        (footprint: only with filter or moments); NULL: always. */
     bool (*matters)(const WrScene *scene);
-    /* The values that the ladder tries, for a number; ends with NAN; NULL: every choice. */
+    /* The values that the accuracy benchmark tries, for a number; ends with NAN; NULL: every choice. */
     const double *rungs;
 } WrDial;
 

@@ -94,7 +94,7 @@ static WrImage *pack_several(const Kept *kept, WrError *err)
     float *blocks[WR_OBJECTS_MAX], *all;
     size_t counts[WR_OBJECTS_MAX], sum = head;
     for (int k = 0; k < kept->meshes; k++) {
-        blocks[k] = wr_triangles_pack(kept->mesh[k], &counts[k]);
+        blocks[k] = wr_triangles_serialize(kept->mesh[k], &counts[k]);
         sum += counts[k];
     }
     all = wr_try_alloc(sum, sizeof *all, "meshes", err);
@@ -125,7 +125,7 @@ bool wr_scene_meshes_to_image(const WrScene *scene, WrImage **out, WrError *err)
         return *out != NULL;
     }
     size_t count;
-    float *block = wr_triangles_pack(kept.mesh[0], &count);
+    float *block = wr_triangles_serialize(kept.mesh[0], &count);
     *out = picture_of(block, count, err);
     wr_free(block);
     return *out != NULL;
@@ -171,5 +171,5 @@ WrTriangles *wr_scene_mesh_from_image(const WrImage *image, int object, WrError 
         wr_fail(err, "damaged: the meshes that are kept here hold none for object %d", object + 1);
         return NULL;
     }
-    return wr_triangles_unpack(image->data + from, length, err);
+    return wr_triangles_deserialize(image->data + from, length, err);
 }

@@ -264,7 +264,7 @@ static bool is_made(const float n[3], bool object)
            (object || (double)n[2] >= WR_NORMAL_MIN * 0.999);
 }
 
-WrImage *wr_normal_map_keep(const WrImage *held, bool object, WrError *err)
+WrImage *wr_normal_map_share(const WrImage *held, bool object, WrError *err)
 {
     bool made = held->channels == 3 && held->type == WR_PIXEL_F32;
     for (size_t i = 0; made && i < texels_of(held); i++) made = is_made(held->data + 3 * i, object);

@@ -5,7 +5,7 @@
    read: memory and documents store unit vectors, which are neither reconstructed nor renormalised for a
    picture (E59).
 
-   Numbers   codes of 8 and 16 bits are 2 c/M - 1; floats depend on their coding (image/coding.h). If
+   Numbers   codes of 8 and 16 bits are 2 c/M - 1; floats depend on their coding (image/normal_encoding.h). If
              more than half of the texels have x and y at the code above the middle (128, 32768), that
              code represents 0, and codes are relative to it, with the same distance to either end.
    Vectors   normalised. With two channels z = sqrt(1 - x^2 - y^2); if x^2 + y^2 > 1, z is that of a
@@ -19,7 +19,7 @@
              negative. Undecided if it is below the effect of rounding of the codes: always so for f(u)
              + g(v). */
 #pragma once
-#include "image/coding.h"
+#include "image/normal_encoding.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -60,6 +60,6 @@ WrImage *wr_normal_map_turned(const WrImage *map, WrError *err);
 WrImage *wr_normal_map_raised(const WrImage *map, int64_t *away, WrError *err);
 /* Shares a document's map, which must have the form of read maps. An error if it differs by more than 4
    ulp of |n|^2. */
-WrImage *wr_normal_map_keep(const WrImage *held, bool object, WrError *err);
+WrImage *wr_normal_map_share(const WrImage *held, bool object, WrError *err);
 /* Slopes of such a vector along u and v, for a unit cell. */
 void wr_normal_map_slopes(const float n[3], double *p, double *q);

@@ -231,7 +231,7 @@ bool wr_scene_place_sized(const WrScene *scene, double radius, double turn_deg, 
     return true;
 }
 
-WrVec3 wr_place_world(const WrPlacement *place, WrVec3 p)
+WrVec3 wr_object_to_world(const WrPlacement *place, WrVec3 p)
 {
     WrVec3 away = v3_sub(p, place->centre);
     if (place->stretched) away = v3_times(away, place->stretch);
@@ -262,7 +262,7 @@ WrVec3 wr_place_dual_back(const WrPlacement *place, WrVec3 w)
     return place->stretched ? v3_times(own, place->stretch) : own;
 }
 
-WrVec3 wr_place_object(const WrPlacement *place, WrVec3 world)
+WrVec3 wr_world_to_object(const WrPlacement *place, WrVec3 world)
 {
     const WrVec3 own = wr_place_shrink_back(place, v3_sub(world, place->position));
     return v3_add(v3_scale(own, 1 / place->size), place->centre);

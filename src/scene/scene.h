@@ -268,8 +268,8 @@ bool wr_scene_place_sized(const WrScene *scene, double radius, double turn_deg, 
                           WrPlacement *out, WrError *err);
 
 /* Transforms a point from the object to the world, and back. */
-WrVec3 wr_place_world(const WrPlacement *place, WrVec3 p);
-WrVec3 wr_place_object(const WrPlacement *place, WrVec3 world);
+WrVec3 wr_object_to_world(const WrPlacement *place, WrVec3 p);
+WrVec3 wr_world_to_object(const WrPlacement *place, WrVec3 world);
 /* Rotates a direction of the world to the object's axes; preserves its length. */
 WrVec3 wr_place_turn_back(const WrPlacement *place, WrVec3 world);
 /* Inverse transforms of directions to the unstretched object: the direction that becomes `world` when

@@ -37,8 +37,7 @@ static void node(const WrEnvironmentBrdf *gloss, int i, double *below, double *w
     const double t = (i + 0.5) / NODES, f = t * t * (3 - 2 * t), a2 = gloss->alpha * gloss->alpha;
     const double w = 1 + f * (a2 - 1); /* (1 - c) / 2 = a2 f / w */
     *below = fmin(2 * a2 * f / w, 2);
-    *weight =
-        wr_environment_brdf_weight(gloss, 1 - *below, *below) * a2 / (w * w) * 6 * t * (1 - t);
+    *weight = wr_environment_brdf_lobe(gloss, 1 - *below, *below) * a2 / (w * w) * 6 * t * (1 - t);
 }
 
 /* Legendre's recursion (l + 1) P_l+1 = (2l + 1) c P_l - l P_l-1, all nodes side by side; the division by the

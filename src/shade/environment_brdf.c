@@ -251,7 +251,7 @@ void wr_environment_brdf_init(WrEnvironmentBrdf *g, const WrReflectance *of, con
 
 /* c is the cosine from the mirror direction r, so n.h = cos of half that angle for n = v = r: nh^2 = (1 + c) /
    2 = 1 - below / 2. */
-double wr_environment_brdf_weight(const WrEnvironmentBrdf *g, double c, double below)
+double wr_environment_brdf_lobe(const WrEnvironmentBrdf *g, double c, double below)
 {
     if (g->gated && c <= 0) return 0;
     if (g->lobe == WR_LOBE_POWER) return wr_pow(c, g->power);

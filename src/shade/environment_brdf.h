@@ -44,4 +44,4 @@ typedef struct WrEnvironmentBrdf {
 void wr_environment_brdf_init(WrEnvironmentBrdf *gloss, const WrReflectance *of,
                               const WrMatter *matter, double ks, double tint, bool gated);
 /* Weight in the mean of the light from a direction c = l.r, below = 1 - c; in any scale. */
-double wr_environment_brdf_weight(const WrEnvironmentBrdf *gloss, double c, double below);
+double wr_environment_brdf_lobe(const WrEnvironmentBrdf *gloss, double c, double below);

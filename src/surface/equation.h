@@ -84,7 +84,7 @@ static bool formula_try(const WrProgram *program, const int ends[3], double u, d
 {
     for (int k = 0, top = 0; k < program->count; k++, top++) {
         const WrOp *op = &program->op[k];
-        top -= wr_op_takes(op->code);
+        top -= wr_op_operand_count(op->code);
         const char *why = formula_domain(op, stack + top);
         program_step_d(op, 1, &u, &v, stack + top);
         if (!why && !formula_finite(stack + top)) why = "the value is too large";

@@ -33,7 +33,7 @@ static const struct {
 };
 #define FUNCTIONS ((int)(sizeof functions / sizeof *functions))
 
-int wr_op_takes(WrOpCode code)
+int wr_op_operand_count(WrOpCode code)
 {
     return takes[code];
 }

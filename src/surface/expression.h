@@ -56,4 +56,4 @@ typedef struct WrProgram {
 bool wr_expression_read(const char *name, const char *text, WrProgram *program, WrError *err);
 
 /* Number of operands that an operation pops. */
-int wr_op_takes(WrOpCode code);
+int wr_op_operand_count(WrOpCode code);

@@ -279,7 +279,7 @@ FN(program_run)(const WrProgram *program, int n, const REAL *u, const REAL *v, F
     int top = 0;
     for (int k = 0; k < program->count; k++) {
         const WrOp *op = &program->op[k];
-        top -= wr_op_takes(op->code);
+        top -= wr_op_operand_count(op->code);
         FN(program_step)(op, n, u, v, stack + top);
         top++;
     }

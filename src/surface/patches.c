@@ -954,7 +954,7 @@ WrTriangles *wr_patches_new(const float (*points)[48], int32_t count, WrPatchTab
 
 enum { HEAD = 3 }; /* WR_PATCHES_PACKED, count, table */
 
-float *wr_patches_pack(const WrPatches *patches, size_t *count)
+float *wr_patches_serialize(const WrPatches *patches, size_t *count)
 {
     *count = HEAD + 48 * (size_t)patches->count;
     float *block = wr_alloc(*count, sizeof *block);
@@ -966,7 +966,7 @@ float *wr_patches_pack(const WrPatches *patches, size_t *count)
     return block;
 }
 
-WrTriangles *wr_patches_unpack(const float *block, size_t count, WrError *err)
+WrTriangles *wr_patches_deserialize(const float *block, size_t count, WrError *err)
 {
     const bool head = count >= HEAD && block[0] == (float)WR_PATCHES_PACKED && block[1] >= 1 &&
                       block[1] <= WR_PATCHES_MAX && block[2] >= 0 && block[2] < WR_PATCH_TABLES;

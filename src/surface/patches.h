@@ -82,11 +82,11 @@ void wr_patches_free(WrPatches *patches); /* NULL is allowed */
 bool wr_patches_parse(const char *text, size_t length, float (**points)[48], int32_t *count,
                       WrError *err);
 
-/* Serialises a set as floats, bit for bit, like wr_triangles_pack; the block begins with a number that
+/* Serialises a set as floats, bit for bit, like wr_triangles_serialize; the block begins with a number that
  * no mesh begins with. */
 #define WR_PATCHES_PACKED 2
-float *wr_patches_pack(const WrPatches *patches, size_t *count);
-WrTriangles *wr_patches_unpack(const float *block, size_t count, WrError *err);
+float *wr_patches_serialize(const WrPatches *patches, size_t *count);
+WrTriangles *wr_patches_deserialize(const float *block, size_t count, WrError *err);
 
 /* The table position of the patch's (u,v). */
 static inline void wr_patch_chart(const WrPatches *patches, const WrPatch *patch, double u,

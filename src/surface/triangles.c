@@ -283,9 +283,9 @@ static size_t packed(int32_t corners, int32_t triangles, int32_t parts)
            (size_t)triangles * 3;
 }
 
-float *wr_triangles_pack(const WrTriangles *t, size_t *count)
+float *wr_triangles_serialize(const WrTriangles *t, size_t *count)
 {
-    if (t->patches) return wr_patches_pack(t->patches, count);
+    if (t->patches) return wr_patches_serialize(t->patches, count);
     *count = packed(t->corner_count, t->triangle_count, t->part_count);
     float *block = wr_alloc(*count, sizeof *block), *at = block;
     const float head[HEAD] = { PACK_VERSION, (float)t->corner_count, (float)t->triangle_count,
@@ -361,10 +361,10 @@ static bool take_triangles(const float *at, int32_t corners, int32_t count, WrTr
     return true;
 }
 
-WrTriangles *wr_triangles_unpack(const float *block, size_t count, WrError *err)
+WrTriangles *wr_triangles_deserialize(const float *block, size_t count, WrError *err)
 {
     if (count > 0 && block[0] == (float)WR_PATCHES_PACKED)
-        return wr_patches_unpack(block, count, err);
+        return wr_patches_deserialize(block, count, err);
     if (!check_head(block, count)) {
         wr_fail(err, "the mesh that is kept here makes no sense");
         return NULL;

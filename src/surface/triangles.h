@@ -96,10 +96,10 @@ void wr_triangles_free(WrTriangles *triangles);                /* NULL is allowe
 /* The unit square of two triangles with (u,v) = (x,y): shown for a scene whose mesh is missing. */
 WrTriangles *wr_triangles_square(void);
 
-/* Serialises a mesh as floats for documents; wr_triangles_unpack restores it bit for bit. The block is
+/* Serialises a mesh as floats for documents; wr_triangles_deserialize restores it bit for bit. The block is
  * allocated by wr_alloc, `count` floats, all finite. */
-float *wr_triangles_pack(const WrTriangles *triangles, size_t *count);
-WrTriangles *wr_triangles_unpack(const float *block, size_t count, WrError *err);
+float *wr_triangles_serialize(const WrTriangles *triangles, size_t *count);
+WrTriangles *wr_triangles_deserialize(const float *block, size_t count, WrError *err);
 
 /* Gradients of u and v on a triangle with positions p and (u,v): du/dP, dv/dP, in its plane, and its
  * unit normal.

@@ -144,7 +144,7 @@ const char *wr_folder_next(WrFolder *folder)
     return NULL;
 }
 
-bool wr_folder_info(WrFolder *folder, const char *name, WrFileInfo *info)
+bool wr_folder_entry_info(WrFolder *folder, const char *name, WrFileInfo *info)
 {
     struct stat got;
     if (fstatat(dirfd(folder->dir), name, &got, AT_SYMLINK_NOFOLLOW) != 0) return false;
@@ -152,7 +152,7 @@ bool wr_folder_info(WrFolder *folder, const char *name, WrFileInfo *info)
     return true;
 }
 
-bool wr_folder_drop(WrFolder *folder, const char *name)
+bool wr_folder_remove_entry(WrFolder *folder, const char *name)
 {
     return unlinkat(dirfd(folder->dir), name, 0) == 0;
 }
@@ -170,7 +170,7 @@ int wr_folder_open_unheld(WrFolder *folder, const char *name)
     return -1;
 }
 
-void wr_folder_drop_unheld(WrFolder *folder, const char *name)
+void wr_folder_remove_unheld_entry(WrFolder *folder, const char *name)
 {
     struct stat info, named;
     int in = dirfd(folder->dir), fd = wr_folder_open_unheld(folder, name);

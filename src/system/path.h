@@ -47,15 +47,15 @@ void wr_folder_close(WrFolder *folder);     /* NULL is allowed */
 /* The next entry, in no order, without "." and ".."; valid until the next call. NULL at the end. */
 const char *wr_folder_next(WrFolder *folder);
 /* Information about an entry; links are not followed. */
-bool wr_folder_info(WrFolder *folder, const char *name, WrFileInfo *info);
-bool wr_folder_drop(WrFolder *folder, const char *name);
+bool wr_folder_entry_info(WrFolder *folder, const char *name, WrFileInfo *info);
+bool wr_folder_remove_entry(WrFolder *folder, const char *name);
 
 /* Opens the entry for reading and locks it, if it is a regular file of this user that nobody has
    locked. -1 otherwise. */
 int wr_folder_open_unheld(WrFolder *folder, const char *name);
 /* Removes the entry if it is a regular file of this user that nobody has locked, and was not replaced
  * meanwhile. */
-void wr_folder_drop_unheld(WrFolder *folder, const char *name);
+void wr_folder_remove_unheld_entry(WrFolder *folder, const char *name);
 
 #ifdef __cplusplus
 }

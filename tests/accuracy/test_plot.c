@@ -127,7 +127,7 @@ static void scales_end_at_round_numbers_and_numbers_are_short(void **state)
 
 static const WrPlotBox frame = { 100, 0, 985, 590 };
 
-/* Points as in ladders: many at one height, the front falling from left to right. */
+/* Points as in accuracy benchmarks: many at one height, the front falling from left to right. */
 static int draw_points(TestRandom *random, WrPlotSpot *out, int numbers, double crowd)
 {
     const int count = numbers + (int)(test_random(random) * (MAX_MOST - numbers));
@@ -208,15 +208,16 @@ static void a_number_alone_stands_beside_its_point(void **state)
 
 /* ---- the page, read back as a reader would ---- */
 
-/* A ladder with many settings on its front, with names of maximal length, of all axes in turn. The last rung could not
+/* A benchmark with many settings on its front, with names of maximal length, of all axes in turn. The last rung could not
    be measured. */
-static void make_ladder(WrLadder *ladder, int fronts, const char *setting, bool present_on_front)
+static void make_benchmark(WrAccuracyBenchmark *benchmark, int fronts, const char *setting,
+                           bool present_on_front)
 {
-    *ladder = (WrLadder){ .width = 256, .height = 256, .threads = 1 };
-    ladder->rungs = wr_alloc((size_t)fronts + 2, sizeof *ladder->rungs);
-    ladder->reference.last_rms = 1e-4;
+    *benchmark = (WrAccuracyBenchmark){ .width = 256, .height = 256, .threads = 1 };
+    benchmark->rungs = wr_alloc((size_t)fronts + 2, sizeof *benchmark->rungs);
+    benchmark->reference.last_rms = 1e-4;
     for (int i = 0; i <= fronts + 1; i++) {
-        WrRung *rung = &ladder->rungs[ladder->count++];
+        WrRung *rung = &benchmark->rungs[benchmark->count++];
         *rung = (WrRung){ .axis = i % (WR_AXIS_COUNT + 1), .front = i < fronts, .runs = 9 };
         rung->current = present_on_front ? i == 0 : i == fronts;
         rung->seconds = 1e-3 * pow(1.4, i);
@@ -297,12 +298,12 @@ static void read_path(const char *at, Page *page)
     }
 }
 
-static void read_page(const WrLadder *ladder, const char *name, Page *page)
+static void read_page(const WrAccuracyBenchmark *benchmark, const char *name, Page *page)
 {
     WrError err;
     char *svg;
     size_t length;
-    if (!wr_report_plot(ladder, name, "plot.svg", &err)) fail_msg("%s", err.text);
+    if (!wr_report_plot(benchmark, name, "plot.svg", &err)) fail_msg("%s", err.text);
     assert_true(wr_file_read("plot.svg", 1 << 20, &svg, &length, &err));
     memset(page, 0, sizeof *page);
     page->width = number_after(svg, " width=\"");
@@ -378,18 +379,18 @@ static const char *colour_of(const Page *page, const char *words)
 
 /* Every measured rung has a mark at its time and error, but not below the reference's own error, in its axis' colour;
    there are no others. */
-static void check_marks(const WrLadder *ladder, const Page *page)
+static void check_marks(const WrAccuracyBenchmark *benchmark, const Page *page)
 {
     Scale time, error;
     int inner = 0, measured = 0;
     read_scales(page, &time, &error);
     for (int k = 0; k < page->dot_count; k++)
         inner += page->dots[k].x < page->frame.x + page->frame.w;
-    for (int i = 0; i < ladder->count; i++) {
-        const WrRung *rung = &ladder->rungs[i];
+    for (int i = 0; i < benchmark->count; i++) {
+        const WrRung *rung = &benchmark->rungs[i];
         if (rung->note.text[0]) continue;
         const double x = on_scale(&time, 1e3 * rung->seconds),
-                     y = on_scale(&error, fmax(rung->errors.rms, ladder->reference.last_rms));
+                     y = on_scale(&error, fmax(rung->errors.rms, benchmark->reference.last_rms));
         const char *colour = colour_of(page, rung->axis < WR_AXIS_COUNT ? wr_axis_labels[rung->axis]
                                                                         : "combinations");
         bool found = false;
@@ -428,14 +429,14 @@ static void marks_stand_at_their_values_and_no_label_covers_another(void **state
     static Page page;
     for (size_t s = 0; s < sizeof settings / sizeof *settings; s++)
         for (int fronts = 0; fronts <= 24; fronts += 6) {
-            WrLadder ladder;
-            make_ladder(&ladder, fronts, settings[s], fronts % 4 == 0 && fronts > 0);
-            read_page(&ladder, "a name.wrinkle", &page);
+            WrAccuracyBenchmark benchmark;
+            make_benchmark(&benchmark, fronts, settings[s], fronts % 4 == 0 && fronts > 0);
+            read_page(&benchmark, "a name.wrinkle", &page);
             assert_true(page.label_count > 2 * fronts);
             check_labels(&page);
-            check_marks(&ladder, &page);
+            check_marks(&benchmark, &page);
             if (fronts > 0) check_told(&page, settings[s]);
-            wr_free(ladder.rungs);
+            wr_free(benchmark.rungs);
         }
 }
 
@@ -443,16 +444,16 @@ static void a_long_title_keeps_its_end(void **state)
 {
     (void)state;
     static Page page;
-    WrLadder ladder;
+    WrAccuracyBenchmark benchmark;
     char name[256];
     memset(name, 'n', sizeof name);
     snprintf(name + 200, sizeof name - 200, "\xc3\xa4 the end.wrinkle");
-    make_ladder(&ladder, 2, "scheme=central", true);
-    read_page(&ladder, name, &page);
+    make_benchmark(&benchmark, 2, "scheme=central", true);
+    read_page(&benchmark, name, &page);
     assert_memory_equal(page.labels[0].text, "...", 3);
     assert_true(strlen(page.labels[0].text) < 120);
     assert_non_null(strstr(page.labels[0].text, "the end.wrinkle: error against time"));
-    wr_free(ladder.rungs);
+    wr_free(benchmark.rungs);
 }
 
 /* A picture shows each series in its colour; PDF has the same page. */
@@ -460,13 +461,13 @@ static void a_plot_is_a_drawing_or_a_picture_by_its_ending(void **state)
 {
     (void)state;
     WrError err;
-    WrLadder ladder;
+    WrAccuracyBenchmark benchmark;
     char *pdf;
     size_t length;
-    make_ladder(&ladder, 6, "scheme=central", true);
-    assert_true(wr_report_plot(&ladder, "", "plot.png", &err));
-    assert_true(wr_report_plot(&ladder, "", "plot.pdf", &err));
-    assert_false(wr_report_plot(&ladder, "", "plot.bmp", &err));
+    make_benchmark(&benchmark, 6, "scheme=central", true);
+    assert_true(wr_report_plot(&benchmark, "", "plot.png", &err));
+    assert_true(wr_report_plot(&benchmark, "", "plot.pdf", &err));
+    assert_false(wr_report_plot(&benchmark, "", "plot.bmp", &err));
     assert_non_null(strstr(err.text, ".pdf, .png or .svg"));
     WrImage *image = wr_image_read("plot.png", &err);
     assert_non_null(image);
@@ -480,7 +481,7 @@ static void a_plot_is_a_drawing_or_a_picture_by_its_ending(void **state)
     assert_true(wr_file_read("plot.pdf", 1 << 20, &pdf, &length, &err));
     assert_non_null(strstr(pdf, " 0.000 0.447 0.698 RG\n")); /* 0, 114, 178 of 255 */
     wr_free(pdf);
-    wr_free(ladder.rungs);
+    wr_free(benchmark.rungs);
 }
 
 int main(void)

@@ -1,5 +1,5 @@
 wr_test(illusion accuracy)
 wr_test(metrics accuracy)
-wr_test(ladder accuracy)
+wr_test(accuracy_benchmark accuracy)
 wr_test(effect_savings accuracy)
 wr_test(plot accuracy)

@@ -34,10 +34,10 @@ static void blocks_of_which_nothing_is_out_go_back_but_for_ten(void **state)
 #ifndef __SANITIZE_ADDRESS__
     static void *piece[MANY];
     const uint64_t before = wr_process_space();
-    for (int i = 0; i < MANY; i++) piece[i] = wr_slab_take(&slabs);
+    for (int i = 0; i < MANY; i++) piece[i] = wr_slab_alloc(&slabs);
     const uint64_t most = wr_process_space();
     for (int i = 0; i < MANY; i += 2) wr_slab_free(&slabs, piece[i]);
-    for (int i = 0; i < MANY; i += 2) piece[i] = wr_slab_take(&slabs);
+    for (int i = 0; i < MANY; i += 2) piece[i] = wr_slab_alloc(&slabs);
     assert_true(wr_process_space() <= most + BLOCK); /* returned pieces are reused first */
     for (int i = 0; i < MANY; i++) wr_slab_free(&slabs, piece[i * 7 % MANY]);
     if (before == 0) skip(); /* unknown on this system */
@@ -60,7 +60,7 @@ static void pieces_are_kept_while_they_are_out(void **state)
             wr_slab_free(&slabs, piece[i]);
             piece[i] = NULL;
         } else {
-            piece[i] = wr_slab_take(&slabs);
+            piece[i] = wr_slab_alloc(&slabs);
             assert_true((uintptr_t)piece[i] % WR_ALIGN == 0);
             mark(piece[i], i);
         }
@@ -76,7 +76,7 @@ static void take_and_give(int index, int worker, void *ctx)
     (void)worker;
     unsigned char *piece[60];
     for (unsigned i = 0; i < 60; i++)
-        mark(piece[i] = wr_slab_take(&slabs), (unsigned)index << 8 | i);
+        mark(piece[i] = wr_slab_alloc(&slabs), (unsigned)index << 8 | i);
     for (unsigned i = 0; i < 60; i++) {
         if (!is_marked(piece[i], (unsigned)index << 8 | i))
             __atomic_fetch_add((int *)ctx, 1, __ATOMIC_RELAXED);

@@ -126,7 +126,7 @@ static int count_engine(const Pace *pace, const WrSample *events, const WrPreset
                                 .seconds = s.seconds };
         wr_engine_push(engine, &point);
     }
-    wr_engine_finish(engine);
+    wr_engine_pen_up(engine);
     while (wr_engine_step(engine)) {
     }
     wr_engine_free(engine);

@@ -1,6 +1,6 @@
 /* `wrinkle accuracy --tolerance`: the dials that a tolerance chooses, compared with the best of all settings. */
-#include "accuracy/ladder.h"
-#include "accuracy/ladder_internal.h"
+#include "accuracy/accuracy_benchmark.h"
+#include "accuracy/accuracy_benchmark_internal.h"
 #include "accuracy/tolerance.h"
 #include "base/error.h"
 #include "base/memory.h"
@@ -300,7 +300,7 @@ static bool time_in_turn(const WrBench *bench, const WrFrameRequest *wish, const
 static bool measure_choice(const WrBench *bench, const WrReference *reference, Row *row,
                            WrError *err)
 {
-    const WrLadderRequest *request = bench->request;
+    const WrAccuracyBenchmarkRequest *request = bench->request;
     WrScene *scene = wr_scene_clone(request->scene);
     scene->tolerance = row->tolerance;
     WrFrameRequest wish = { .field = request->field,
@@ -358,8 +358,8 @@ static void contest_fini(Contest *contest)
 
 /* Run on the request's scene (its own tolerance is ignored) with each of the tolerances, of kind rms or max.
    Zero-initialise *out. May test all settings: needs minutes. */
-static bool contest_run(const WrLadderRequest *request, const WrTolerance *tolerances, int count,
-                        Contest *out, WrError *err)
+static bool contest_run(const WrAccuracyBenchmarkRequest *request, const WrTolerance *tolerances,
+                        int count, Contest *out, WrError *err)
 {
     Contest contest = { .count = count };
     WrPool *all = wr_pool_new(0), *one = wr_pool_new(1);
@@ -489,14 +489,16 @@ static bool compete(const WrCli *cli, const WrDocument *document, WrText *text, 
     bool terminal = wr_process_has_terminal();
     WrProgress progress = { (volatile int *)cli->cancel, report_progress, &terminal };
     WrTables *tables = wr_document_tables(document, document->scene, NULL, cli->pool);
-    const WrLadderRequest request = { .field = wr_document_composite(document, cli->pool),
-                                      .fields = wr_tables_fields(tables),
-                                      .scene = document->scene,
-                                      .width = cli->sized ? cli->width : WR_ACCURACY_SIDE,
-                                      .height = cli->sized ? cli->height : WR_ACCURACY_SIDE,
-                                      .turn_deg = cli->turned ? cli->turn_deg : 0,
-                                      .threads = cli->threads > 0 ? cli->threads : 1,
-                                      .progress = &progress };
+    const WrAccuracyBenchmarkRequest request = {
+        .field = wr_document_composite(document, cli->pool),
+        .fields = wr_tables_fields(tables),
+        .scene = document->scene,
+        .width = cli->sized ? cli->width : WR_ACCURACY_SIDE,
+        .height = cli->sized ? cli->height : WR_ACCURACY_SIDE,
+        .turn_deg = cli->turned ? cli->turn_deg : 0,
+        .threads = cli->threads > 0 ? cli->threads : 1,
+        .progress = &progress
+    };
     Contest contest = { 0 };
     WrTolerance *tolerances = wr_alloc((size_t)cli->tolerance_count, sizeof *tolerances);
     bool good = wr_filters_carried(err);

@@ -193,7 +193,7 @@ static WrDocument *make_document(int size, int layers, WrError *err)
     WrDocument *document = wr_document_new();
     wr_document_start_over(document, field);
     for (int i = 1; i < layers; i++) {
-        WrLayer layer = wr_layer_new("detail", field);
+        WrLayer layer = wr_layer_make("detail", field);
         wr_field_free(layer.heights);
         layer.heights = wr_field_share(field);
         wr_document_insert(document, i, layer);

@@ -14,7 +14,7 @@
 #include "document/document.h"
 #include "export/export.h"
 #include "export/mip_files.h"
-#include "export/picture.h"
+#include "export/preview.h"
 #include "image/image.h"
 #include "system/clock.h"
 #include "system/path.h"
@@ -267,12 +267,12 @@ static bool time_levels(const Bench *b, double *ms, WrError *err)
 static bool time_normals(const Bench *b, double *ms, WrError *err)
 {
     const WrExportOptions options = wr_export_default();
-    WrExportPicture picture;
+    WrExportPreview picture;
     const double start = wr_clock_seconds();
-    const bool good = wr_export_picture(wr_export_find("normal+y"), wr_session_document(b->session),
+    const bool good = wr_export_preview(wr_export_find("normal+y"), wr_session_document(b->session),
                                         &options, b->cli->pool, &picture, err);
     *ms = 1e3 * (wr_clock_seconds() - start);
-    wr_export_picture_fini(&picture);
+    wr_export_preview_fini(&picture);
     return good;
 }
 

@@ -44,7 +44,7 @@ static void run(Record *record, const WrBrush *brush, const WrEnginePoint *point
         wr_engine_push(engine, &points[i]);
         while (wr_engine_step(engine)) continue;
     }
-    wr_engine_finish(engine);
+    wr_engine_pen_up(engine);
     while (wr_engine_step(engine)) continue;
     wr_engine_free(engine);
     for (int i = 0; i < record->dabs.count; i++) {

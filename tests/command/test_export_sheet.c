@@ -4,7 +4,7 @@
 #include "session_help.h"
 
 #include "base/memory.h"
-#include "export/picture.h"
+#include "export/preview.h"
 #include "image/image.h"
 #include "scene/scene.h"
 
@@ -18,10 +18,10 @@ static void pictures_are_the_codes_of_their_files(void **state)
     WrSession *session = session_of(lines);
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
         WrError err = { "" };
-        WrExportPicture picture;
+        WrExportPreview picture;
         WrExportOptions options = wr_export_default();
         const WrExportKind *kind = wr_export_find(kinds[k]);
-        if (!wr_export_picture(kind, doc(session), &options, NULL, &picture, &err))
+        if (!wr_export_preview(kind, doc(session), &options, NULL, &picture, &err))
             fail_msg("%s", err.text);
         options.depth = 8;
         if (!wr_export(kind, doc(session), &options, NULL, "map.png", NULL, &err))
@@ -38,7 +38,7 @@ static void pictures_are_the_codes_of_their_files(void **state)
                     fail_msg("%s: texel %d: %d, not %d", kinds[k], i, picture.rgb[3 * i + c], want);
             }
         wr_image_free(image);
-        wr_export_picture_fini(&picture);
+        wr_export_preview_fini(&picture);
     }
     wr_session_free(session);
 }
@@ -49,10 +49,10 @@ static void pictures_of_floats_go_to_the_ends(void **state)
     (void)state;
     WrSession *session = session_of(lines);
     const WrExportOptions options = wr_export_default();
-    WrExportPicture picture;
+    WrExportPreview picture;
     WrError err = { "" };
     int low = 255, high = 0;
-    if (!wr_export_picture(wr_export_find("slopes"), doc(session), &options, NULL, &picture, &err))
+    if (!wr_export_preview(wr_export_find("slopes"), doc(session), &options, NULL, &picture, &err))
         fail_msg("%s", err.text);
     for (int i = 0; i < 31 * 27; i++) {
         for (int c = 0; c < 2; c++) {
@@ -62,7 +62,7 @@ static void pictures_of_floats_go_to_the_ends(void **state)
         assert_in_range(picture.rgb[3 * i + 2], 127, 128);
     }
     assert_true(low == 0 || high == 255);
-    wr_export_picture_fini(&picture);
+    wr_export_preview_fini(&picture);
     wr_session_free(session);
 }
 
@@ -71,12 +71,12 @@ static void drawings_have_no_picture(void **state)
     (void)state;
     WrSession *session = session_of(lines);
     WrExportOptions options = wr_export_default();
-    WrExportPicture picture;
+    WrExportPreview picture;
     WrError err = { "" };
     assert_false(
-        wr_export_picture(wr_export_find("stl"), doc(session), &options, NULL, &picture, &err));
+        wr_export_preview(wr_export_find("stl"), doc(session), &options, NULL, &picture, &err));
     assert_non_null(strstr(err.text, "no picture"));
-    wr_export_picture_fini(&picture);
+    wr_export_preview_fini(&picture);
     wr_session_free(session);
 }
 

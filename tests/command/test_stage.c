@@ -600,7 +600,7 @@ static void stretched_places_are_each_others_inverse(void **state)
     WrPlacement place;
     assert_true(wr_scene_place(scene_of(session), 25, 1, &place, NULL));
     const WrVec3 p = { 0.3, -0.7, 0.2 }, way = { 0.2, 0.5, -0.8 };
-    const WrVec3 world = wr_place_world(&place, p), back = wr_place_object(&place, world);
+    const WrVec3 world = wr_object_to_world(&place, p), back = wr_world_to_object(&place, world);
     for (int i = 0; i < 3; i++) assert_near((&back.x)[i], (&p.x)[i], 1e-9);
     const double product = v3_dot(way, v3_sub(world, place.position)) / place.size;
     assert_near(v3_dot(wr_place_dual_back(&place, way), v3_sub(p, place.centre)), product, 1e-12);

@@ -245,13 +245,13 @@ static void names_of_exports_are_suggested(void **state)
 static const char *set_at(const void *ctx, int i)
 {
     (void)ctx;
-    return i < WR_SET_ROWS ? wr_set_rows[i].name : NULL;
+    return i < WR_MAP_SET_ROWS ? wr_map_set_rows[i].name : NULL;
 }
 
 static void ask_set(const void *ctx, const char *typed, WrError *err)
 {
     (void)ctx;
-    wr_set_free(wr_set_find(typed, err));
+    wr_map_set_free(wr_map_set_find(typed, err));
 }
 
 static void sets_are_suggested(void **state)

@@ -109,7 +109,7 @@ static void edit(TestRandom *r, WrDocument *document)
         document->solo = test_random(r) < 0.7 ? -1 : i;
     } else if (what < 0.95 && document->layer_count < 6) {
         WrFilter filter = some_filter(r);
-        WrLayer made = wr_layer_new_filter("f", &filter, document->layers[0].heights);
+        WrLayer made = wr_layer_make_filter("f", &filter, document->layers[0].heights);
         wr_document_insert(document, 2 + pick(r, document->layer_count - 1), made);
     } else if (document->layer_count > 3) {
         wr_document_remove(document, 2 + pick(r, document->layer_count - 2));
@@ -130,7 +130,7 @@ static WrDocument *document_of(int width, int height, WrWrap u, WrWrap v)
 {
     WrDocument *document = wr_document_new();
     wr_document_start_over(document, wr_field_new(width, height, u, v, 0.0f, NULL));
-    wr_document_insert(document, 1, wr_layer_new("second", document->layers[0].heights));
+    wr_document_insert(document, 1, wr_layer_make("second", document->layers[0].heights));
     return document;
 }
 
@@ -231,8 +231,8 @@ static void a_filter_is_its_operation_by_opacity_and_mask(void **state)
     assert_true(
         wr_filter_parse("levels in-low=-0.3 in-high=0.9 out-low=0.1 out-high=1.7", &levels, &err));
     assert_true(wr_filter_parse("dilate radius=1", &wide, &err));
-    WrLayer first = wr_layer_new_filter("l", &levels, document->layers[0].heights);
-    WrLayer second = wr_layer_new_filter("d", &wide, document->layers[0].heights);
+    WrLayer first = wr_layer_make_filter("l", &levels, document->layers[0].heights);
+    WrLayer second = wr_layer_make_filter("d", &wide, document->layers[0].heights);
     second.opacity = 0.37f;
     second.mask = like(document, 1.0f);
     wr_document_insert(document, 1, first);
@@ -280,7 +280,7 @@ static void an_edit_makes_only_the_tiles_again_that_the_filter_reaches(void **st
     for (int k = 0; k < 400; k++) scribble(&r, document->layers[0].heights, false);
     assert_true(wr_filter_parse("blur sigma=3", &filter, &err));
     wr_document_insert(document, 2,
-                       wr_layer_new_filter("blur", &filter, document->layers[0].heights));
+                       wr_layer_make_filter("blur", &filter, document->layers[0].heights));
     WrField *before = wr_field_share(wr_document_field(document));
     wr_field_set(document->layers[0].heights, 3, 5, 9.0f);
     int changed = 0;
@@ -343,7 +343,8 @@ static void a_filters_key_changes_with_what_lies_below(void **state)
     WrFilter filter;
     WrError err;
     assert_true(wr_filter_parse("blur sigma=1.5", &filter, &err));
-    wr_document_insert(document, 2, wr_layer_new_filter("b", &filter, document->layers[0].heights));
+    wr_document_insert(document, 2,
+                       wr_layer_make_filter("b", &filter, document->layers[0].heights));
     uint64_t key = wr_layer_key(document, 2);
     assert_true(key == wr_layer_key(document, 2));
     wr_field_set(document->layers[0].heights, 30, 20, 1.0f);

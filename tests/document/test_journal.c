@@ -3,7 +3,7 @@
 #include "journal_help.h"
 
 #include "base/error.h"
-#include "document/journal.h"
+#include "document/recovery_journal.h"
 
 static void assert_read(const char *path, WrJournalRead *read)
 {

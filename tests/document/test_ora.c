@@ -42,7 +42,7 @@ static WrDocument *make_document(int width, int height)
     WrDocument *document = wr_document_new();
     wr_document_start_over(document, random_field(width, height, u, v, -3.0, 5.0, 1));
     for (int i = 1; i < 4; i++) {
-        WrLayer layer = wr_layer_new(names[i], document->layers[0].heights);
+        WrLayer layer = wr_layer_make(names[i], document->layers[0].heights);
         wr_field_free(layer.heights);
         layer.heights = random_field(width, height, u, v, -1.0, 1.0, (uint64_t)i + 10);
         wr_field_set(layer.cover, i, 0, 0.3f);
@@ -445,7 +445,7 @@ static void the_composite_for_others_is_passed_over(void **state)
                            wr_field_new(8, 8, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.25f, NULL));
     while (document->layer_count < MANY_LAYERS)
         wr_document_insert(document, document->layer_count,
-                           wr_layer_new("l", document->layers[0].heights));
+                           wr_layer_make("l", document->layers[0].heights));
     document->layers[1].opacity = 0.5f;
     document->layers[1].blend = WR_BLEND_REPLACE;
     document->active = 3;

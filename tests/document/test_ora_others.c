@@ -11,7 +11,7 @@
 #include "document/ora.h"
 #include "field/field.h"
 #include "image/image.h"
-#include "image/coding.h"
+#include "image/normal_encoding.h"
 
 #include <zip.h>
 #include <zlib.h>
@@ -172,7 +172,7 @@ static WrDocument *random_document(uint64_t seed, Kind kind)
     if (negative) wr_field_set(document->layers[0].heights, 5, 5, -0.5f);
     int count = 1 + (int)(5 * test_random(&random));
     for (int i = 1; i < count; i++) {
-        WrLayer layer = wr_layer_new("layer", document->layers[0].heights);
+        WrLayer layer = wr_layer_make("layer", document->layers[0].heights);
         layer.blend = random_blend(kind, &random);
         layer.radius = 0.1f;
         bool sum = kind != ANY && (layer.blend == WR_BLEND_ADD || layer.blend == WR_BLEND_SUBTRACT);

@@ -3,7 +3,7 @@
 #include "journal_help.h"
 
 #include "base/error.h"
-#include "document/journal.h"
+#include "document/recovery_journal.h"
 
 #include <fcntl.h>
 #include <sys/file.h>

@@ -120,7 +120,7 @@ static void a_set_has_one_where_asked_for(void **state)
     WrDocument *document = rough_document(33, 21);
     WrError err = { "" };
     WrText told = { 0 };
-    WrSet *set = wr_set_find("unity", &err);
+    WrMapSet *set = wr_map_set_find("unity", &err);
     const char *const words[] = { "contact=all.png" };
     static const struct {
         const char *word, *says;
@@ -128,21 +128,21 @@ static void a_set_has_one_where_asked_for(void **state)
                 { "contact=", "without a folder" },
                 { "contact=all.xyz", "ending 'xyz'" },
                 { "contact=clay_Height.png", "is the name of one of the maps" } };
-    WrSetOrder order = { set, ".", "clay", words, 1 };
+    WrMapSetRequest order = { set, ".", "clay", words, 1 };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        const WrSetOrder wrong = { set, ".", "clay", &bad[i].word, 1 };
-        assert_false(wr_export_set(&wrong, document, NULL, &told, &err));
+        const WrMapSetRequest wrong = { set, ".", "clay", &bad[i].word, 1 };
+        assert_false(wr_export_map_set(&wrong, document, NULL, &told, &err));
         if (!strstr(err.text, bad[i].says)) fail_msg("%s", err.text);
         assert_false(wr_path_is_there("clay_Height.png")); /* all or none */
         assert_true(told.length == 0);
     }
-    if (!wr_export_set(&order, document, NULL, &told, &err)) fail_msg("%s", err.text);
+    if (!wr_export_map_set(&order, document, NULL, &told, &err)) fail_msg("%s", err.text);
     assert_non_null(strstr(wr_text_get(&told), "all.png: contact sheet of 3 maps"));
     WrImage *sheet = wr_image_read("all.png", &err);
     if (!sheet) fail_msg("%s", err.text);
     assert_int_equal(sheet->width, GAP + 2 * (256 + GAP));
     wr_image_free(sheet);
-    wr_set_free(set);
+    wr_map_set_free(set);
     wr_text_fini(&told);
     wr_document_free(document);
 }

@@ -8,7 +8,7 @@
 #include "base/pool.h"
 #include "document/document.h"
 #include "export/export.h"
-#include "export/picture.h"
+#include "export/preview.h"
 #include "field/analytic.h"
 #include "field/field.h"
 #include "image/image.h"
@@ -435,7 +435,7 @@ static WrField *half_rough(int w, int h, WrWrap wrap_u, WrWrap wrap_v)
     return field;
 }
 
-static void check_bytes(const WrDocument *document, const WrExportPicture *picture)
+static void check_bytes(const WrDocument *document, const WrExportPreview *picture)
 {
     const WrField *field = wr_document_field(document);
     const int w = wr_field_width(field), h = wr_field_height(field);
@@ -468,14 +468,14 @@ static void bytes_in_memory_are_the_formulas_for_any_ends_and_threads(void **sta
             half_rough(sizes[k % 4][0], sizes[k % 4][1], k & 4 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC,
                        k & 1 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC);
         WrPool *pool = wr_pool_new(3);
-        WrExportPicture one, three;
+        WrExportPreview one, three;
         const WrExportKind *kind = wr_export_find("normal+y");
-        assert_true(wr_export_picture(kind, document, &options, NULL, &one, NULL));
-        assert_true(wr_export_picture(kind, document, &options, pool, &three, NULL));
+        assert_true(wr_export_preview(kind, document, &options, NULL, &one, NULL));
+        assert_true(wr_export_preview(kind, document, &options, pool, &three, NULL));
         check_bytes(document, &one);
         assert_memory_equal(one.rgb, three.rgb, (size_t)one.width * (size_t)one.height * 3);
-        wr_export_picture_fini(&one);
-        wr_export_picture_fini(&three);
+        wr_export_preview_fini(&one);
+        wr_export_preview_fini(&three);
         wr_pool_free(pool);
         wr_document_free(document);
     }
@@ -490,17 +490,17 @@ static void a_picture_of_one_channel_is_grey_as_its_file(void **state)
     WrPool *pool = wr_pool_new(3);
     for (int k = 0; k < 3; k++) {
         WrExportReport report;
-        WrExportPicture picture;
+        WrExportPreview picture;
         const char *const settings[3] = { "depth=8", NULL };
         const WrExportOptions options = wr_export_default();
         WrImage *file = exported(document, kinds[k], "grey.png", settings, &report);
         assert_true(
-            wr_export_picture(wr_export_find(kinds[k]), document, &options, pool, &picture, NULL));
+            wr_export_preview(wr_export_find(kinds[k]), document, &options, pool, &picture, NULL));
         for (int i = 0; i < WIDTH * HEIGHT; i++)
             for (int c = 0; c < 3; c++)
                 assert_int_equal(picture.rgb[3 * i + c],
                                  lrint(255 * (double)file->data[i * file->channels]));
-        wr_export_picture_fini(&picture);
+        wr_export_preview_fini(&picture);
         wr_image_free(file);
     }
     wr_pool_free(pool);

@@ -31,10 +31,10 @@ static bool write_set(const char *name, const char *const *words, int count, WrE
 {
     WrDocument *document = bump_document();
     WrText told = { 0 };
-    WrSet *set = wr_set_find(name, err);
-    WrSetOrder order = { set, ".", "clay", words, count };
-    bool good = set && wr_export_set(&order, document, NULL, &told, err);
-    wr_set_free(set);
+    WrMapSet *set = wr_map_set_find(name, err);
+    WrMapSetRequest order = { set, ".", "clay", words, count };
+    bool good = set && wr_export_map_set(&order, document, NULL, &told, err);
+    wr_map_set_free(set);
     wr_text_fini(&told);
     wr_document_free(document);
     return good;
@@ -194,18 +194,18 @@ static void an_own_set_is_written_as_its_lines_say(void **state)
     own_set("studio",
             "\r\n# ours\nabout a renderer of our own\r\n\tnormal-y  N_*.v1.png depth=8 \r\n"
             "height *-h.tif depth=16 range=signed\nlines *.svg lines=4x4");
-    WrSet *set = wr_set_find("studio", &err);
+    WrMapSet *set = wr_map_set_find("studio", &err);
     if (!set) fail_msg("%s", err.text);
     assert_true(set->own && set->maps.count == 3);
     assert_string_equal(set->about, "a renderer of our own");
-    wr_set_free(set);
+    wr_map_set_free(set);
     if (!write_set("studio", NULL, 0, &err)) fail_msg("%s", err.text);
     static const char *const files[] = { "N_clay.v1.png", "clay-h.tif", "clay.svg" };
     for (int i = 0; i < 3; i++) assert_true(wr_path_remove(files[i]));
-    WrSetNames names = wr_set_names();
-    assert_int_equal(names.names.count, WR_SET_ROWS + 1);
-    assert_string_equal(names.names.data[WR_SET_ROWS], "studio");
-    wr_set_names_free(&names);
+    WrMapSetNames names = wr_map_set_names();
+    assert_int_equal(names.names.count, WR_MAP_SET_ROWS + 1);
+    assert_string_equal(names.names.data[WR_MAP_SET_ROWS], "studio");
+    wr_map_set_names_free(&names);
 }
 
 static void an_own_set_goes_before_ours(void **state)
@@ -224,7 +224,7 @@ static void wrong_lines_are_refused_by_number(void **state)
 {
     (void)state;
     char many[4000] = "", settings[400] = "height *.png";
-    for (int i = 0; i <= WR_SET_MAPS; i++)
+    for (int i = 0; i <= WR_MAP_SET_ENTRIES_MAX; i++)
         snprintf(many + strlen(many), sizeof many - strlen(many), "height %d_*.png\n", i);
     for (int i = 0; i <= 12; i++) strcat(settings, " range=auto");
     const struct {
@@ -255,7 +255,7 @@ static void wrong_lines_are_refused_by_number(void **state)
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         WrError err = { "" };
         own_set("bad", wrong[i].text);
-        WrSet *set = wr_set_find("bad", &err);
+        WrMapSet *set = wr_map_set_find("bad", &err);
         if (set) fail_msg("taken: %s", wrong[i].text);
         if (!strstr(err.text, wrong[i].says))
             fail_msg("%s: says %s, without %s", wrong[i].text, err.text, wrong[i].says);
@@ -266,35 +266,35 @@ static void hostile_files_and_names_are_refused(void **state)
 {
     (void)state;
     WrError err = { "" };
-    char *large = malloc(WR_SET_FILE_MAX + 2);
-    memset(large, '#', WR_SET_FILE_MAX + 1);
-    large[WR_SET_FILE_MAX + 1] = '\0';
+    char *large = malloc(WR_MAP_SET_FILE_MAX + 2);
+    memset(large, '#', WR_MAP_SET_FILE_MAX + 1);
+    large[WR_MAP_SET_FILE_MAX + 1] = '\0';
     own_set("bad", large);
     free(large);
-    assert_null(wr_set_find("bad", &err));
+    assert_null(wr_map_set_find("bad", &err));
     assert_non_null(strstr(err.text, "65537 bytes: a set has at most 65536"));
     assert_true(wr_file_write("config/wrinkle/sets/bad.set", "height\0*.png", 12, &err));
-    assert_null(wr_set_find("bad", &err));
+    assert_null(wr_map_set_find("bad", &err));
     assert_non_null(strstr(err.text, "NUL byte"));
-    assert_null(wr_set_find("../sets/studio", &err));
+    assert_null(wr_map_set_find("../sets/studio", &err));
     assert_non_null(strstr(err.text, "must be one of blender, gltf"));
     assert_true(wr_path_remove("config/wrinkle/sets/bad.set"));
     assert_true(wr_folder_make("config/wrinkle/sets/bad.set", WR_FOLDER_FOR_ALL));
-    assert_null(wr_set_find("bad", &err));
+    assert_null(wr_map_set_find("bad", &err));
     assert_true(wr_folder_remove("config/wrinkle/sets/bad.set"));
     WrDocument *document = bump_document();
     WrText told = { 0 };
-    WrSet *set = wr_set_find("unity", &err);
+    WrMapSet *set = wr_map_set_find("unity", &err);
     static const char *const names[] = { "../x", "a\nb", "" };
     for (int i = 0; i < 3; i++) {
-        WrSetOrder order = { set, ".", names[i], NULL, 0 };
-        assert_false(wr_export_set(&order, document, NULL, &told, &err));
+        WrMapSetRequest order = { set, ".", names[i], NULL, 0 };
+        assert_false(wr_export_map_set(&order, document, NULL, &told, &err));
         assert_non_null(strstr(err.text, "must be the cell's name"));
     }
-    WrSetOrder order = { set, "nowhere", "clay", NULL, 0 };
-    assert_false(wr_export_set(&order, document, NULL, &told, &err));
+    WrMapSetRequest order = { set, "nowhere", "clay", NULL, 0 };
+    assert_false(wr_export_map_set(&order, document, NULL, &told, &err));
     assert_non_null(strstr(err.text, "nowhere: is no folder"));
-    wr_set_free(set);
+    wr_map_set_free(set);
     wr_text_fini(&told);
     wr_document_free(document);
 }

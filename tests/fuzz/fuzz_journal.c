@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "document/journal.h"
+#include "document/recovery_journal.h"
 #include "document/recover.h"
 
 #include <string.h>

@@ -90,7 +90,7 @@ static void draw(const WrPreset *preset)
         wr_engine_push(engine, &path[i]);
         while (wr_engine_step(engine)) continue;
     }
-    wr_engine_finish(engine);
+    wr_engine_pen_up(engine);
     while (wr_engine_step(engine)) continue;
     wr_engine_free(engine);
 }

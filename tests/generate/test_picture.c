@@ -20,7 +20,7 @@ static double ground(double x, double y)
 static WrSheet ground_of(int width, int height, double scale)
 {
     WrSheet s;
-    assert_true(wr_sheet_new(&s, width, height, ring, NULL));
+    assert_true(wr_sheet_init(&s, width, height, ring, NULL));
     for (int j = 0; j < height; j++)
         for (int i = 0; i < width; i++)
             s.z[j * width + i] = ground((i + 0.5) * scale, (j + 0.5) * scale);
@@ -112,7 +112,7 @@ static void a_picture_that_repeats_already_is_cut_without_a_trace(void **state)
     TestRandom r = { 12 };
     double tile[H][W];
     WrSheet s;
-    assert_true(wr_sheet_new(&s, W + 6, H + 4, ring, NULL));
+    assert_true(wr_sheet_init(&s, W + 6, H + 4, ring, NULL));
     for (int j = 0; j < H; j++)
         for (int i = 0; i < W; i++) tile[j][i] = test_random(&r);
     for (int j = 0; j < H + 4; j++)

@@ -170,7 +170,7 @@ static void the_seed_alone_decides_about_accidents(void **state)
 
 /* ---- nets ---- */
 
-/* A sphere surface against the formula: FINE of solids.c along the normal, and the rounding of corners. */
+/* A sphere surface against the formula: FINE of solid_generators.c along the normal, and the rounding of corners. */
 static void a_surface_is_what_its_formula_says_within_a_fiftieth_of_a_texel(void **state)
 {
     (void)state;

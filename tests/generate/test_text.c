@@ -5,7 +5,7 @@
 #include "base/exactmath.h"
 #include "base/pool.h"
 #include "base/progress.h"
-#include "generate/text.h"
+#include "generate/text_relief.h"
 #include "image/font.h"
 
 #include <ft2build.h>

@@ -93,7 +93,7 @@ static void two_dimensions_are_the_lectures_four_corners(void **state)
         double x = 5.0 * test_random(&r), y = 4.0 * test_random(&r);
         int x0 = (int)x, y0 = (int)y, x1 = (x0 + 1) % 5, y1 = (y0 + 1) % 4;
         double a = x - x0, b = y - y0;
-        double fa = wr_fade_alpha(&wr_fades[fade], a), fb = wr_fade_alpha(&wr_fades[fade], b);
+        double fa = wr_fade_value(&wr_fades[fade], a), fb = wr_fade_value(&wr_fades[fade], b);
         int at[4] = { 5 * y0 + x0, 5 * y0 + x1, 5 * y1 + x0, 5 * y1 + x1 };
         double weight[4] = { (1 - fa) * (1 - fb), fa * (1 - fb), (1 - fa) * fb, fa * fb };
         double value = 0.0, lambda = 0.0;
@@ -144,11 +144,11 @@ static void fades_add_up_to_one_with_their_mirror_image(void **state)
     (void)state;
     for (int k = 0; k < WR_FADE_COUNT; k++) {
         const WrFadeInfo *fade = &wr_fades[k];
-        assert_true(wr_fade_alpha(fade, 0.0) == 0.0 && wr_fade_alpha(fade, 1.0) == 1.0);
-        assert_true(wr_fade_alpha(fade, 0.5) == 0.5);
+        assert_true(wr_fade_value(fade, 0.0) == 0.0 && wr_fade_value(fade, 1.0) == 1.0);
+        assert_true(wr_fade_value(fade, 0.5) == 0.5);
         assert_true((wr_fade_slope(fade, 0.0) == 0.0) == (fade->continuity > 0));
         for (double x = 0.0; x <= 1.0; x += 0x1p-6)
-            assert_near(wr_fade_alpha(fade, x) + wr_fade_alpha(fade, 1.0 - x), 1.0, 4e-16);
+            assert_near(wr_fade_value(fade, x) + wr_fade_value(fade, 1.0 - x), 1.0, 4e-16);
     }
 }
 

@@ -142,7 +142,7 @@ static void rows_and_scales_are_their_formulas(void **state)
             for (int k = 0; k < count; k++) {
                 double t = 37 * (1.0 - (100 + k + 0.5) / 333) + 0.21, y = t - floor(t);
                 assert_true(rows.whole[k] == floor(t) && rows.y[k] == (float)y);
-                assert_true(rows.alpha[k] == (float)wr_fade_alpha(&wr_fades[WR_FADE_QUINTIC], y));
+                assert_true(rows.alpha[k] == (float)wr_fade_value(&wr_fades[WR_FADE_QUINTIC], y));
                 assert_true(f[k] == (float)(0.1 + 1e30 * (double)((float)k * 0.37f - 3.0f)));
             }
             assert_true(f[count] == (float)count * 0.37f - 3.0f);

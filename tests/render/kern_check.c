@@ -394,9 +394,9 @@ static bool run_surround(const WrKernels *k, Bench *b, int member, int count)
 }
 
 /* Smooth functions of roughness and n.v, as light shares are. */
-static void fill_shares(float (*of)[WR_TEXTURED_REFLECTION_TERMS], float first)
+static void fill_shares(float (*of)[WR_SVBRDF_TERMS], float first)
 {
-    for (int i = 0; i < WR_TEXTURED_REFLECTION_STEPS * WR_ALBEDO_TERMS; i++) {
+    for (int i = 0; i < WR_SVBRDF_STEPS * WR_ALBEDO_TERMS; i++) {
         const int step = i / WR_ALBEDO_TERMS, term = i % WR_ALBEDO_TERMS;
         of[step][term] = (first - 0.043f * (float)term) * (1 - 0.021f * (float)step);
     }
@@ -428,12 +428,12 @@ static bool run_vary(const WrKernels *k, Bench *b, int member, int count)
     }
     for (int i = 0; i < 3 * WR_FORM_TERMS; i++)
         how.form[i / WR_FORM_TERMS][i % WR_FORM_TERMS] = 0.9f - 0.057f * (float)i;
-    for (int i = 0; i < WR_TEXTURED_REFLECTION_STEPS; i++)
+    for (int i = 0; i < WR_SVBRDF_STEPS; i++)
         vary.mean[i] = 0.9f - 0.01f * (float)i, vary.again[i] = 0.3f + 0.2f * (float)i;
     fill_shares(vary.albedo, 0.4f), fill_shares(vary.matt, 0.6f), fill_shares(vary.twice, 0.1f);
     for (int i = 0; i < 2; i++)
         fill_shares(vary.own[i], 0.2f + 0.3f * (float)i), fill_shares(vary.white[i], 0.37f);
-    for (int i = 0; i < WR_TEXTURED_REFLECTION_RUNGS; i++)
+    for (int i = 0; i < WR_SVBRDF_RUNGS; i++)
         vary.rung[i] = (WrKernMipLevel){ texels[i % 2] + 4 * 9, 8, 6 - i % 2, 4 };
     if (member < 18)
         k->reflect_vary(&b->light[0], &matter, &vary, models[member / 6], member % 2,

@@ -404,12 +404,12 @@ static void odd_sets_end(void **state)
             }
             assert_true(made->triangle_count <= WR_PATCH_TRIANGLES);
             size_t count;
-            float *block = wr_triangles_pack(made, &count);
-            WrTriangles *again = wr_triangles_unpack(block, count, &err);
+            float *block = wr_triangles_serialize(made, &count);
+            WrTriangles *again = wr_triangles_deserialize(block, count, &err);
             assert_non_null(again);
             assert_true(again->key == made->key);
             block[1] = 5000;
-            assert_null(wr_triangles_unpack(block, count, &err));
+            assert_null(wr_triangles_deserialize(block, count, &err));
             wr_free(block);
             wr_triangles_free(again);
             wr_triangles_free(made);

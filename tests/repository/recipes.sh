@@ -76,7 +76,7 @@ kernels=(src/render/wr_kern_v1.c src/render/wr_kern_double_v1.c)
 # Files that have something to do with models: each includes the table, or has a switch.
 users=(src/shade/reflection.c src/shade/environment_brdf.c src/render/pipeline/pipeline.c src/render/plan/plan_light.c
     src/render/plan/plan_light.c src/render/plan/plan_light.c src/render/reference/reference_shade.c
-    src/command/look_commands.c src/scene/material_preset.c ui/panels/panel_material.c ui/panels/panel_maps.c)
+    src/command/material_command.c src/scene/material_preset.c ui/panels/panel_material.c ui/panels/panel_maps.c)
 
 for loops in UNIFORM ROUGH METAL; do
     pristine "$models" "$formulas" "$reference"

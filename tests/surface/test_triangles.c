@@ -268,10 +268,10 @@ static void documents_bring_it_back(void **state)
     (void)state;
     WrTriangles *t = strip(30, 1);
     size_t count;
-    float *block = wr_triangles_pack(t, &count);
+    float *block = wr_triangles_serialize(t, &count);
     for (size_t i = 0; i < count; i++) assert_true(isfinite(block[i]));
     WrError err = { "" };
-    WrTriangles *back = wr_triangles_unpack(block, count, &err);
+    WrTriangles *back = wr_triangles_deserialize(block, count, &err);
     if (!back) fail_msg("%s", err.text);
     assert_true(back->key == t->key && back->closed == t->closed && back->mapped && back->faceted);
     assert_memory_equal(back->corners, t->corners, (size_t)t->corner_count * sizeof *t->corners);
@@ -288,7 +288,7 @@ static void documents_bring_it_back(void **state)
         const size_t at = (size_t)(test_random(&random) * (double)count);
         const float kept = block[at], wild[] = { NAN, -1, 0.5f, 1e9f, INFINITY, 3e38f };
         block[at] = wild[i % 6];
-        back = wr_triangles_unpack(block, i % 7 == 0 ? at : count, &err);
+        back = wr_triangles_deserialize(block, i % 7 == 0 ? at : count, &err);
         if (back) wr_triangles_free(back);
         block[at] = kept;
     }

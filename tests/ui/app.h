@@ -13,7 +13,7 @@
 #include "ui/state/action.h"
 #include "ui/state/app_options.h"
 #include "ui/state/app_state.h"
-#include "ui/state/busy_internal.h"
+#include "ui/state/background_command_internal.h"
 #include "ui/state/document.h"
 #include "ui/tools/stroke_input.h"
 

@@ -143,7 +143,7 @@ static void show_free(Shown *s)
 
 static void show(Shown *s, const WrCanvasView *view, const WrField *field)
 {
-    const WrCanvasLook look = { .colours = WR_CANVAS_SIGNED, .low = -1, .high = 1 };
+    const WrCanvasDisplay look = { .colours = WR_CANVAS_SIGNED, .low = -1, .high = 1 };
     WrCanvasRange range;
     bool unfinished = true;
     while (unfinished) {
@@ -283,7 +283,7 @@ static void contours_are_few_and_at_round_heights(void **state)
 static void contours_lie_between_two_pixels_that_differ(void **state)
 {
     (void)state;
-    const WrCanvasLook look = { .colours = WR_CANVAS_CONTOURS };
+    const WrCanvasDisplay look = { .colours = WR_CANVAS_CONTOURS };
     WrCanvasInk ink;
     wr_canvas_ink_make(&ink, &look, -0.31, 0.83);
     double step = ink.step;
@@ -319,9 +319,9 @@ static void reliefs_are_lit_by_the_cosine_and_level_ground_is_grey(void **state)
     TestRandom r = { 46 };
     for (int i = 0; i < 100; i++) {
         double a = 6.283 * test_random(&r), reach = 0.4 + 0.55 * test_random(&r);
-        const WrCanvasLook look = { .colours = WR_CANVAS_RELIEF,
-                                    .light_x = reach * cos(a),
-                                    .light_y = reach * sin(a) };
+        const WrCanvasDisplay look = { .colours = WR_CANVAS_RELIEF,
+                                       .light_x = reach * cos(a),
+                                       .light_y = reach * sin(a) };
         double up = sqrt(1 - reach * reach), gamma = log(0.55) / log(up);
         float p[3] = { 0, (float)(6 * test_random(&r) - 3), 0 },
               q[3] = { 0, (float)(6 * test_random(&r) - 3), 0 };
@@ -344,7 +344,7 @@ static void reliefs_are_lit_by_the_cosine_and_level_ground_is_grey(void **state)
 static void normals_have_the_colours_of_a_map(void **state)
 {
     (void)state;
-    const WrCanvasLook look = { .colours = WR_CANVAS_NORMALS, .high = 1 };
+    const WrCanvasDisplay look = { .colours = WR_CANVAS_NORMALS, .high = 1 };
     WrCanvasView view = { .w = WIDE, .h = TALL, .table_w = 8, .table_h = 8, .zoom = 9 };
     WrCanvasRange range;
     Shown s = show_new();

@@ -47,20 +47,20 @@ static void two_windows_keep_what_each_of_them_changed(void **state)
     a.own.steady_smooth = 7;
     wr_settings_set_favourite(&a.own, "wrinkle/groove", true);
     wr_settings_set_favourite(&a.own, "wrinkle/pinch", true);
-    wr_settings_note_recent(&a.own, "/a.exr");
+    wr_settings_add_recent(&a.own, "/a.exr");
     wr_settings_set_text(&a.own.preset, "wrinkle/groove");
     wr_settings_keep_pen(&a.own, "0 0 1 1 0 0 1 Big Pen");
     write_window(&a);
     b.own.height = 700;
     b.own.steady_smooth = 9;
     wr_settings_set_favourite(&b.own, "mypaint2/pencil", true);
-    wr_settings_note_recent(&b.own, "/b.exr");
+    wr_settings_add_recent(&b.own, "/b.exr");
     wr_settings_note_used(&b.own, "round");
     wr_settings_keep_pen(&b.own, "0 0 1 1 0 0 2 Small Pen");
     write_window(&b);
     wr_settings_set_favourite(&a.own, "wrinkle/pinch", false);
-    wr_settings_note_recent(&a.own, "/c.exr");
-    wr_settings_note_recent(&a.own, "/a.exr");
+    wr_settings_add_recent(&a.own, "/c.exr");
+    wr_settings_add_recent(&a.own, "/a.exr");
     wr_settings_keep_pen(&a.own, "0 0 1 1 0 0 3 Big Pen");
     write_window(&a);
     b.own.divider = 0.25;
@@ -91,12 +91,12 @@ static void what_one_does_to_a_full_list_is_done_to_the_others(void **state)
     char path[16];
     for (int i = 0; i < 2 * WR_RECENT_MAX; i++) {
         snprintf(path, sizeof path, "/%d", i);
-        wr_settings_note_recent(&a.own, path);
+        wr_settings_add_recent(&a.own, path);
         write_window(&a);
     }
-    wr_settings_note_recent(&b.own, "/b");
+    wr_settings_add_recent(&b.own, "/b");
     write_window(&b);
-    wr_settings_note_recent(&a.own, "/10"); /* moves to the front */
+    wr_settings_add_recent(&a.own, "/10"); /* moves to the front */
     write_window(&a);
     assert_string_equal(a.own.recent[0], "/10");
     assert_string_equal(a.own.recent[1], "/b");

@@ -5,7 +5,7 @@
 #include "base/text.h"
 #include "base/vec.h"
 
-#include "ui/canvas/canvas_cells.h"
+#include "ui/canvas/canvas_mips.h"
 #include "ui/state/keys.h"
 #include "ui/state/layout.h"
 #include "ui/state/line.h"
@@ -434,9 +434,9 @@ static void settings_survive_being_written_and_read(void **state)
     a.brush.opacity = 0.75;
     a.symmetry.radial = 5;
     a.drawing.tolerance = 0.125;
-    a.look = (WrCanvasLook){ WR_CANVAS_CAVITY, WR_CANVAS_SIGNED, true, true, -2, 3, 0.3, -0.4 };
-    wr_settings_note_recent(&a, "/one");
-    wr_settings_note_recent(&a, "/with a space/two");
+    a.look = (WrCanvasDisplay){ WR_CANVAS_CAVITY, WR_CANVAS_SIGNED, true, true, -2, 3, 0.3, -0.4 };
+    wr_settings_add_recent(&a, "/one");
+    wr_settings_add_recent(&a, "/with a space/two");
     WrText text = { 0 }, again = { 0 };
     wr_settings_print(&a, &text);
     wr_settings_parse(&b, wr_text_get(&text));
@@ -477,9 +477,9 @@ static void recent_files_are_few_and_without_doubles(void **state)
     char path[16];
     for (int i = 0; i < 20; i++) {
         snprintf(path, sizeof path, "/%d", i);
-        wr_settings_note_recent(&s, path);
+        wr_settings_add_recent(&s, path);
     }
-    wr_settings_note_recent(&s, "/17");
+    wr_settings_add_recent(&s, "/17");
     assert_string_equal(s.recent[0], "/17");
     assert_string_equal(s.recent[1], "/19");
     assert_string_equal(s.recent[2], "/18");
@@ -555,7 +555,7 @@ static void levels_keep_a_cell_between_half_a_pixel_and_one(void **state)
 {
     (void)state;
     for (double zoom = 128; zoom > 1.0 / 64; zoom /= 1.1) {
-        int level = wr_cells_level(zoom);
+        int level = wr_canvas_mips_level(zoom);
         double pixels = zoom * (1 << level);
         if (zoom > 0.5) assert_int_equal(level, 0);
         else assert_true(pixels > 0.5 && pixels <= 1.0);
@@ -576,21 +576,21 @@ static void means_of_cut_off_tiles_count_only_what_is_inside(void **state)
     WrField *field = wr_field_new(100, 70, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
     for (int j = 0; j < 70; j++)
         for (int i = 0; i < 100; i++) wr_field_set(field, i, j, (float)(i + 1000 * j));
-    WrCanvasCells *cells = wr_cells_new();
+    WrCanvasMips *cells = wr_canvas_mips_new();
     int changes = 0;
     float flat;
-    assert_false(wr_cells_update(cells, field, 3, count_tile, &changes));
-    const float *mean = wr_cells_block(cells, 1, 1, 1e300, &flat);
+    assert_false(wr_canvas_mips_update(cells, field, 3, count_tile, &changes));
+    const float *mean = wr_canvas_mips_block(cells, 1, 1, 1e300, &flat);
     /* cell (12, 8): columns 96..99, rows 64..69 */
     assert_near((double)mean[0 * 8 + 4], 97.5 + 1000 * 66.5, 1e-2);
-    mean = wr_cells_block(cells, 0, 0, 1e300, &flat);
+    mean = wr_canvas_mips_block(cells, 0, 0, 1e300, &flat);
     assert_near((double)mean[9], 11.5 + 1000 * 11.5, 1e-2);
-    assert_false(wr_cells_rough(cells));
+    assert_false(wr_canvas_mips_rough(cells));
     float low, high;
-    wr_cells_range(cells, &low, &high);
+    wr_canvas_mips_range(cells, &low, &high);
     assert_near((double)low, 0, 0);
     assert_near((double)high, 69099, 0);
-    wr_cells_free(cells);
+    wr_canvas_mips_free(cells);
     wr_field_free(field);
 }
 
@@ -598,24 +598,24 @@ static void an_edit_is_seen_and_costs_its_tile_alone(void **state)
 {
     (void)state;
     WrField *field = wr_field_new(512, 512, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.25f, NULL);
-    WrCanvasCells *cells = wr_cells_new();
+    WrCanvasMips *cells = wr_canvas_mips_new();
     int changes = 0;
     float flat = 0, low, high;
-    wr_cells_update(cells, field, 2, count_tile, &changes);
-    assert_null(wr_cells_block(cells, 3, 5, 1e300, &flat));
+    wr_canvas_mips_update(cells, field, 2, count_tile, &changes);
+    assert_null(wr_canvas_mips_block(cells, 3, 5, 1e300, &flat));
     assert_near((double)flat, 0.25, 0);
-    wr_cells_range(cells, &low, &high);
+    wr_canvas_mips_range(cells, &low, &high);
     wr_field_set(field, 3 * 64 + 7, 5 * 64 + 9, 16.25f);
-    assert_true(wr_cells_update(cells, field, 2, count_tile, &changes));
+    assert_true(wr_canvas_mips_update(cells, field, 2, count_tile, &changes));
     assert_int_equal(changes, 1);
-    const float *mean = wr_cells_block(cells, 3, 5, 1e300, &flat);
+    const float *mean = wr_canvas_mips_block(cells, 3, 5, 1e300, &flat);
     assert_near((double)mean[16 * 2 + 1], 1.25, 1e-6); /* one of 16 texels is 16 higher */
     assert_near((double)mean[0], 0.25, 0);
-    wr_cells_range(cells, &low, &high);
+    wr_canvas_mips_range(cells, &low, &high);
     assert_near((double)high, 16.25, 0);
-    assert_true(wr_cells_update(cells, field, 2, count_tile, &changes));
+    assert_true(wr_canvas_mips_update(cells, field, 2, count_tile, &changes));
     assert_int_equal(changes, 1); /* nothing changed since */
-    wr_cells_free(cells);
+    wr_canvas_mips_free(cells);
     wr_field_free(field);
 }
 
@@ -625,7 +625,7 @@ static void the_range_follows_every_edit(void **state)
     (void)state;
     TestRandom r = { 571 };
     WrField *field = wr_field_new(211, 157, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.125f, NULL);
-    WrCanvasCells *cells = wr_cells_new();
+    WrCanvasMips *cells = wr_canvas_mips_new();
     int changes = 0, places[6][2];
     for (int i = 0; i < 200; i++) {
         int *place = places[i % 6];
@@ -633,13 +633,13 @@ static void the_range_follows_every_edit(void **state)
         place[0] = (int)(211 * test_random(&r));
         place[1] = (int)(157 * test_random(&r));
         wr_field_set(field, place[0], place[1], (float)(3 * test_random(&r) - 1.4));
-        wr_cells_update(cells, field, 1, count_tile, &changes);
+        wr_canvas_mips_update(cells, field, 1, count_tile, &changes);
         float low, high, least, most;
-        wr_cells_range(cells, &low, &high);
+        wr_canvas_mips_range(cells, &low, &high);
         wr_field_range(field, &least, &most);
         assert_true(low == least && high == most);
     }
-    wr_cells_free(cells);
+    wr_canvas_mips_free(cells);
     wr_field_free(field);
 }
 
@@ -650,15 +650,15 @@ static void late_means_are_rough_and_made_good_later(void **state)
     WrField *field = wr_field_new(64, 64, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
     for (int j = 0; j < 64; j++)
         for (int i = 0; i < 64; i++) wr_field_set(field, i, j, (float)i);
-    WrCanvasCells *cells = wr_cells_new();
+    WrCanvasMips *cells = wr_canvas_mips_new();
     float flat;
-    wr_cells_update(cells, field, 6, count_tile, NULL);
-    assert_near((double)wr_cells_block(cells, 0, 0, 0, &flat)[0], 0, 0);
-    assert_true(wr_cells_rough(cells));
-    wr_cells_forget_rough(cells);
-    assert_near((double)wr_cells_block(cells, 0, 0, 1e300, &flat)[0], 31.5, 1e-5);
-    assert_false(wr_cells_rough(cells));
-    wr_cells_free(cells);
+    wr_canvas_mips_update(cells, field, 6, count_tile, NULL);
+    assert_near((double)wr_canvas_mips_block(cells, 0, 0, 0, &flat)[0], 0, 0);
+    assert_true(wr_canvas_mips_rough(cells));
+    wr_canvas_mips_forget_rough(cells);
+    assert_near((double)wr_canvas_mips_block(cells, 0, 0, 1e300, &flat)[0], 31.5, 1e-5);
+    assert_false(wr_canvas_mips_rough(cells));
+    wr_canvas_mips_free(cells);
     wr_field_free(field);
 }
 

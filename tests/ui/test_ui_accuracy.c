@@ -32,7 +32,7 @@ static void nothing_is_measured_while_the_hand_works_or_nobody_looks(void **stat
     assert_true(due == 0);
 }
 
-static void the_error_waits_a_moment_and_the_ladder_for_the_error(void **state)
+static void the_error_waits_a_moment_and_the_benchmark_for_the_error(void **state)
 {
     (void)state;
     double due;
@@ -44,14 +44,14 @@ static void the_error_waits_a_moment_and_the_ladder_for_the_error(void **state)
     assert_int_equal(wr_accuracy_next(&m, &due), WR_ACCURACY_ERROR);
     m.error_known = true;
     assert_int_equal(wr_accuracy_next(&m, &due), WR_ACCURACY_NOTHING);
-    assert_near(due, m.changed_at + WR_ACCURACY_LADDER_REST, 1e-9);
+    assert_near(due, m.changed_at + WR_ACCURACY_BENCHMARK_REST, 1e-9);
     m.now = due;
-    assert_int_equal(wr_accuracy_next(&m, &due), WR_ACCURACY_LADDER);
+    assert_int_equal(wr_accuracy_next(&m, &due), WR_ACCURACY_BENCHMARK);
     m.plot_known = true;
     assert_int_equal(wr_accuracy_next(&m, &due), WR_ACCURACY_NOTHING);
     m.plot_asked = true; /* again, and at once */
     m.now = m.changed_at;
-    assert_int_equal(wr_accuracy_next(&m, &due), WR_ACCURACY_LADDER);
+    assert_int_equal(wr_accuracy_next(&m, &due), WR_ACCURACY_BENCHMARK);
 }
 
 static void two_pictures_flicker_twice_a_second(void **state)
@@ -101,7 +101,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_is_measured_while_the_hand_works_or_nobody_looks),
-        cmocka_unit_test(the_error_waits_a_moment_and_the_ladder_for_the_error),
+        cmocka_unit_test(the_error_waits_a_moment_and_the_benchmark_for_the_error),
         cmocka_unit_test(two_pictures_flicker_twice_a_second),
         cmocka_unit_test(the_line_between_two_pictures_stays_in_reach),
         cmocka_unit_test(a_fitted_picture_keeps_its_shape),

@@ -11,9 +11,9 @@
 #include "system/clock.h"
 
 #include "ui/state/action.h"
-#include "ui/state/busy_internal.h"
+#include "ui/state/background_command_internal.h"
 #include "ui/state/dialog.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/layout.h"
 #include "ui/state/messages.h"
 #include "ui/state/settings.h"
@@ -378,7 +378,7 @@ static void it_closes_while_the_journal_is_tended(void **state)
     Long work = { .app = app, .watch = see_a_few };
     watched = &work;
     app->drawn = picture_drawn;
-    wr_busy_run_background(app, "Keeping the journal short", take_long, &work);
+    wr_busy_run_upkeep(app, "Keeping the journal short", take_long, &work);
     assert_non_null(app->busy);
     SDL_PushEvent(&(SDL_Event){ .type = SDL_QUIT });
     const double end = wr_clock_seconds() + PATIENCE;

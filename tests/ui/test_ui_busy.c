@@ -19,9 +19,9 @@
 #include "ui/app/loop.h"
 #include "ui/state/app_options.h"
 #include "ui/canvas/view.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/document.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/layout.h"
 #include "ui/state/messages.h"
 #include "ui/state/session_view.h"
@@ -257,7 +257,7 @@ static void the_first_stroke_is_undone_before_it_is_drawn(void **state)
     Bench bench;
     begin(&bench);
     WrApp *app = bench.app;
-    wr_session_rebase(bench.session);
+    wr_session_restart_history(bench.session);
     uint64_t clean = wr_session_revision(bench.session);
     WrHash before = wr_session_hash(bench.session);
     int x = app->layout->canvas.x + app->layout->canvas.w / 2;

@@ -12,7 +12,7 @@
 #include "ui/app/loop.h"
 #include "ui/state/messages.h"
 #include "ui/state/app_options.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/jobs/job.h"
 
 #include <stdlib.h>

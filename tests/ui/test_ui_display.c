@@ -51,7 +51,7 @@ static void the_word_says_what_becomes_of_pens(void **state)
         { { NULL, ":1", "wayland-0", NULL }, NULL, NULL },
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        const char *word = wr_display_driver_note(&rows[i].env, rows[i].opened);
+        const char *word = wr_display_driver_message(&rows[i].env, rows[i].opened);
         if (!rows[i].has) {
             assert_null(word);
             continue;

@@ -337,7 +337,7 @@ static void keys_lead_through_the_menus(void **state)
     Walk walk;
     enter_bench(&walk);
     WrGui *gui = walk.app->gui;
-    WrCanvasLook *look = &walk.app->settings->look;
+    WrCanvasDisplay *look = &walk.app->settings->look;
     look->shown = WR_CANVAS_HEIGHTS, look->colours = WR_CANVAS_GREY;
     for (int run = 0; run < 2; run++) {
         wr_gui_focus_menus(gui, true);

@@ -9,7 +9,7 @@
 #include "base/hash.h"
 #include "base/text.h"
 #include "ui/state/action.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/dialog.h"
 #include "ui/state/layout.h"
 #include "ui/state/settings.h"

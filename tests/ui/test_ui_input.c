@@ -5,7 +5,7 @@
 
 #include "ui/state/action.h"
 #include "ui/state/dialog.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/layout.h"
 #include "ui/state/settings.h"
 #include "ui/canvas/view.h"

@@ -211,7 +211,7 @@ static void the_chosen_dials_are_summarized(void **state)
 static void a_cancelled_piece_of_work_is_not_done(void **state)
 {
     (void)state;
-    static const WrWorkKind kinds[] = { WR_WORK_ERROR, WR_WORK_LADDER, WR_WORK_PAIR, WR_WORK_MAP,
+    static const WrWorkKind kinds[] = { WR_WORK_ERROR, WR_WORK_BENCHMARK, WR_WORK_PAIR, WR_WORK_MAP,
                                         WR_WORK_CASES };
     WrField *field = waves();
     WrScene *scene = scene_of("torus");

@@ -5,9 +5,9 @@
 
 #include "ui/app/app.h"
 #include "ui/state/action.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/dialog.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/layout.h"
 #include "ui/state/registry.h"
 #include "ui/state/settings.h"

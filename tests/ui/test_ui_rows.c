@@ -10,7 +10,7 @@
 #include "scene/scene.h"
 #include "shade/reflection.h"
 
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/action.h"
 #include "ui/state/messages.h"
 #include "ui/toolkit/focus.h"

@@ -23,7 +23,7 @@
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
 #include "ui/state/document.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/layout.h"
 #include "ui/state/replace.h"
 #include "ui/state/registry.h"

@@ -90,11 +90,11 @@ struct WrAccuracy {
     WrWork *error;     /* newest result, owned; NULL: none */
     uint64_t error_of; /* state that was measured, or whose measurement failed */
     WrError error_why; /* reason of a failure; "" */
-    WrWork *plot;      /* newest ladder, owned; NULL: none */
-    char *plot_base;   /* the ladder's scene without its dials, owned */
+    WrWork *plot;      /* newest benchmark, owned; NULL: none */
+    char *plot_base;   /* the benchmark's scene without its dials, owned */
     uint64_t plot_key; /* key of its table and of the picture's rotation */
     double plot_turn;
-    uint64_t plot_failed; /* state whose ladder failed */
+    uint64_t plot_failed; /* state whose benchmark failed */
     uint64_t fits_of;     /* state for which the next two members are valid; 0: none */
     bool fits;            /* the plot belongs to this table and scene, except for the dials */
     int rung;             /* index of the rung with the scene's dials, -1: none */
@@ -132,9 +132,9 @@ void wr_accuracy_free(WrApp *app);
 bool wr_accuracy_pending(const WrApp *app);
 /* clock of the next necessary update; 0: only after events */
 bool wr_accuracy_rests(const WrApp *app); /* nothing is dragged, drawn or rotating */
-/* True if there is a ladder for the table and the scene, except for the dials. */
+/* True if there is a benchmark for the table and the scene, except for the dials. */
 bool wr_accuracy_plot_fits(const WrApp *app);
-/* The rung with the scene's dials in a fitting ladder, or -1. */
+/* The rung with the scene's dials in a fitting benchmark, or -1. */
 int wr_accuracy_current_rung(const WrApp *app);
 bool wr_accuracy_busy(WrApp *app, WrWorkKind kind, double *fraction);
 
@@ -142,7 +142,7 @@ bool wr_accuracy_busy(WrApp *app, WrWorkKind kind, double *fraction);
 /* A's dial: the scene's; B's: the last choice, initially the best. */
 double wr_accuracy_dial(const WrApp *app, int side, int dial);
 void wr_accuracy_set_dial(WrApp *app, int side, int dial, double value);
-/* Set all dials to those of a ladder rung. */
+/* Set all dials to those of a benchmark rung. */
 void wr_accuracy_take_rung(WrApp *app, int side, int rung);
 void wr_accuracy_b_from_a(WrApp *app);
 void wr_accuracy_swap_ab(WrApp *app);
@@ -176,16 +176,16 @@ void wr_act_accuracy(WrApp *app);
 void wr_act_inspector(WrApp *app);
 void wr_act_inspector_pin(WrApp *app);
 void wr_act_inspector_copy(WrApp *app);
-void wr_act_look_plain(WrApp *app);
-void wr_act_look_split(WrApp *app);
-void wr_act_look_flicker(WrApp *app);
-void wr_act_look_error(WrApp *app);
-void wr_act_look_dropped(WrApp *app);
-void wr_act_look_tilt(WrApp *app);
-void wr_act_look_level(WrApp *app);
-void wr_act_look_height(WrApp *app);
-void wr_act_look_normal(WrApp *app);
-void wr_act_look_ran(WrApp *app);
+void wr_act_display_plain(WrApp *app);
+void wr_act_display_split(WrApp *app);
+void wr_act_display_flicker(WrApp *app);
+void wr_act_display_error(WrApp *app);
+void wr_act_display_dropped(WrApp *app);
+void wr_act_display_tilt(WrApp *app);
+void wr_act_display_level(WrApp *app);
+void wr_act_display_height(WrApp *app);
+void wr_act_display_normal(WrApp *app);
+void wr_act_display_ran(WrApp *app);
 void wr_act_accuracy_measure(WrApp *app);
 void wr_act_compare_take(WrApp *app);
 void wr_act_compare_swap(WrApp *app);
@@ -194,16 +194,16 @@ void wr_act_compare_hold(
 bool wr_is_accuracy(const WrApp *app);
 bool wr_is_inspector(const WrApp *app);
 bool wr_is_inspector_pinned(const WrApp *app);
-bool wr_is_look_plain(const WrApp *app);
-bool wr_is_look_split(const WrApp *app);
-bool wr_is_look_flicker(const WrApp *app);
-bool wr_is_look_error(const WrApp *app);
-bool wr_is_look_dropped(const WrApp *app);
-bool wr_is_look_tilt(const WrApp *app);
-bool wr_is_look_level(const WrApp *app);
-bool wr_is_look_height(const WrApp *app);
-bool wr_is_look_normal(const WrApp *app);
-bool wr_is_look_ran(const WrApp *app);
+bool wr_is_display_plain(const WrApp *app);
+bool wr_is_display_split(const WrApp *app);
+bool wr_is_display_flicker(const WrApp *app);
+bool wr_is_display_error(const WrApp *app);
+bool wr_is_display_dropped(const WrApp *app);
+bool wr_is_display_tilt(const WrApp *app);
+bool wr_is_display_level(const WrApp *app);
+bool wr_is_display_height(const WrApp *app);
+bool wr_is_display_normal(const WrApp *app);
+bool wr_is_display_ran(const WrApp *app);
 bool wr_is_compare_hold(const WrApp *app);
 
 extern const WrPart wr_part_accuracy;

@@ -10,14 +10,14 @@
 #include "ui/patch/patch.h"
 #include "ui/preview/preview.h"
 #include "ui/jobs/job.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/scene_line.h"
 #include "ui/state/app_options.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/settings.h"
 #include "ui/tools/stroke_input.h"
 
-#include "accuracy/ladder.h"
+#include "accuracy/accuracy_benchmark.h"
 #include "base/array.h"
 #include "base/error.h"
 #include "base/memory.h"
@@ -85,8 +85,8 @@ static bool same_dials(const WrScene *a, const WrScene *b)
 static int rung_of(const WrAccuracy *a, const WrScene *scene)
 {
     int found = -1;
-    for (int i = 0; a->plot && found < 0 && i < a->plot->ladder.count; i++) {
-        WrScene *with = wr_setting_apply(&a->plot->ladder.rungs[i].setting, a->plot->scene);
+    for (int i = 0; a->plot && found < 0 && i < a->plot->benchmark.count; i++) {
+        WrScene *with = wr_setting_apply(&a->plot->benchmark.rungs[i].setting, a->plot->scene);
         if (same_dials(with, scene)) found = i;
         wr_scene_free(with);
     }
@@ -120,7 +120,7 @@ int wr_accuracy_current_rung(const WrApp *app)
 
 /* ---- results ---- */
 
-static void take_ladder(WrAccuracy *a, WrWork *work)
+static void take_benchmark(WrAccuracy *a, WrWork *work)
 {
     wr_work_free(a->plot);
     wr_free(a->plot_base);
@@ -146,10 +146,10 @@ static void take_measured(WrApp *app)
             a->error = work;
             return;
         }
-    } else if (work->kind == WR_WORK_LADDER) {
+    } else if (work->kind == WR_WORK_BENCHMARK) {
         a->plot_failed = work->of; /* once is enough; a new state is tried again */
         if (work->done) {
-            take_ladder(a, work);
+            take_benchmark(a, work);
             return;
         }
         if (strcmp(work->err.text, "cancelled") != 0) wr_app_fail(app, &work->err);
@@ -256,9 +256,9 @@ static void begin_measuring(WrApp *app)
     switch (wr_accuracy_next(&m, &due)) {
     case WR_ACCURACY_NOTHING: break;
     case WR_ACCURACY_ERROR: measure(app, WR_WORK_ERROR); return;
-    case WR_ACCURACY_LADDER:
+    case WR_ACCURACY_BENCHMARK:
         a->plot_asked = false;
-        measure(app, WR_WORK_LADDER);
+        measure(app, WR_WORK_BENCHMARK);
         return;
     }
 }
@@ -391,7 +391,7 @@ static void accuracy_forget(WrApp *app);
 /* a progress bar is visible */
 static bool accuracy_works(WrApp *app)
 {
-    return wr_accuracy_busy(app, WR_WORK_LADDER, NULL) ||
+    return wr_accuracy_busy(app, WR_WORK_BENCHMARK, NULL) ||
            wr_accuracy_busy(app, WR_WORK_ILLUSION, NULL) ||
            wr_accuracy_busy(app, WR_WORK_CASES, NULL);
 }
@@ -492,8 +492,8 @@ void wr_accuracy_take_rung(WrApp *app, int side, int rung)
 {
     const WrAccuracy *a = app->accuracy;
     double value[WR_DIAL_COUNT];
-    if (!a->plot || rung < 0 || rung >= a->plot->ladder.count) return;
-    WrScene *scene = wr_setting_apply(&a->plot->ladder.rungs[rung].setting, a->plot->scene);
+    if (!a->plot || rung < 0 || rung >= a->plot->benchmark.count) return;
+    WrScene *scene = wr_setting_apply(&a->plot->benchmark.rungs[rung].setting, a->plot->scene);
     read_all(scene, value);
     wr_scene_free(scene);
     if (side == 1) set_b(app, value);

@@ -10,12 +10,12 @@ WrAccuracyNext wr_accuracy_next(const WrAccuracyMoment *m, double *due)
     const bool asked = m->plot_asked;
     const bool plot = asked || (m->plot_open && !m->plot_known);
     if (!error && !plot) return WR_ACCURACY_NOTHING;
-    const double wait = error ? WR_ACCURACY_REST : asked ? 0 : WR_ACCURACY_LADDER_REST;
+    const double wait = error ? WR_ACCURACY_REST : asked ? 0 : WR_ACCURACY_BENCHMARK_REST;
     if (m->now < m->changed_at + wait) { /* bit-identical to *due */
         *due = m->changed_at + wait;
         return WR_ACCURACY_NOTHING;
     }
-    return error ? WR_ACCURACY_ERROR : WR_ACCURACY_LADDER;
+    return error ? WR_ACCURACY_ERROR : WR_ACCURACY_BENCHMARK;
 }
 
 bool wr_accuracy_flicker(double now, double since, double *next)

@@ -1,11 +1,11 @@
 /* accuracy_schedule.h - schedule of the Accuracy panel's measurements: never during input or rotation, a moment after the
-   last change, the error before the ladder. Pure; tested without a window. */
+   last change, the error before the benchmark. Pure; tested without a window. */
 #pragma once
 #include <stdbool.h>
 
 #define WR_ACCURACY_REST 0.4 /* seconds without change before the error is measured */
-/* seconds without change before the ladder is measured without a request */
-#define WR_ACCURACY_LADDER_REST 2.
+/* seconds without change before the benchmark is measured without a request */
+#define WR_ACCURACY_BENCHMARK_REST 2.
 /* seconds without change before comparison pictures and maps are rendered */
 #define WR_ACCURACY_LOOK_REST 0.15
 #define WR_FLICKER_SECONDS                                                                         \
@@ -13,8 +13,8 @@
 
 typedef enum WrAccuracyNext {
     WR_ACCURACY_NOTHING,
-    WR_ACCURACY_ERROR, /* error of the static view against the reference */
-    WR_ACCURACY_LADDER /* error and time of all settings */
+    WR_ACCURACY_ERROR,    /* error of the static view against the reference */
+    WR_ACCURACY_BENCHMARK /* error and time of all settings */
 } WrAccuracyNext;
 
 /* Input of a decision. Times are readings of one clock, seconds. */

@@ -3,7 +3,7 @@
 #include "ui/jobs/job.h"
 
 #include "accuracy/illusion.h"
-#include "accuracy/ladder.h"
+#include "accuracy/accuracy_benchmark.h"
 #include "accuracy/metrics.h"
 #include "accuracy/tolerance.h"
 #include "base/array.h"
@@ -44,7 +44,7 @@ static bool project(const WrWork *work, WrVec3 p, double *x, double *y)
     WrPlacement at;
     if (!wr_scene_place(work->scene, work->turn_deg, (double)work->width / work->height, &at, NULL))
         return false;
-    const WrVec3 from = v3_sub(wr_place_world(&at, p), at.eye);
+    const WrVec3 from = v3_sub(wr_object_to_world(&at, p), at.eye);
     const double depth = v3_dot(from, at.forward);
     if (!(depth > 0)) return false;
     const double half = at.orthographic ? at.half_height : at.half_height * depth;
@@ -86,7 +86,7 @@ static double depth_of(const WrWork *work, const WrScene *scene, WrVec3 p)
     WrPlacement at;
     if (!wr_scene_place(scene, work->turn_deg, (double)work->width / work->height, &at, NULL))
         return INFINITY;
-    return v3_dot(v3_sub(wr_place_world(&at, p), at.eye), at.forward);
+    return v3_dot(v3_sub(wr_object_to_world(&at, p), at.eye), at.forward);
 }
 
 /* Probe the nearest object at that pixel; without a hit, the active one, which is not hit either. */
@@ -218,10 +218,10 @@ void wr_accuracy_probe_text(const WrProbe *probe, bool seen, WrText *text)
 
 /* ---- creation and destruction ---- */
 
-#define REFERENCE_SAMPLES 8 /* along a side, for the error of the static view */
-#define LADDER_SAMPLES 16   /* along a side, for the ladder's reference */
-#define LADDER_RUNS 3
-#define LADDER_BUDGET 6.0 /* seconds for timed runs */
+#define REFERENCE_SAMPLES 8  /* along a side, for the error of the static view */
+#define BENCHMARK_SAMPLES 16 /* along a side, for the benchmark's reference */
+#define BENCHMARK_RUNS 3
+#define BENCHMARK_BUDGET 6.0 /* seconds for timed runs */
 
 char *wr_accuracy_base(const WrScene *scene)
 {
@@ -269,7 +269,7 @@ void wr_work_free(WrWork *work)
     if (work->scene) wr_scene_free(work->scene);
     if (work->other) wr_scene_free(work->other);
     wr_free(work->values);
-    wr_ladder_fini(&work->ladder);
+    wr_accuracy_benchmark_fini(&work->benchmark);
     wr_free(work->report);
     wr_illusion_fini(&work->illusion);
     for (int i = 0; i < 2; i++) wr_free(work->bgra[i]);
@@ -422,19 +422,19 @@ static bool measure_error(WrWork *work, WrPool *pool, const WrProgress *progress
 
 static bool climb(WrWork *work, const WrProgress *progress)
 {
-    WrLadderRequest request = { .field = work->field,
-                                .fields = wr_tables_fields(work->tables),
-                                .scene = work->scene,
-                                .turn_deg = work->turn_deg,
-                                .threads = 1,
-                                .runs = LADDER_RUNS,
-                                .most = LADDER_SAMPLES,
-                                .budget = LADDER_BUDGET,
-                                .axis = WR_AXIS_COUNT,
-                                .progress = (WrProgress *)progress };
-    wr_accuracy_picture_size(work->width, work->height, WR_LADDER_SIDE, &request.width,
+    WrAccuracyBenchmarkRequest request = { .field = work->field,
+                                           .fields = wr_tables_fields(work->tables),
+                                           .scene = work->scene,
+                                           .turn_deg = work->turn_deg,
+                                           .threads = 1,
+                                           .runs = BENCHMARK_RUNS,
+                                           .most = BENCHMARK_SAMPLES,
+                                           .budget = BENCHMARK_BUDGET,
+                                           .axis = WR_AXIS_COUNT,
+                                           .progress = (WrProgress *)progress };
+    wr_accuracy_picture_size(work->width, work->height, WR_ACCURACY_BENCHMARK_SIDE, &request.width,
                              &request.height);
-    return wr_ladder_measure(&request, &work->ladder, &work->err);
+    return wr_accuracy_benchmark_measure(&request, &work->benchmark, &work->err);
 }
 
 static bool beside(WrWork *work, const WrProgress *progress)
@@ -493,7 +493,7 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
     WrWork *work = arg;
     switch (work->kind) {
     case WR_WORK_ERROR: work->done = measure_error(work, pool, progress); break;
-    case WR_WORK_LADDER: work->done = climb(work, progress); break;
+    case WR_WORK_BENCHMARK: work->done = climb(work, progress); break;
     case WR_WORK_CASES: work->done = try_cases(work, pool, progress); break;
     case WR_WORK_ILLUSION: work->done = beside(work, progress); break;
     case WR_WORK_PAIR: work->done = pair(work, pool, progress); break;

@@ -4,7 +4,7 @@
 #include "ui/jobs/job.h"
 
 #include "accuracy/illusion.h"
-#include "accuracy/ladder.h"
+#include "accuracy/accuracy_benchmark.h"
 #include "accuracy/metrics.h"
 #include "base/error.h"
 #include "hardcases/hardcases.h"
@@ -20,17 +20,17 @@ typedef struct WrScene WrScene;
 
 #define WR_ERROR_SIDE                                                                              \
     256 /* largest length in pixels of the longer side of the picture for the error */
-#define WR_LADDER_SIDE 96 /* of the ladder's picture */
-#define WR_MAP_SIDE 512   /* of a map over the patch */
+#define WR_ACCURACY_BENCHMARK_SIDE 96 /* of the benchmark's picture */
+#define WR_MAP_SIDE 512               /* of a map over the patch */
 
 typedef enum WrWorkKind {
-    WR_WORK_ERROR,    /* the scene's own picture against the reference */
-    WR_WORK_LADDER,   /* error and time of all settings */
-    WR_WORK_CASES,    /* hard cases */
-    WR_WORK_ILLUSION, /* bump mapping compared with displacement */
-    WR_WORK_PAIR,     /* two pictures to compare */
-    WR_WORK_MAP,      /* map of one quantity */
-    WR_WORK_PROBE     /* all quantities at one point */
+    WR_WORK_ERROR,     /* the scene's own picture against the reference */
+    WR_WORK_BENCHMARK, /* error and time of all settings */
+    WR_WORK_CASES,     /* hard cases */
+    WR_WORK_ILLUSION,  /* bump mapping compared with displacement */
+    WR_WORK_PAIR,      /* two pictures to compare */
+    WR_WORK_MAP,       /* map of one quantity */
+    WR_WORK_PROBE      /* all quantities at one point */
 } WrWorkKind;
 
 /* Data that a thread reuses between pieces of work. */
@@ -40,7 +40,7 @@ typedef struct WrWorkTools {
     WrReference kept;        /* reference of the last error ... */
     char *kept_of;           /* ... and its inputs as text; owned; NULL: none */
 } WrWorkTools;
-/* The scene as commands, without its dials and its tolerance: the key of a ladder. The caller frees it. */
+/* The scene as commands, without its dials and its tolerance: the key of a benchmark. The caller frees it. */
 char *wr_accuracy_base(const WrScene *scene);
 void wr_work_tools_fini(WrWorkTools *tools); /* after the thread has ended */
 
@@ -68,12 +68,12 @@ typedef struct WrWork {
     int samples;                /* along a side of the reference's pixels */
     /* RMS change by the last doubling of samples: smaller errors are due to the reference */
     double change;
-    float *values;        /* error, map: [measured_h][measured_w], NAN where empty; owned */
-    double low, high;     /* their 0.5 and 99.5 percentiles; 0 if there are no values */
-    WrLadder ladder;      /* owned */
-    WrHardReport *report; /* owned */
-    WrIllusion illusion;  /* owned */
-    uint8_t *bgra[2];     /* pair: [height][width][4]; owned */
+    float *values;    /* error, map: [measured_h][measured_w], NAN where empty; owned */
+    double low, high; /* their 0.5 and 99.5 percentiles; 0 if there are no values */
+    WrAccuracyBenchmark benchmark; /* owned */
+    WrHardReport *report;          /* owned */
+    WrIllusion illusion;           /* owned */
+    uint8_t *bgra[2];              /* pair: [height][width][4]; owned */
     WrProbe probe;
     int object; /* probe: index of the object */
     /* probe of a table position: it is visible in the view, and footprint, level and rgb are

@@ -10,13 +10,13 @@
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
 #include "ui/preview/preview.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/line.h"
 #include "ui/state/scene_line.h"
 #include "ui/state/session_view.h"
 #include "ui/jobs/job.h"
 
-#include "accuracy/ladder.h"
+#include "accuracy/accuracy_benchmark.h"
 #include "accuracy/plot.h"
 #include "base/array.h"
 #include "base/enum_rows.h"
@@ -406,7 +406,7 @@ static void panel_accuracy_dials(WrApp *app)
     wr_scene_free(scene);
 }
 
-/* ---- plot of error against time of all settings in the ladder, both logarithmic ---- */
+/* ---- plot of error against time of all settings in the benchmark, both logarithmic ---- */
 
 /* The Pareto front, and a ring around the present setting. A click on a point applies it. */
 
@@ -506,11 +506,11 @@ static void draw_plot(const WrAccuracy *a, const WrPad *pad, const WrPlot *plot,
 
 /* ---- texts ---- */
 
-static void report_rung(const WrLadder *ladder, int index, bool present)
+static void report_rung(const WrAccuracyBenchmark *benchmark, int index, bool present)
 {
     WrText text = { 0 };
     char time[16], rms[16], max[16];
-    const WrRung *rung = &ladder->rungs[index];
+    const WrRung *rung = &benchmark->rungs[index];
     if (present) wr_text_add(&text, "ringed: ");
     if (rung->current) wr_text_add(&text, "as the scene stood");
     else wr_setting_print(&rung->setting, &text);
@@ -524,13 +524,13 @@ static void report_rung(const WrLadder *ladder, int index, bool present)
 /* Always two lines high, so that nothing below moves when the pointer enters. */
 static void tell(const WrAccuracy *a, int present, bool old)
 {
-    if (a->plot_hot >= 0) report_rung(&a->plot->ladder, a->plot_hot, a->plot_hot == present);
+    if (a->plot_hot >= 0) report_rung(&a->plot->benchmark, a->plot_hot, a->plot_hot == present);
     else if (old)
         wr_gui_text_wrapped(
             WR_FONT_SMALL, WR_COLOUR_CELL,
             "Of another state of table or scene.\nMeasured anew when the view rests.");
-    else if (present >= 0 && wr_plot_has_point(&a->plot->ladder.rungs[present]))
-        report_rung(&a->plot->ladder, present, true);
+    else if (present >= 0 && wr_plot_has_point(&a->plot->benchmark.rungs[present]))
+        report_rung(&a->plot->benchmark, present, true);
     else
         wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
                             "The present setting has no point here.\nClick one to use it.");
@@ -560,7 +560,7 @@ static void foot(WrApp *app)
     WrAccuracy *a = app->accuracy;
     double fraction = 0;
     char text[96];
-    if (wr_accuracy_busy(app, WR_WORK_LADDER, &fraction)) {
+    if (wr_accuracy_busy(app, WR_WORK_BENCHMARK, &fraction)) {
         wr_gui_progress(wr_gui_available() - wr_gui_px(64), fraction);
         wr_gui_same_line(8);
         if (wr_gui_chip(NULL, "Stop")) wr_job_interrupt(a->measure);
@@ -571,9 +571,9 @@ static void foot(WrApp *app)
                "time them, compare "
                "each with the reference. It also begins by itself, when the view rests.");
     if (!a->plot) return;
-    const WrLadder *ladder = &a->plot->ladder;
-    snprintf(text, sizeof text, wr_words("%d \xc3\x97 %d, one thread"), ladder->width,
-             ladder->height);
+    const WrAccuracyBenchmark *benchmark = &a->plot->benchmark;
+    snprintf(text, sizeof text, wr_words("%d \xc3\x97 %d, one thread"), benchmark->width,
+             benchmark->height);
     wr_gui_same_line(10);
     wr_gui_text(WR_FONT_SMALL, WR_COLOUR_MUTED, text);
 }
@@ -582,7 +582,7 @@ static void field(WrApp *app)
 {
     WrAccuracy *a = app->accuracy;
     WrPlot plot = { 0 };
-    const bool axes = a->plot && wr_plot_init(&a->plot->ladder, &plot);
+    const bool axes = a->plot && wr_plot_init(&a->plot->benchmark, &plot);
     const bool old = axes && !wr_accuracy_plot_fits(app);
     const int present = axes && !old ? wr_accuracy_current_rung(app) : -1;
     WrPad pad = wr_gui_pad_begin("pareto", 0, wr_gui_px(PLOT_UNITS));
@@ -591,7 +591,7 @@ static void field(WrApp *app)
     if (axes) {
         lay_out(&pad, &plot);
         if (pad.hovered)
-            a->plot_hot = wr_plot_nearest(plot.spots, a->plot->ladder.count, pad.pointer_x,
+            a->plot_hot = wr_plot_nearest(plot.spots, a->plot->benchmark.count, pad.pointer_x,
                                           pad.pointer_y, REACH_UNITS * wr_gui_scale());
         draw_plot(a, &pad, &plot, present, old);
         if (pad.pressed) clicked = a->plot_hot;

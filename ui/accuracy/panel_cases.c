@@ -63,7 +63,7 @@ static WrColour verdict_colour(const WrHardResult *result)
 
 static void right(double end, const char *text, WrColour colour)
 {
-    wr_gui_row_at(end - wr_gui_text_width(WR_FONT_SMALL, text), 0);
+    wr_gui_row_set_cursor(end - wr_gui_text_width(WR_FONT_SMALL, text), 0);
     wr_gui_text(WR_FONT_SMALL, colour, text);
 }
 
@@ -100,8 +100,8 @@ static void head(void)
     const double left = wr_gui_px(20), wide = wr_gui_row_width() - 2 * left - wr_gui_px(10);
     for (size_t i = 0; i < sizeof columns / sizeof *columns; i++) {
         const double x = left + columns[i].at * wide;
-        wr_gui_row_at(columns[i].ends ? x - wr_gui_text_width(WR_FONT_SMALL, columns[i].text) : x,
-                      0);
+        wr_gui_row_set_cursor(
+            columns[i].ends ? x - wr_gui_text_width(WR_FONT_SMALL, columns[i].text) : x, 0);
         wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, columns[i].text);
     }
     wr_gui_row_end();
@@ -115,17 +115,17 @@ static WrRow row_of(const WrCases *cases, int index)
     const double wide = wr_gui_row_width(), x = 0.012 * wide,
                  line = wr_gui_line_height(WR_FONT_TEXT);
     const double text = x + wr_gui_px(52), room = (END_FLOAT - 0.09) * wide - text;
-    wr_gui_row_at(x, 2.3 * line);
+    wr_gui_row_set_cursor(x, 2.3 * line);
     wr_gui_as_it_is(true);
     wr_gui_text(WR_FONT_SMALL, row->scene ? WR_COLOUR_ACCENT : WR_COLOUR_LABEL, row->id);
-    wr_gui_row_at(text, 2.3 * line);
+    wr_gui_row_set_cursor(text, 2.3 * line);
     wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_STRONG, row->what, room);
-    wr_gui_row_at(text, 0.2 * line);
+    wr_gui_row_set_cursor(text, 0.2 * line);
     wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, row->holds, room);
     wr_gui_as_it_is(false);
     worst(END_FLOAT * wide, row, result, WR_HARD_FLOAT);
     worst(END_DOUBLE * wide, row, result, WR_HARD_DOUBLE);
-    wr_gui_row_at(END_UNIT * wide, 0);
+    wr_gui_row_set_cursor(END_UNIT * wide, 0);
     wr_gui_as_it_is(true);
     wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_MUTED, row->unit, 0.1 * wide);
     wr_gui_as_it_is(false);

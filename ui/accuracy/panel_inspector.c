@@ -4,7 +4,7 @@
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/layout.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
@@ -60,7 +60,7 @@ static void values(const WrProbeRow *row, double wide)
                  row->unit[0] && k == row->count - 1 ? " " : "",
                  k == row->count - 1 ? row->unit : "");
         double end = from + column * (k + 1);
-        wr_gui_row_at(end - wr_gui_text_width(WR_FONT_SMALL, text), 0);
+        wr_gui_row_set_cursor(end - wr_gui_text_width(WR_FONT_SMALL, text), 0);
         wr_gui_text(WR_FONT_SMALL, WR_COLOUR_STRONG, text);
     }
 }
@@ -73,7 +73,7 @@ static void table(const WrInspector *in)
         wr_gui_row_begin(i, 20, false);
         wr_gui_tip(rows[i].help);
         const double wide = wr_gui_row_width();
-        wr_gui_row_at(wr_gui_px(10), 0);
+        wr_gui_row_set_cursor(wr_gui_px(10), 0);
         wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, rows[i].name, wide * 0.3);
         values(&rows[i], wide);
         wr_gui_row_end();

@@ -1,17 +1,17 @@
 /* The table of actions, used by menus, keys and buttons. */
 #include "ui/app/actions.h"
-#include "ui/app/actions_look.h"
+#include "ui/app/actions_display.h"
 #include "ui/accuracy/accuracy.h"
 #include "ui/app/registry_list.h"
 #include "ui/canvas/canvas.h"
 #include "ui/canvas/view.h"
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
 #include "ui/state/document.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/layout.h"
 #include "ui/state/line.h"
 #include "ui/state/registry.h"
@@ -207,7 +207,7 @@ static void range_auto(WrApp *app)
 
 static void range_unit(WrApp *app)
 {
-    WrCanvasLook *look = &app->settings->look;
+    WrCanvasDisplay *look = &app->settings->look;
     look->automatic = false;
     look->low = 0.0;
     look->high = 1.0;
@@ -315,8 +315,8 @@ const WrAction wr_actions[] = {
     ROW(strength_down, "Weaker brush", wr_act_strength_down, NULL, NULL),
     ROW(swap_mode, "Swap raise and lower", wr_act_swap_mode, NULL, NULL),
     ROW(level_mode, "Paint to a height", wr_act_level_mode, NULL, NULL),
-    ROW(height_up, "Raise the height that is painted to", wr_act_brush_height_up, NULL, NULL),
-    ROW(height_down, "Lower the height that is painted to", wr_act_brush_height_down, NULL, NULL),
+    ROW(height_up, "Raise the height that is painted to", wr_act_target_height_up, NULL, NULL),
+    ROW(height_down, "Lower the height that is painted to", wr_act_target_height_down, NULL, NULL),
     ROW(erase_mode, "Erase", wr_act_erase_mode, NULL, wr_is_erase_mode),
     ROW(reset_values, "Reset the brush's values", wr_act_reset_values, NULL, NULL),
     ROW(brushes, "Brushes", wr_act_brushes, NULL, NULL),
@@ -411,17 +411,18 @@ const WrAction wr_actions[] = {
     ROW(view_both, "Table and patch", wr_act_view_both, NULL, wr_is_both),
     ROW(view_canvas, "Table alone", wr_act_view_canvas, NULL, wr_is_canvas),
     ROW(view_patch, "Patch alone", wr_act_view_patch, NULL, wr_is_patch),
-    ROW(look_grey, "Grey", wr_act_look_grey, NULL, wr_is_grey),
-    ROW(look_signed, "Blue below zero, orange above", wr_act_look_signed, NULL, wr_is_signed),
-    ROW(look_contours, "Contour lines", wr_act_look_contours, NULL, wr_is_contours),
-    ROW(look_relief, "Relief, lit", wr_act_look_relief, NULL, wr_is_relief),
-    ROW(look_normals, "Normals of the table", wr_act_look_normals, NULL, wr_canvas_shows_normals),
-    ROW(look_occlusion, "Occlusion of the table", wr_act_look_occlusion, NULL, wr_is_occlusion),
-    ROW(look_curvature, "Curvature: grooves blue, ridges orange", wr_act_look_curvature, NULL,
+    ROW(look_grey, "Grey", wr_act_display_grey, NULL, wr_is_grey),
+    ROW(look_signed, "Blue below zero, orange above", wr_act_display_signed, NULL, wr_is_signed),
+    ROW(look_contours, "Contour lines", wr_act_display_contours, NULL, wr_is_contours),
+    ROW(look_relief, "Relief, lit", wr_act_display_relief, NULL, wr_is_relief),
+    ROW(look_normals, "Normals of the table", wr_act_display_normals, NULL,
+        wr_canvas_shows_normals),
+    ROW(look_occlusion, "Occlusion of the table", wr_act_display_occlusion, NULL, wr_is_occlusion),
+    ROW(look_curvature, "Curvature: grooves blue, ridges orange", wr_act_display_curvature, NULL,
         wr_is_curvature),
-    ROW(look_cavity, "Cavity", wr_act_look_cavity, NULL, wr_is_cavity),
-    ROW(look_slope, "Steepness", wr_act_look_slope, NULL, wr_is_slope),
-    ROW(look_roughness, "Roughness", wr_act_look_roughness, NULL, wr_is_roughness),
+    ROW(look_cavity, "Cavity", wr_act_display_cavity, NULL, wr_is_cavity),
+    ROW(look_slope, "Steepness", wr_act_display_slope, NULL, wr_is_slope),
+    ROW(look_roughness, "Roughness", wr_act_display_roughness, NULL, wr_is_roughness),
     ROW(theme_dark, "Dark colours of the window", wr_act_theme_dark, NULL, wr_is_theme_dark),
     ROW(theme_light, "Light colours of the window", wr_act_theme_light, NULL, wr_is_theme_light),
     ROW(theme_contrast, "High contrast", wr_act_theme_contrast, NULL, wr_is_theme_contrast),
@@ -438,19 +439,21 @@ const WrAction wr_actions[] = {
     ROW(inspector_pin, "Pin the inspector", wr_act_inspector_pin, NULL, wr_is_inspector_pinned),
     ROW(inspector_copy, "Copy the inspector's values", wr_act_inspector_copy, NULL, NULL),
     ROW(hard_cases, "Hard cases...", wr_dialog_cases_open, NULL, NULL),
-    ROW(look_plain, "Patch as it is", wr_act_look_plain, NULL, wr_is_look_plain),
-    ROW(look_split, "Compare A and B, split", wr_act_look_split, NULL, wr_is_look_split),
-    ROW(look_flicker, "Compare A and B, flickering", wr_act_look_flicker, NULL, wr_is_look_flicker),
+    ROW(look_plain, "Patch as it is", wr_act_display_plain, NULL, wr_is_display_plain),
+    ROW(look_split, "Compare A and B, split", wr_act_display_split, NULL, wr_is_display_split),
+    ROW(look_flicker, "Compare A and B, flickering", wr_act_display_flicker, NULL,
+        wr_is_display_flicker),
     ROW(compare_hold, "Show B while held", wr_act_compare_hold, NULL, wr_is_compare_hold),
     ROW(compare_take, "Copy A's dials to B", wr_act_compare_take, NULL, NULL),
     EDIT(compare_swap, "Swap A and B", wr_act_compare_swap, NULL, NULL),
-    ROW(look_error, "Map of the error", wr_act_look_error, NULL, wr_is_look_error),
-    ROW(look_dropped, "Map of the dropped term", wr_act_look_dropped, NULL, wr_is_look_dropped),
-    ROW(look_height, "Heights on the patch", wr_act_look_height, NULL, wr_is_look_height),
-    ROW(look_normal, "Normals on the patch", wr_act_look_normal, NULL, wr_is_look_normal),
-    ROW(look_tilt, "Slope of the bump on the patch", wr_act_look_tilt, NULL, wr_is_look_tilt),
-    ROW(look_level, "Map of the mip level", wr_act_look_level, NULL, wr_is_look_level),
-    ROW(look_ran, "Map of effects that ran", wr_act_look_ran, NULL, wr_is_look_ran),
+    ROW(look_error, "Map of the error", wr_act_display_error, NULL, wr_is_display_error),
+    ROW(look_dropped, "Map of the dropped term", wr_act_display_dropped, NULL,
+        wr_is_display_dropped),
+    ROW(look_height, "Heights on the patch", wr_act_display_height, NULL, wr_is_display_height),
+    ROW(look_normal, "Normals on the patch", wr_act_display_normal, NULL, wr_is_display_normal),
+    ROW(look_tilt, "Slope of the bump on the patch", wr_act_display_tilt, NULL, wr_is_display_tilt),
+    ROW(look_level, "Map of the mip level", wr_act_display_level, NULL, wr_is_display_level),
+    ROW(look_ran, "Map of effects that ran", wr_act_display_ran, NULL, wr_is_display_ran),
     ROW(turn, "Turning patch", turn, NULL, is_turning),
     EDIT(view_back, "Patch as it was looked at before", wr_act_view_back, wr_can_view_back, NULL),
     EDIT(view_forward, "Patch as it was looked at after", wr_act_view_forward, wr_can_view_forward,

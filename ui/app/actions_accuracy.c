@@ -91,11 +91,11 @@ bool wr_is_compare_hold(const WrApp *app)
 /* ---- picture of the patch ---- */
 
 #define LOOK(name, value)                                                                          \
-    void wr_act_look_##name(WrApp *app)                                                            \
+    void wr_act_display_##name(WrApp *app)                                                         \
     {                                                                                              \
         wr_accuracy_set_view(app, value);                                                          \
     }                                                                                              \
-    bool wr_is_look_##name(const WrApp *app)                                                       \
+    bool wr_is_display_##name(const WrApp *app)                                                    \
     {                                                                                              \
         return app->accuracy->look == value;                                                       \
     }

@@ -134,12 +134,12 @@ static void move_height(WrApp *app, int steps)
     wr_app_say(app, "Towards the height %.4g", brush->to);
 }
 
-void wr_act_brush_height_up(WrApp *app)
+void wr_act_target_height_up(WrApp *app)
 {
     move_height(app, 1);
 }
 
-void wr_act_brush_height_down(WrApp *app)
+void wr_act_target_height_down(WrApp *app)
 {
     move_height(app, -1);
 }

@@ -1,6 +1,6 @@
 /* Actions of the patch's camera and of the floor: each is one command line. */
 #include "ui/app/actions.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
 #include "ui/state/layout.h"
 #include "ui/state/line.h"
@@ -31,12 +31,12 @@ void wr_act_view_back(WrApp *app)
 /* A pending wheel zoom can be undone too. */
 bool wr_can_view_back(const WrApp *app)
 {
-    return wr_session_views_back(app->session) > 0 || app->patch->zoom_commit_at > 0.0;
+    return wr_session_undoable_views(app->session) > 0 || app->patch->zoom_commit_at > 0.0;
 }
 
 bool wr_can_view_forward(const WrApp *app)
 {
-    return wr_session_views_forward(app->session) > 0;
+    return wr_session_redoable_views(app->session) > 0;
 }
 
 void wr_act_view_forward(WrApp *app)

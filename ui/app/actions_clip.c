@@ -1,7 +1,7 @@
 /* Copy, cut and paste. A copy is a file that `picture paste` reads, so that the line in the history names it. */
 #include "ui/app/actions.h"
 #include "ui/canvas/view.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
 #include "ui/state/line.h"
 #include "ui/state/messages.h"
@@ -16,7 +16,7 @@
 #include "base/text.h"
 #include "command/command_line.h"
 #include "document/document.h"
-#include "document/journal.h"
+#include "document/recovery_journal.h"
 #include "field/field.h"
 #include "field/select.h"
 #include "generate/generator.h"

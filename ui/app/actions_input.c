@@ -1,7 +1,7 @@
 /* Actions of pointer input: straight lines, painting on the patch, simulated pressure, stroke smoothing. */
 #include "ui/app/actions.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/messages.h"
 #include "ui/state/registry.h"
 #include "ui/state/settings.h"

@@ -1,7 +1,7 @@
 /* Actions of layers and selections: each is one command line. */
 #include "ui/app/actions.h"
 #include "ui/canvas/outline.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
 #include "ui/state/session_view.h"
 #include "ui/panels/panel_adjust.h"

@@ -3,7 +3,7 @@
 #include "ui/app/app.h"
 #include "ui/accuracy/accuracy.h"
 #include "ui/app/canvas_view.h"
-#include "ui/app/input_targets.h"
+#include "ui/app/input_router.h"
 #include "ui/app/input.h"
 #include "ui/app/idle_probe.h"
 #include "ui/app/settings_autosave.h"
@@ -13,11 +13,11 @@
 #include "ui/canvas/canvas_derived_map.h"
 #include "ui/canvas/outline.h"
 #include "ui/state/app_options.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
 #include "ui/state/document.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/keys.h"
 #include "ui/state/action.h"
 #include "ui/state/layout.h"
@@ -54,7 +54,7 @@
 #include "ui/jobs/edit_preview.h"
 #include "ui/app/registry_list.h"
 #include "ui/canvas/view.h"
-#include "ui/state/busy_internal.h"
+#include "ui/state/background_command_internal.h"
 #include "ui/panels/panel_adjust.h"
 #include "ui/panels/panel_objects.h"
 #include "ui/panels/panel_scene.h"
@@ -147,7 +147,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
 
 void wr_app_end(WrApp *app)
 {
-    wr_app_start_end(app);
+    wr_app_start_join(app);
     wr_busy_stop(app);
     wr_idle_probe_free(app->rest);
     wr_preview_free(app->preview);
@@ -221,7 +221,7 @@ static void handle(WrApp *app, const SDL_Event *event)
     wr_gui_event(app->gui, event);
     app->input_at = wr_clock_seconds();
     wr_app_redraw(app);
-    if (wr_busy_look(app, event)) return;
+    if (wr_busy_view_event(app, event)) return;
     if (event->type == SDL_QUIT) { /* a signal; a second one skips the question */
         if (app->dialog->now == WR_DIALOG_UNSAVED) app->quit = true;
         else wr_app_quit(app);
@@ -335,7 +335,7 @@ static void draw(WrApp *app, double now)
     wr_input_collect(app); /* these came while the previous frame was on the screen */
     wr_gui_frame_end(app->gui);
     wr_input_shown(app);
-    wr_input_router_look(app);
+    wr_input_router_update_hover(app);
     set_cursor(app);
     app->drawn_at = now;
     if (app->redraw < 1 && wr_gui_unsettled(app->gui)) app->redraw = 1;

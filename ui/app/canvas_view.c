@@ -12,7 +12,7 @@
 #include "ui/canvas/view.h"
 #include "ui/state/action_list.h"
 #include "ui/state/document.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/keys.h"
 #include "ui/state/registry.h"
 #include "ui/preview/preview.h"
@@ -79,14 +79,14 @@ static void ramp_tip(const WrApp *app)
     wr_gui_tip(tip);
 }
 
-static bool is_unit(const WrCanvasLook *look)
+static bool is_unit(const WrCanvasDisplay *look)
 {
     return !look->automatic && look->low == 0.0 && look->high == 1.0;
 }
 
 static void choose_way(WrApp *app, int way)
 {
-    WrCanvasLook *look = &app->settings->look;
+    WrCanvasDisplay *look = &app->settings->look;
     look->automatic = way == 0;
     if (way == 0) wr_canvas_fit_range(app->canvas);
     if (way == 0) return;
@@ -95,7 +95,7 @@ static void choose_way(WrApp *app, int way)
 }
 
 /* Choice of display in two rows: the table and its slopes, and maps of it. */
-static void choose_shown(WrCanvasLook *look)
+static void choose_shown(WrCanvasDisplay *look)
 {
     static const WrCanvasShown rows[2][4] = {
         { WR_CANVAS_HEIGHTS, WR_CANVAS_LIT, WR_CANVAS_SLOPE, WR_CANVAS_BENT },
@@ -116,7 +116,7 @@ static void choose_shown(WrCanvasLook *look)
 static void range_popup(WrApp *app)
 {
     static const char *const ways[] = { "As the table", "0 to 1", "As it is now" };
-    WrCanvasLook *look = &app->settings->look;
+    WrCanvasDisplay *look = &app->settings->look;
     int chosen = (int)look->colours, way = look->automatic ? 0 : is_unit(look) ? 1 : 2;
     if (!wr_gui_popup_begin("range")) return;
     choose_shown(look);
@@ -160,14 +160,15 @@ static void range_popup(WrApp *app)
 
 static void chip_text(const WrApp *app, const WrCanvasRange *range, char *text, size_t size)
 {
-    const WrCanvasLook *look = &app->settings->look;
+    const WrCanvasDisplay *look = &app->settings->look;
     const WrCanvasMapRow *map = app->map_shown ? &wr_canvas_maps[look->shown] : NULL;
     const char *name = wr_words(wr_app_shows_mask(app) ? "Mask"
                                 : map                  ? map->name
                                                        : looks[look->colours]);
     if (map && map->two) snprintf(text, size, "%s", name);
     else if (!map && !wr_app_shows_mask(app) && look->colours == WR_CANVAS_CONTOURS)
-        snprintf(text, size, wr_words("Contours every %.3g"), wr_canvas_contour_step(app->canvas));
+        snprintf(text, size, wr_words("Contours every %.3g"),
+                 wr_canvas_contour_interval(app->canvas));
     else snprintf(text, size, "%s %.3g \xe2\x80\x93 %.3g", name, range->low, range->high);
 }
 
@@ -175,7 +176,7 @@ static void chip_text(const WrApp *app, const WrCanvasRange *range, char *text, 
 static void light(WrApp *app)
 {
     const SDL_Rect *room = &app->layout->canvas;
-    WrCanvasLook *look = &app->settings->look;
+    WrCanvasDisplay *look = &app->settings->look;
     int gap = wr_gui_px(12), side = wr_gui_px(44);
     wr_gui_overlay_begin("##light", room->x + gap, room->y + wr_gui_px(48), 0, 0);
     WrPad pad = wr_gui_pad_begin("light", side, side);
@@ -204,7 +205,7 @@ static void canvas_chip(WrApp *app)
     const SDL_Rect *room = &app->layout->canvas;
     int gap = wr_gui_px(12);
     char text[96];
-    const WrCanvasLook *look = &app->settings->look;
+    const WrCanvasDisplay *look = &app->settings->look;
     const WrCanvasRange *range = app->map_shown ? app->map_range : app->range;
     chip_text(app, range, text, sizeof text);
     wr_gui_overlay_begin("##range", room->x + gap, room->y + gap, 0, 0);
@@ -260,7 +261,7 @@ static void canvas_view_draw(WrApp *app)
 {
     if (app->layout->canvas.w <= 0) return;
     const WrField *second, *field = wr_app_canvas_field(app), *map = map_of(app, field, &second);
-    WrCanvasLook look = app->settings->look;
+    WrCanvasDisplay look = app->settings->look;
     if (map) {
         const WrCanvasMapRow *now = &wr_canvas_maps[look.shown];
         look.colours = now->colours;
@@ -270,7 +271,7 @@ static void canvas_view_draw(WrApp *app)
         if (look.low == look.high) look.low = lowest < 0 ? lowest : -1;
     }
     if (wr_app_shows_mask(app))
-        look = (WrCanvasLook){ .colours = WR_CANVAS_GREY, .low = 0.0, .high = 1.0 };
+        look = (WrCanvasDisplay){ .colours = WR_CANVAS_GREY, .low = 0.0, .high = 1.0 };
     double x, y,
         zoom = app->view->zoom; /* the light is fixed to the screen when the canvas is rotated */
     wr_view_step_back(app->view, look.light_x * zoom, -look.light_y * zoom, &x, &y);

@@ -1,6 +1,6 @@
 #include "ui/app/input.h"
 #include "ui/state/dialog.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/keys.h"
 #include "ui/toolkit/gui.h"
 

@@ -1,14 +1,14 @@
 /* Pointer and keys: routing of events, and the target of a drag. */
 #include "ui/accuracy/accuracy.h"
-#include "ui/app/input_targets.h"
+#include "ui/app/input_router.h"
 #include "ui/app/input.h"
 #include "ui/canvas/view.h"
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/keys.h"
 #include "ui/state/layout.h"
 #include "ui/state/registry.h"
@@ -263,7 +263,7 @@ static void move(WrApp *app, const WrPointer *at)
     look(app, x, y);
 }
 
-void wr_input_router_look(WrApp *app)
+void wr_input_router_update_hover(WrApp *app)
 {
     WrInputRouter *hand = app->hand;
     bool canvas = hand->on_canvas, patch = hand->on_patch;

@@ -5,7 +5,7 @@
 #include "ui/app/loop.h"
 #include "ui/state/app_options.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/layout.h"
 #include "ui/state/registry.h"
 #include "ui/state/settings.h"

@@ -2,7 +2,7 @@
 #include "ui/app/registry_list.h"
 #include "ui/accuracy/accuracy.h"
 #include "ui/app/canvas_view.h"
-#include "ui/app/input_targets.h"
+#include "ui/app/input_router.h"
 #include "ui/app/loop.h"
 #include "ui/app/idle_probe.h"
 #include "ui/state/dialog.h"

@@ -1,7 +1,7 @@
 /* Saving of settings while the window is open: after changes, at most once per second, between drags. */
 #include "ui/app/settings_autosave.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/settings.h"
 #include "ui/tools/preset_browser.h"
 

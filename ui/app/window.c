@@ -4,7 +4,7 @@
 #include "ui/state/app_options.h"
 #include "ui/state/app_state.h"
 #include "ui/state/document.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/layout.h"
 #include "ui/state/registry.h"
 #include "ui/state/settings.h"
@@ -107,7 +107,7 @@ static bool has_display(void)
 static void report_display(WrApp *app)
 {
     const WrDisplayEnv env = wr_display_env();
-    app->display_word = wr_display_driver_note(&env, SDL_GetCurrentVideoDriver());
+    app->display_word = wr_display_driver_message(&env, SDL_GetCurrentVideoDriver());
     if (app->display_word) fprintf(stderr, "wrinkle: %s\n", app->display_word);
 }
 

@@ -1,5 +1,5 @@
 #include "ui/canvas/canvas.h"
-#include "ui/canvas/canvas_cells.h"
+#include "ui/canvas/canvas_mips.h"
 #include "ui/canvas/canvas_colors.h"
 #include "ui/canvas/view.h"
 #include "ui/toolkit/retained_frame.h"
@@ -17,9 +17,9 @@
 #define DIRTY_MAX 4096 /* tiles; with more, the whole picture is redrawn */
 
 struct WrCanvas {
-    WrCanvasCells *cells[2]; /* second component: slopes along v */
-    int fields;              /* number of fields shown together */
-    WrRetainedFrame *kept;   /* frame that is drawn into; borrowed */
+    WrCanvasMips *cells[2]; /* second component: slopes along v */
+    int fields;             /* number of fields shown together */
+    WrRetainedFrame *kept;  /* frame that is drawn into; borrowed */
     SDL_Texture *texture;
     int width, height;          /* picture size */
     uint32_t *pixels;           /* [height][width], ARGB, before rotation */
@@ -32,7 +32,7 @@ struct WrCanvas {
     bool *needed;            /* [tiles_u] tile columns used by a rectangle */
     WrCanvasInk ink;
     WrCanvasView view, flat; /* view of the present picture, and without rotation */
-    WrCanvasLook look;
+    WrCanvasDisplay look;
     double low, high;
     double follows[2]; /* the automatic range; empty: to be chosen again */
     float table_low, table_high;
@@ -43,7 +43,7 @@ struct WrCanvas {
 WrCanvas *wr_canvas_new(void)
 {
     WrCanvas *canvas = wr_alloc(1, sizeof *canvas);
-    for (int k = 0; k < 2; k++) canvas->cells[k] = wr_cells_new();
+    for (int k = 0; k < 2; k++) canvas->cells[k] = wr_canvas_mips_new();
     return canvas;
 }
 
@@ -87,7 +87,7 @@ void wr_canvas_free(WrCanvas *canvas)
     wr_canvas_forget(canvas);
     free_buffers(canvas);
     wr_array_free(&canvas->dirty);
-    for (int k = 0; k < 2; k++) wr_cells_free(canvas->cells[k]);
+    for (int k = 0; k < 2; k++) wr_canvas_mips_free(canvas->cells[k]);
     wr_free(canvas);
 }
 
@@ -96,7 +96,7 @@ uint32_t wr_canvas_colour(const WrCanvas *canvas, double height)
     return wr_canvas_ink_colour(&canvas->ink, height);
 }
 
-double wr_canvas_contour_step(const WrCanvas *canvas)
+double wr_canvas_contour_interval(const WrCanvas *canvas)
 {
     return canvas->ink.step;
 }
@@ -141,8 +141,8 @@ static void make_line(WrCanvas *canvas, int field, const WrCellTaps *row, int ti
         for (int k = 0; k < WR_TAPS; k++) {
             float weight = row->weight[k], flat = 0.0f;
             if (weight == 0.0f) continue;
-            const float *block =
-                wr_cells_block(canvas->cells[field], tx, row->cell[k] >> shift, deadline, &flat);
+            const float *block = wr_canvas_mips_block(canvas->cells[field], tx,
+                                                      row->cell[k] >> shift, deadline, &flat);
             const float *from = block ? block + (row->cell[k] & (side - 1)) * side : NULL;
             for (int i = 0; i < side; i++) line[i] += weight * (from ? from[i] : flat);
         }
@@ -342,10 +342,10 @@ static bool has_buffers(const WrCanvas *canvas, const WrCanvasView *view)
            (canvas->turned != NULL) == (view->turn != 0.0) && canvas->view.table_w == view->table_w;
 }
 
-static void choose_range(WrCanvas *canvas, const WrCanvasLook *look, WrRangeHold hold)
+static void choose_range(WrCanvas *canvas, const WrCanvasDisplay *look, WrRangeHold hold)
 {
     double shown[2] = { look->low, look->high };
-    wr_cells_range(canvas->cells[0], &canvas->table_low, &canvas->table_high);
+    wr_canvas_mips_range(canvas->cells[0], &canvas->table_low, &canvas->table_high);
     if (look->automatic) {
         wr_range_follow(canvas->follows, (double)canvas->table_low, (double)canvas->table_high,
                         hold);
@@ -372,14 +372,15 @@ static bool look_at(WrCanvas *canvas, const WrField *field, const WrField *secon
     canvas->dirty.count = 0;
     canvas->flooded = false;
     for (int k = 0; k < canvas->fields; k++)
-        if (!wr_cells_update(canvas->cells[k], fields[k], level, note_dirty, canvas)) whole = true;
+        if (!wr_canvas_mips_update(canvas->cells[k], fields[k], level, note_dirty, canvas))
+            whole = true;
     return whole || canvas->flooded;
 }
 
 static bool is_rough(const WrCanvas *canvas)
 {
-    return wr_cells_rough(canvas->cells[0]) ||
-           (canvas->fields == 2 && wr_cells_rough(canvas->cells[1]));
+    return wr_canvas_mips_rough(canvas->cells[0]) ||
+           (canvas->fields == 2 && wr_canvas_mips_rough(canvas->cells[1]));
 }
 
 static void paint(WrCanvas *canvas, const WrField *field, int level, double deadline)
@@ -396,10 +397,10 @@ static void paint(WrCanvas *canvas, const WrField *field, int level, double dead
 }
 
 bool wr_canvas_draw(WrCanvas *canvas, WrRetainedFrame *kept, const WrCanvasView *view,
-                    const WrField *field, const WrField *second, const WrCanvasLook *look,
+                    const WrField *field, const WrField *second, const WrCanvasDisplay *look,
                     WrRangeHold hold, double budget, WrCanvasRange *range)
 {
-    int level = wr_cells_level(view->zoom);
+    int level = wr_canvas_mips_level(view->zoom);
     canvas->kept = kept;
     bool whole = look_at(canvas, field, second, level);
     if (!has_buffers(canvas, view) &&
@@ -409,7 +410,7 @@ bool wr_canvas_draw(WrCanvas *canvas, WrRetainedFrame *kept, const WrCanvasView 
     canvas->view = *view;
     canvas->flat = wr_view_flat(view);
     choose_range(canvas, look, hold);
-    for (int k = 0; k < 2; k++) wr_cells_forget_rough(canvas->cells[k]);
+    for (int k = 0; k < 2; k++) wr_canvas_mips_forget_rough(canvas->cells[k]);
     if (!canvas->valid || canvas->dirty.count > 0)
         paint(canvas, field, level, wr_clock_seconds() + budget);
     *range = (WrCanvasRange){ canvas->low, canvas->high, (double)canvas->table_low,

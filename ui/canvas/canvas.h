@@ -41,7 +41,7 @@ typedef enum WrCanvasShown {
     WR_CANVAS_SHOWN
 } WrCanvasShown;
 
-typedef struct WrCanvasLook {
+typedef struct WrCanvasDisplay {
     WrCanvasShown shown;
     WrCanvasColours colours; /* of heights; SIGNED: blue below zero, white at zero, orange above */
     bool automatic;          /* low and high are adjusted to the table (wr_range_follow) */
@@ -49,7 +49,7 @@ typedef struct WrCanvasLook {
     double low, high;        /* heights displayed as black and white; low < high */
     /* of shaded relief: right and up components of the unit vector towards the light */
     double light_x, light_y;
-} WrCanvasLook;
+} WrCanvasDisplay;
 
 typedef struct WrCanvasRange {
     double low, high;             /* values displayed as black and white */
@@ -60,13 +60,13 @@ WrCanvas *wr_canvas_new(void);
 void wr_canvas_free(WrCanvas *canvas); /* must be freed before the renderer; NULL is allowed */
 
 /* Height difference between two contour lines. */
-double wr_canvas_contour_step(const WrCanvas *canvas);
+double wr_canvas_contour_interval(const WrCanvas *canvas);
 
 /* Update the picture and draw it into the view's rectangle. Averaging large tables needs at most about `budget`
  * seconds; true if another call would improve the picture. second: slopes along v, if `field` holds those along u;
  * else NULL. kept: borrowed until the next call. hold: mode of the automatic range. */
 bool wr_canvas_draw(WrCanvas *canvas, WrRetainedFrame *kept, const WrCanvasView *view,
-                    const WrField *field, const WrField *second, const WrCanvasLook *look,
+                    const WrField *field, const WrField *second, const WrCanvasDisplay *look,
                     WrRangeHold hold, double budget, WrCanvasRange *range);
 /* Reset the automatic range to the table's own with the next picture. */
 void wr_canvas_fit_range(WrCanvas *canvas);

@@ -70,7 +70,7 @@ double wr_canvas_ink_step(double low, double high)
     return power * (part < 1.5 ? 1.0 : part < 3.5 ? 2.0 : part < 7.5 ? 5.0 : 10.0);
 }
 
-void wr_canvas_ink_make(WrCanvasInk *ink, const WrCanvasLook *look, double low, double high)
+void wr_canvas_ink_make(WrCanvasInk *ink, const WrCanvasDisplay *look, double low, double high)
 {
     double x = look->light_x, y = look->light_y, flat = x * x + y * y;
     ink->colours = look->colours;

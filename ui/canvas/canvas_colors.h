@@ -19,7 +19,7 @@ typedef struct WrCanvasInk {
 } WrCanvasInk;
 
 /* Build the tables for a range. */
-void wr_canvas_ink_make(WrCanvasInk *ink, const WrCanvasLook *look, double low, double high);
+void wr_canvas_ink_make(WrCanvasInk *ink, const WrCanvasDisplay *look, double low, double high);
 /* The colour of a height, without contours. */
 uint32_t wr_canvas_ink_colour(const WrCanvasInk *ink, double height);
 /* Height difference of contours that yields about 10 of them from `low` to `high`: 1, 2 or 5 times a power of 10. */

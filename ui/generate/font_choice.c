@@ -319,11 +319,11 @@ static bool row_pressed(WrFontChoice *choice, int i, bool chosen, bool current)
     if (!row->asked) wr_array_push(&choice->wishes, index);
     const WrRow place = wr_gui_row_begin(i, ROW, chosen);
     if (chosen && choice->jump) wr_gui_row_see();
-    wr_gui_row_at(wr_gui_px(12), choice->h);
+    wr_gui_row_set_cursor(wr_gui_px(12), choice->h);
     if (row->failed) wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_BAD, "cannot be read", wide);
     else wr_gui_ink(row->texture, choice->w, choice->h, WR_COLOUR_TEXT);
     label_of(row, label);
-    wr_gui_row_at(left, 0);
+    wr_gui_row_set_cursor(left, 0);
     wr_gui_as_it_is(true);
     wr_gui_text_cut(WR_FONT_SMALL, current ? WR_COLOUR_STRONG : WR_COLOUR_LABEL, label,
                     wr_gui_row_width() - left - wr_gui_px(12));

@@ -9,7 +9,7 @@
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
 #include "ui/jobs/files.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/generate/generate_presets.h"
 #include "ui/jobs/edit_preview.h"
 

@@ -1,7 +1,7 @@
 /* Canvas handles for the generator's position, size (a corner) and rotation (a ring), if it has such parameters. */
 #include "ui/canvas/view.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/keys.h"
 #include "ui/state/line.h"
 #include "ui/state/session_view.h"
@@ -104,7 +104,7 @@ static int find(const WrApp *app, const Points *points, const WrPointer *at)
    cell's edges. */
 static WrSelectPoint place(const WrApp *app, const Points *points, const WrPointer *at)
 {
-    WrSelectPoint home = wr_overlay_home(app, at->u, at->v);
+    WrSelectPoint home = wr_overlay_wrap_offset(app, at->u, at->v);
     if (points->count > 0) home = (WrSelectPoint){ 0.0, 0.0 };
     return (WrSelectPoint){ at->u + home.u, at->v + home.v };
 }

@@ -7,7 +7,7 @@
 #include "ui/toolkit/theme.h"
 #include "ui/help/guide_flow.h"
 #include "ui/help/guide_page.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/toolkit/words.h"
 
 #include "base/array.h"
@@ -310,7 +310,7 @@ static void list_found(WrApp *app, WrGuide *guide)
         snprintf(words, sizeof words, "%.119s%s%s", wr_guide_words(block, 0),
                  block->cells.count > 1 ? "   " : "", wr_guide_words(block, 1));
         WrRow row = wr_gui_row_begin(i, 46, i == guide->chosen);
-        wr_gui_row_at(wr_gui_px(8), wr_gui_px(40));
+        wr_gui_row_set_cursor(wr_gui_px(8), wr_gui_px(40));
         wr_gui_group_begin();
         wr_gui_as_it_is(true);
         wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_TEXT, words, wr_gui_row_width() - wr_gui_px(12));
@@ -328,7 +328,7 @@ static void list_pages(WrApp *app, WrGuide *guide)
 {
     for (int i = 0; i < guide->pages.count; i++) {
         WrRow row = wr_gui_row_begin(i, 26, i == guide->page);
-        wr_gui_row_at(wr_gui_px(8), 0);
+        wr_gui_row_set_cursor(wr_gui_px(8), 0);
         wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_TEXT, guide->pages.data[i].title,
                         wr_gui_row_width() - wr_gui_px(12));
         wr_gui_row_end();

@@ -23,17 +23,17 @@ static bool has_option(const WrExportKind *kind, const char *name)
 }
 
 /* Index of that setting in the map, or of the first free one; -1: neither. */
-static int place_of(const WrSetMap *map, const char *name)
+static int place_of(const WrMapSetEntry *map, const char *name)
 {
     const size_t length = strlen(name);
     int i = 0;
-    for (; i < WR_SET_SETTINGS && map->settings[i]; i++)
+    for (; i < WR_MAP_SET_SETTINGS_MAX && map->settings[i]; i++)
         if (strncmp(map->settings[i], name, length) == 0 && map->settings[i][length] == '=')
             return i;
-    return i < WR_SET_SETTINGS ? i : -1;
+    return i < WR_MAP_SET_SETTINGS_MAX ? i : -1;
 }
 
-static void put(WrSetMap *map, const char *name, const char *value)
+static void put(WrMapSetEntry *map, const char *name, const char *value)
 {
     const int at = place_of(map, name);
     if (at < 0 || !has_option(map->kind, name)) return;
@@ -43,16 +43,16 @@ static void put(WrSetMap *map, const char *name, const char *value)
     map->settings[at] = text.data;
 }
 
-static void drop_setting(WrSetMap *map, const char *name)
+static void drop_setting(WrMapSetEntry *map, const char *name)
 {
     const int at = place_of(map, name);
     if (at < 0 || !map->settings[at]) return;
     wr_free(map->settings[at]);
-    for (int i = at; i < WR_SET_SETTINGS; i++)
-        map->settings[i] = i + 1 < WR_SET_SETTINGS ? map->settings[i + 1] : NULL;
+    for (int i = at; i < WR_MAP_SET_SETTINGS_MAX; i++)
+        map->settings[i] = i + 1 < WR_MAP_SET_SETTINGS_MAX ? map->settings[i + 1] : NULL;
 }
 
-int wr_sheet_depth(const WrSetMap *map)
+int wr_sheet_depth(const WrMapSetEntry *map)
 {
     const int at = place_of(map, "depth");
     if (map->kind->floats) return 32;
@@ -61,14 +61,14 @@ int wr_sheet_depth(const WrSetMap *map)
 }
 
 /* Change the extension: floats need another format than integers. */
-static void change_ending(WrSetMap *map, const char *from, const char *to)
+static void change_ending(WrMapSetEntry *map, const char *from, const char *to)
 {
     const size_t length = strlen(map->after), tail = strlen(from);
     if (length < tail || strcmp(map->after + length - tail, from) != 0) return;
     memcpy(map->after + length - tail, to, tail);
 }
 
-static void adapt(WrSetMap *map, const WrSheetRequest *ask)
+static void adapt(WrMapSetEntry *map, const WrSheetRequest *ask)
 {
     WR_ROWS(depths);
     static const char *const depths[] = { [WR_ROW(WR_SHEET_AS_SET)] = NULL,
@@ -94,7 +94,7 @@ static void adapt(WrSetMap *map, const WrSheetRequest *ask)
 }
 
 /* One map, named after the cell. */
-static WrSet *set_of_kind(const WrExportKind *kind, WrError *err)
+static WrMapSet *set_of_kind(const WrExportKind *kind, WrError *err)
 {
     WrText line = { 0 };
     wr_text_addf(&line, "%s *.%s", kind->name,
@@ -102,17 +102,17 @@ static WrSet *set_of_kind(const WrExportKind *kind, WrError *err)
                  : kind->write  ? "svg"
                  : kind->floats ? "exr"
                                 : "png");
-    WrSet *set = wr_set_parse(kind->name, wr_text_get(&line), kind->name, err);
+    WrMapSet *set = wr_map_set_parse(kind->name, wr_text_get(&line), kind->name, err);
     wr_text_fini(&line);
     return set;
 }
 
 /* The requested maps: the set with its depth and range, or a kind as a set of one map. The caller frees it; NULL on
    failure. */
-static WrSet *sheet_set(const WrSheetRequest *ask, WrError *err)
+static WrMapSet *sheet_set(const WrSheetRequest *ask, WrError *err)
 {
     const WrExportKind *kind = wr_export_find(ask->as);
-    WrSet *set = kind ? set_of_kind(kind, err) : wr_set_find(ask->as, err);
+    WrMapSet *set = kind ? set_of_kind(kind, err) : wr_map_set_find(ask->as, err);
     for (int i = 0; set && i < set->maps.count; i++) adapt(&set->maps.data[i], ask);
     return set;
 }
@@ -161,8 +161,8 @@ WrSheetLook *wr_sheet_look_new(WrDocument *document, const WrSheetRequest *ask)
 void wr_sheet_look_free(WrSheetLook *look)
 {
     if (!look) return;
-    for (int i = 0; i < WR_SET_MAPS; i++) wr_export_picture_fini(&look->pictures[i]);
-    wr_set_free(look->set);
+    for (int i = 0; i < WR_MAP_SET_ENTRIES_MAX; i++) wr_export_preview_fini(&look->pictures[i]);
+    wr_map_set_free(look->set);
     wr_document_free(look->document);
     wr_free(look);
 }
@@ -187,7 +187,7 @@ static void measure(WrSheetLook *look, WrPool *pool)
                      ? wr_certificate_formula(&scene->analytic)
                      : wr_certificate_table(field, scene->scheme, NULL);
     for (int i = 0; i < look->set->maps.count; i++) {
-        const WrSetMap *map = &look->set->maps.data[i];
+        const WrMapSetEntry *map = &look->set->maps.data[i];
         if (!map->kind->write)
             look->bytes +=
                 wr_export_estimate_bytes(map->kind, look->width, look->height, wr_sheet_depth(map));
@@ -205,12 +205,12 @@ static void run_look(void *work, WrPool *pool, const WrProgress *progress)
     w = (int)fmax(1, rint(w * scale));
     h = (int)fmax(1, rint(h * scale));
     if (!resize(look->document, w, h, pool, &look->err)) return;
-    const WrSetOrder order = { look->set, "", "", NULL, 0 };
+    const WrMapSetRequest order = { look->set, "", "", NULL, 0 };
     for (int i = 0; i < look->set->maps.count && !wr_progress_cancelled(progress); i++) {
         WrExportOptions options;
         WrError none;
-        if (wr_set_options(&order, i, &options, &none))
-            wr_export_picture(look->set->maps.data[i].kind, look->document, &options, pool,
+        if (wr_map_set_options(&order, i, &options, &none))
+            wr_export_preview(look->set->maps.data[i].kind, look->document, &options, pool,
                               &look->pictures[i], &none);
     }
 }
@@ -245,19 +245,19 @@ static void run_write(void *work, WrPool *pool, const WrProgress *progress)
     WrSheetWrite *write = work;
     const WrSheetRequest *ask = &write->ask;
     const double began = wr_clock_seconds();
-    WrSet *set = sheet_set(ask, &write->err);
+    WrMapSet *set = sheet_set(ask, &write->err);
     if (set) {
         const WrField *field = wr_document_composite(write->document, pool);
         int w = wr_field_width(field), h = wr_field_height(field);
-        const WrSetOrder order = { set, ask->folder, ask->name, NULL, 0 };
+        const WrMapSetRequest order = { set, ask->folder, ask->name, NULL, 0 };
         wr_sheet_size(ask->size, &w, &h);
         write->ok = resize(write->document, w, h, pool, &write->err) &&
-                    wr_export_set(&order, write->document, pool, &write->report, &write->err);
+                    wr_export_map_set(&order, write->document, pool, &write->report, &write->err);
         write->files = set->maps.count;
     }
     write->cancelled = !write->ok && wr_progress_cancelled(progress);
     write->seconds = wr_clock_seconds() - began;
-    wr_set_free(set);
+    wr_map_set_free(set);
 }
 
 const WrJobKind wr_sheet_write_kind = { run_write, drop_write };

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "export/picture.h"
+#include "export/preview.h"
 #include "export/map_sets.h"
 #include "scene/export_settings.h"
 
@@ -18,13 +18,13 @@ typedef struct WrDocument WrDocument;
 /* Change w x h to the requested export size. */
 void wr_sheet_size(int size, int *w, int *h);
 /* Bits per channel of the map. */
-int wr_sheet_depth(const WrSetMap *map);
+int wr_sheet_depth(const WrMapSetEntry *map);
 
 typedef struct WrSheetLook {
     WrDocument *document; /* owned */
     WrSheetRequest ask;
-    WrSet *set; /* owned; NULL: err */
-    WrExportPicture pictures[WR_SET_MAPS];
+    WrMapSet *set; /* owned; NULL: err */
+    WrExportPreview pictures[WR_MAP_SET_ENTRIES_MAX];
     WrHistogram histogram;
     WrCertificate seam;
     int width, height; /* size of the files */

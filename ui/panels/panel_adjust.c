@@ -1,7 +1,7 @@
 /* Dialog of a table operation, built from its row: canvas and patch show a preview on a snapshot; only Apply runs the
    command. */
 #include "ui/panels/panel_adjust.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
 #include "ui/state/line.h"

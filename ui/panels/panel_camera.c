@@ -1,7 +1,7 @@
 /* Camera section of the scene panel: camera, named views, background. */
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
 #include "ui/state/line.h"
 #include "ui/state/scene_line.h"
@@ -107,11 +107,11 @@ static bool view_row(WrApp *app, int i)
     const WrSceneView now = wr_scene_view(scene);
     const WrRow r = wr_gui_row_begin(i, ROW_UNITS, wr_scene_view_equal(&now, &view->view));
     const double right = wr_gui_row_width() - wr_gui_px(28);
-    wr_gui_row_at(wr_gui_px(8), 0);
+    wr_gui_row_set_cursor(wr_gui_px(8), 0);
     wr_gui_as_it_is(true);
     wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_TEXT, view->name, right - wr_gui_px(16));
     wr_gui_as_it_is(false);
-    wr_gui_row_at(right, wr_gui_px(20));
+    wr_gui_row_set_cursor(right, wr_gui_px(20));
     const bool forget = wr_gui_glyph("forget", WR_ICON_DELETE, 20, WR_COLOUR_MUTED);
     wr_gui_tip("Forget this view");
     wr_gui_row_end();

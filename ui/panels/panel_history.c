@@ -1,13 +1,13 @@
 /* History panel: steps of the document; a click goes to a step. */
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
 #include "ui/state/settings.h"
-#include "ui/state/line_words.h"
+#include "ui/state/step_label.h"
 #include "ui/panels/panel_layers.h"
 #include "ui/panels/thumb_list.h"
 #include "ui/panels/panels.h"
@@ -65,11 +65,11 @@ static bool row(WrApp *app, int position, bool seen)
     const char *begin = wr_words(wr_session_path(app->session)[0] ? "as opened" : "the beginning");
     WrText words = { 0 };
     if (position > 0) tip_of(app, position - 1, kept);
-    wr_gui_row_at(x, 0);
+    wr_gui_row_set_cursor(x, 0);
     if (position == now) wr_gui_text(WR_FONT_SMALL, WR_COLOUR_ACCENT, "\xe2\x80\xa2");
     x += wr_gui_px(12);
     if (!lines && heights && seen) {
-        wr_gui_row_at(x, side);
+        wr_gui_row_set_cursor(x, side);
         wr_gui_image(wr_thumb_list_get(app, &app->layers->steps, position, heights, NULL, false,
                                        THUMB_UNITS),
                      side, side);
@@ -77,8 +77,8 @@ static bool row(WrApp *app, int position, bool seen)
     if (!lines) x += side + wr_gui_px(8);
     if (position == 0) wr_text_add(&words, begin);
     else if (lines) wr_text_add(&words, wr_session_history_line(app->session, position - 1));
-    else wr_line_words(wr_session_history_line(app->session, position - 1), &words);
-    wr_gui_row_at(x, 0);
+    else wr_step_label(wr_session_history_line(app->session, position - 1), &words);
+    wr_gui_row_set_cursor(x, 0);
     wr_gui_as_it_is(true); /* already translated */
     wr_gui_text_cut(WR_FONT_SMALL, colour, wr_text_get(&words),
                     wr_gui_row_width() - x - wr_gui_px(12));

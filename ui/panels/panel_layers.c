@@ -2,9 +2,9 @@
 #include "ui/panels/panel_layers.h"
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/keys.h"
 #include "ui/state/line.h"
 #include "ui/state/registry.h"
@@ -153,20 +153,20 @@ static void row_name(const WrLayer *layer, double x, double right, bool shown, b
     describe(layer, text, sizeof text);
     double wide = wr_gui_text_width(WR_FONT_SMALL, text), gap = wr_gui_px(6);
     if (right - x - wide - gap >= wr_gui_text_width(WR_FONT_TEXT, layer->name)) {
-        wr_gui_row_at(right - wide, 0);
+        wr_gui_row_set_cursor(right - wide, 0);
         wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
-        wr_gui_row_at(x, 0);
+        wr_gui_row_set_cursor(x, 0);
         wr_gui_as_it_is(true);
         wr_gui_text(WR_FONT_TEXT, ink, layer->name);
         wr_gui_as_it_is(false);
         return;
     }
     double line = wr_gui_line_height(WR_FONT_TEXT);
-    wr_gui_row_at(x, 2.35 * line);
+    wr_gui_row_set_cursor(x, 2.35 * line);
     wr_gui_as_it_is(true);
     wr_gui_text_cut(WR_FONT_TEXT, ink, layer->name, right - x);
     wr_gui_as_it_is(false);
-    wr_gui_row_at(x, 0.15 * line);
+    wr_gui_row_set_cursor(x, 0.15 * line);
     wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, text, right - x);
 }
 
@@ -207,13 +207,13 @@ static bool row_pictures(WrApp *app, int i, bool active, double *x)
 {
     const WrLayer *layer = &wr_app_document(app)->layers[i];
     double side = wr_gui_px(THUMB_UNITS), gap = wr_gui_px(8);
-    wr_gui_row_at(*x, side);
+    wr_gui_row_set_cursor(*x, side);
     if (layer->filter.op) {
         if (wr_gui_glyph("filter", WR_ICON_TUNE, THUMB_UNITS, WR_COLOUR_CELL)) edit_filter(app, i);
         wr_gui_tip("A filter over the layers below. Click to change its values");
         *x += side + gap;
         if (!layer->mask) return false;
-        wr_gui_row_at(*x, side);
+        wr_gui_row_set_cursor(*x, side);
         return row_mask(app, i, active, x);
     }
     SDL_Texture *picture = wr_thumb_list_get(app, &app->layers->thumbs, 2 * i, layer->heights,
@@ -227,7 +227,7 @@ static bool row_pictures(WrApp *app, int i, bool active, double *x)
         return choose_part(app, i, false);
     wr_gui_tip("The layer's heights: click to edit them");
     *x += side + gap;
-    wr_gui_row_at(*x, side);
+    wr_gui_row_set_cursor(*x, side);
     return row_mask(app, i, active, x);
 }
 
@@ -239,7 +239,7 @@ static bool row_parts(WrApp *app, int i, bool active)
     bool shown = wr_document_shows(document, i);
     double x = wr_gui_px(8), gap = wr_gui_px(8);
     double right = wr_gui_row_width() - wr_gui_px(34);
-    wr_gui_row_at(x, wr_gui_px(24));
+    wr_gui_row_set_cursor(x, wr_gui_px(24));
     const char *eye = layer->visible ? WR_ICON_EYE : WR_ICON_EYE_OFF;
     if (wr_gui_glyph("eye", eye, 24, shown ? WR_COLOUR_TEXT : WR_COLOUR_OFF))
         return wr_app_run_linef(app, "layer set %d visible=%s", i + 1,
@@ -249,14 +249,14 @@ static bool row_parts(WrApp *app, int i, bool active)
                                    : "Show this layer");
     x += wr_gui_px(24) + gap;
     if (row_pictures(app, i, active, &x)) return true;
-    wr_gui_row_at(right, wr_gui_px(24));
+    wr_gui_row_set_cursor(right, wr_gui_px(24));
     const char *lock = layer->locked ? WR_ICON_LOCK : WR_ICON_UNLOCK;
     if (wr_gui_glyph("lock", lock, 24, layer->locked ? WR_COLOUR_CELL : WR_COLOUR_OFF))
         return wr_app_run_linef(app, "layer set %d lock=%s", i + 1, layer->locked ? "off" : "on");
     wr_gui_tip(layer->locked ? "Locked: edits refuse it. Click to unlock"
                              : "Click to lock: edits then refuse this layer");
     if (app->layers->renamed == i) {
-        wr_gui_row_at(x, 0);
+        wr_gui_row_set_cursor(x, 0);
         name_field(app, right - x - gap);
         return app->layers->renamed != i;
     }

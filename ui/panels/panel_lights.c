@@ -1,5 +1,5 @@
 /* Lights section of the scene panel. */
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
 #include "ui/state/line.h"

@@ -1,5 +1,5 @@
 /* Texture maps of the active object: colour, normals, roughness and metalness. Every change is a command line. */
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
 #include "ui/state/line.h"

@@ -3,7 +3,7 @@
 #include "ui/panels/panel_objects.h"
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
 #include "ui/state/line.h"
 #include "ui/state/registry.h"
@@ -48,12 +48,12 @@ static bool row(WrApp *app, int i)
     const char *kind = wr_surfaces[object->shape.kind]->label;
     const WrRow r = wr_gui_row_begin(i, ROW_UNITS, chosen);
     const double right = wr_gui_row_width() - wr_gui_px(8);
-    wr_gui_row_at(wr_gui_px(4), wr_gui_px(20));
+    wr_gui_row_set_cursor(wr_gui_px(4), wr_gui_px(20));
     const bool eye = wr_gui_glyph("eye", object->hidden ? WR_ICON_EYE_OFF : WR_ICON_EYE, 20,
                                   object->hidden ? WR_COLOUR_MUTED : WR_COLOUR_TEXT);
     wr_gui_tip(object->hidden ? "Show it" : "Hide it");
     const double wide = wr_gui_text_width(WR_FONT_SMALL, kind), x = wr_gui_px(32);
-    wr_gui_row_at(x, 0);
+    wr_gui_row_set_cursor(x, 0);
     wr_gui_as_it_is(true);
     wr_gui_text_cut(WR_FONT_TEXT,
                     object->hidden ? WR_COLOUR_MUTED
@@ -61,7 +61,7 @@ static bool row(WrApp *app, int i)
                                    : WR_COLOUR_TEXT,
                     wr_scene_object_label(scene, i, buffer), right - x - wide - wr_gui_px(8));
     wr_gui_as_it_is(false);
-    wr_gui_row_at(right - wide, 0);
+    wr_gui_row_set_cursor(right - wide, 0);
     wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, kind);
     wr_gui_row_end();
     if (eye) run_named(app, object->hidden ? "show" : "hide", i);

@@ -180,10 +180,10 @@ static void key_row(WrApp *app, int i, const WrAction *action)
     wr_keys_list(app->keys, action->name, &keys);
     const char *right = waits ? wr_words("press a key; Delete: none") : wr_text_get(&keys);
     const double wide = wr_gui_text_width(WR_FONT_SMALL, right), room = wr_gui_row_width();
-    wr_gui_row_at(wr_gui_px(14), 0);
+    wr_gui_row_set_cursor(wr_gui_px(14), 0);
     wr_gui_text_cut(WR_FONT_TEXT, waits ? WR_COLOUR_STRONG : WR_COLOUR_TEXT, action->label,
                     room - wide - wr_gui_px(42));
-    wr_gui_row_at(room - wide - wr_gui_px(14), 0);
+    wr_gui_row_set_cursor(room - wide - wr_gui_px(14), 0);
     wr_gui_text(WR_FONT_SMALL, waits ? WR_COLOUR_STRONG : WR_COLOUR_LABEL, right);
     wr_gui_row_end();
     wr_text_fini(&keys);

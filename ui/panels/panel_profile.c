@@ -1,6 +1,6 @@
 /* Profile editor of a surface of revolution: a curve with draggable points; each drag is one command. */
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/keys.h"
 #include "ui/state/session_view.h"
 #include "ui/toolkit/gui.h"

@@ -1,5 +1,5 @@
 /* Crash recovery dialog: recover, discard, or keep for later. */
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
 #include "ui/state/document.h"
@@ -151,11 +151,11 @@ static void rows(WrRecovery *recovery)
         wr_gui_tip(recovery->list[i].document);
         wr_gui_as_it_is(false);
         double x = wr_gui_px(12), line = wr_gui_line_height(WR_FONT_TEXT);
-        wr_gui_row_at(x, 2.4 * line);
+        wr_gui_row_set_cursor(x, 2.4 * line);
         wr_gui_as_it_is(true);
         wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_STRONG, name, wr_gui_row_width() - 2 * x);
         wr_gui_as_it_is(false);
-        wr_gui_row_at(x, 0.2 * line);
+        wr_gui_row_set_cursor(x, 0.2 * line);
         wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, what, wr_gui_row_width() - 2 * x);
         wr_gui_row_end();
         if (r.clicked) {

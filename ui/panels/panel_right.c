@@ -1,7 +1,7 @@
 /* Right panel: one tab above, the layers below. Without room for both, the layers are a tab too. A long tab replaces
    the layers if they would leave it only a few rows. */
 #include "ui/accuracy/accuracy.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
 #include "ui/state/layout.h"
 #include "ui/state/registry.h"

@@ -3,7 +3,7 @@
 #include "ui/panels/panel_search.h"
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
 #include "ui/state/keys.h"
@@ -181,12 +181,12 @@ static bool row(const WrApp *app, const Found *found, int i, bool chosen)
     const WrAction *action = wr_action_find(app, found->name);
     bool enabled = !action || wr_action_can(app, action);
     WrRow r = wr_gui_row_begin(i, 26, chosen);
-    wr_gui_row_at(wr_gui_px(14), 0);
+    wr_gui_row_set_cursor(wr_gui_px(14), 0);
     wr_gui_text_cut(WR_FONT_TEXT, enabled ? WR_COLOUR_TEXT : WR_COLOUR_FAINT, found->label,
                     wr_gui_row_width() - wr_gui_px(150));
     wr_keys_label(app->keys, found->name, keys);
     double wide = wr_gui_text_width(WR_FONT_SMALL, keys);
-    wr_gui_row_at(wr_gui_row_width() - wide - wr_gui_px(14), 0);
+    wr_gui_row_set_cursor(wr_gui_row_width() - wide - wr_gui_px(14), 0);
     wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, keys);
     wr_gui_row_end();
     wr_gui_tip(found->help);

@@ -1,6 +1,6 @@
 /* Dialogs that change the selection by numbers; the canvas shows the resulting outline. */
 #include "ui/canvas/outline.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
 #include "ui/state/line.h"

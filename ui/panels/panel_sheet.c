@@ -1,8 +1,8 @@
 /* Export sheet dialog. */
 #include "ui/panels/panel_sheet.h"
 #include "ui/state/app_options.h"
-#include "ui/state/busy.h"
-#include "ui/state/input_router.h"
+#include "ui/state/background_command.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/messages.h"
 #include "ui/state/session_view.h"
 #include "ui/toolkit/words.h"
@@ -69,12 +69,12 @@ static void take_place(const WrApp *app, WrSheetRequest *ask)
 {
     const WrSheetRequest *kept = &wr_session_document(app->session)->scene->sheet;
     *ask = *kept;
-    if (!*ask->as) snprintf(ask->as, sizeof ask->as, "%s", wr_set_rows[0].name);
+    if (!*ask->as) snprintf(ask->as, sizeof ask->as, "%s", wr_map_set_rows[0].name);
     if (*ask->folder && *ask->name) return;
     const char *path = wr_session_path(app->session);
     char *here = wr_path_real(".");
     WrText name = { 0 };
-    wr_set_cell_name(path, &name);
+    wr_map_set_cell_name(path, &name);
     snprintf(ask->name, sizeof ask->name, "%.120s", wr_text_get(&name));
     wr_text_fini(&name);
     const char *slash = strrchr(path, '/');
@@ -91,7 +91,7 @@ static WrSheetState *sheet_open(WrApp *app)
     if (app->sheet) return app->sheet;
     app->sheet = wr_alloc(1, sizeof *app->sheet);
     take_place(app, &app->sheet->ask);
-    app->sheet->names = wr_set_names();
+    app->sheet->names = wr_map_set_names();
     return app->sheet;
 }
 
@@ -99,7 +99,7 @@ static void forget(WrApp *app)
 {
     WrSheetState *sheet = app->sheet;
     if (!sheet) return;
-    for (int i = 0; i < WR_SET_MAPS; i++) {
+    for (int i = 0; i < WR_MAP_SET_ENTRIES_MAX; i++) {
         if (sheet->pictures[i]) SDL_DestroyTexture(sheet->pictures[i]);
         sheet->pictures[i] = NULL;
     }
@@ -118,7 +118,7 @@ void wr_sheet_free(WrApp *app)
     wr_job_free(sheet->write);
     forget(app);
     wr_sheet_look_free(sheet->shown);
-    wr_set_names_free(&sheet->names);
+    wr_map_set_names_free(&sheet->names);
     wr_free(sheet);
     app->sheet = NULL;
 }
@@ -202,8 +202,8 @@ static void take_look(WrApp *app)
     if (!look) return;
     wr_sheet_look_free(sheet->shown);
     sheet->shown = look;
-    for (int i = 0; i < WR_SET_MAPS; i++) {
-        const WrExportPicture *p = &look->pictures[i];
+    for (int i = 0; i < WR_MAP_SET_ENTRIES_MAX; i++) {
+        const WrExportPreview *p = &look->pictures[i];
         if (sheet->pictures[i]) SDL_DestroyTexture(sheet->pictures[i]);
         sheet->pictures[i] = p->rgb ? texture_of(app->renderer, p->width, p->height, p->rgb) : NULL;
     }
@@ -327,13 +327,14 @@ const WrPart wr_part_sheet = {
 #define PICTURE_UNITS 72
 #define OTHERS_UNITS 372 /* height of everything except the list of maps */
 #define GREEN_SIDE 48    /* texels of the pictures for the green direction */
-#define MAX_CHOICES (WR_SET_ROWS + WR_SETS_MAX + WR_EXPORT_KIND_COUNT)
+#define MAX_CHOICES (WR_MAP_SET_ROWS + WR_MAP_SETS_MAX + WR_EXPORT_KIND_COUNT)
 
 /* Sets first, then single maps. */
 static int list_choices(const WrSheetState *sheet, const char **labels, const char **words)
 {
     int count = 0;
-    for (int i = 0; i < sheet->names.names.count && count < WR_SET_ROWS + WR_SETS_MAX; i++) {
+    for (int i = 0; i < sheet->names.names.count && count < WR_MAP_SET_ROWS + WR_MAP_SETS_MAX;
+         i++) {
         words[count] = sheet->names.names.data[i];
         labels[count++] = sheet->names.names.data[i];
     }
@@ -431,10 +432,10 @@ static void add_bytes(double bytes, char *text, size_t size)
 /* Heights of the lowest and highest code for the whole table, since the picture contains only a part. */
 static void code_range(const WrSheetLook *look, int i, double *low, double *high)
 {
-    const WrSetOrder order = { look->set, "", "", NULL, 0 };
+    const WrMapSetRequest order = { look->set, "", "", NULL, 0 };
     WrExportOptions options = wr_export_default();
     WrError none;
-    if (!wr_set_options(&order, i, &options, &none)) options = wr_export_default();
+    if (!wr_map_set_options(&order, i, &options, &none)) options = wr_export_default();
     const double most = fmax(fabs(look->histogram.low), fabs(look->histogram.high));
     *low = look->histogram.low;
     *high = look->histogram.high;
@@ -445,7 +446,7 @@ static void code_range(const WrSheetLook *look, int i, double *low, double *high
 /* "512 x 512, 16 bits, codes are -0.05 to 0.93; up to 512 kB" */
 static void facts_of(const WrSheetLook *look, int i, char *text, size_t size)
 {
-    const WrSetMap *map = &look->set->maps.data[i];
+    const WrMapSetEntry *map = &look->set->maps.data[i];
     const WrExportReport *report = &look->pictures[i].report;
     const int depth = wr_sheet_depth(map);
     char bytes[24];
@@ -474,13 +475,13 @@ static void facts_of(const WrSheetLook *look, int i, char *text, size_t size)
 static void map_row(const WrSheetState *sheet, int i)
 {
     const WrSheetLook *look = sheet->shown;
-    const WrExportPicture *p = &look->pictures[i];
-    const WrSetOrder order = { look->set, "", look->ask.name, NULL, 0 };
+    const WrExportPreview *p = &look->pictures[i];
+    const WrMapSetRequest order = { look->set, "", look->ask.name, NULL, 0 };
     const double side = wr_gui_px(PICTURE_UNITS),
                  most = p->width > p->height ? p->width : p->height;
     char facts[200];
     WrText file = { 0 };
-    wr_set_file(&order, i, &file);
+    wr_map_set_file(&order, i, &file);
     if (p->rgb && sheet->pictures[i])
         wr_gui_image(sheet->pictures[i], side * p->width / most, side * p->height / most);
     else wr_gui_image(NULL, side, side);
@@ -645,8 +646,8 @@ void wr_dialog_sheet(WrApp *app)
 {
     WrSheetState *sheet = sheet_open(app);
     if (app->dialog->fresh) {
-        wr_set_names_free(&sheet->names);
-        sheet->names = wr_set_names();
+        wr_map_set_names_free(&sheet->names);
+        sheet->names = wr_map_set_names();
     }
     sheet_look(app);
     if (!wr_gui_dialog_begin("Export maps", WIDE_UNITS)) return;

@@ -10,11 +10,11 @@ typedef struct WrSheetState {
     bool live;           /* live export: write again after each pause in editing */
     WrJob *look, *write; /* owned; NULL until needed */
     WrSheetLook *shown;  /* the newest pictures; owned; NULL: none yet */
-    SDL_Texture *pictures[WR_SET_MAPS],
+    SDL_Texture *pictures[WR_MAP_SET_ENTRIES_MAX],
         *greens[2];        /* owned; greens: pictures of a bump with green up and down */
     WrSheetRequest looked; /* request of the newest pictures */
     uint64_t looked_key;
-    WrSetNames names;                      /* names of sets when the sheet was opened */
+    WrMapSetNames names;                   /* names of sets when the sheet was opened */
     uint64_t key, key_table, key_revision; /* hashes of all inputs of the maps at that revision */
     uint64_t written_key;                  /* live: key of the last written files */
     /* live: key of the present state, and the time of its first appearance */

@@ -3,7 +3,7 @@
 #include "ui/canvas/outline.h"
 #include "ui/canvas/view.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/layout.h"
 #include "ui/state/messages.h"
 #include "ui/state/session_view.h"

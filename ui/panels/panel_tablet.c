@@ -360,12 +360,12 @@ static void device_row(WrApp *app, int index)
              d->there && d->has_tilt ? ", tilt" : "");
     WrRow row = wr_gui_row_begin(index, 26, index == t->chosen);
     double pad = wr_gui_px(12), wide = wr_gui_row_width(), right = wr_gui_px(180);
-    wr_gui_row_at(pad, 0);
+    wr_gui_row_set_cursor(pad, 0);
     wr_gui_as_it_is(true);
     wr_gui_text_cut(WR_FONT_TEXT, d->there ? WR_COLOUR_STRONG : WR_COLOUR_LABEL, d->name,
                     wide - right - 2 * pad);
     wr_gui_as_it_is(false);
-    wr_gui_row_at(wide - right, 0);
+    wr_gui_row_set_cursor(wide - right, 0);
     wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, what, right - pad);
     wr_gui_row_end();
     if (!row.clicked) return;

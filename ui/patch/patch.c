@@ -3,7 +3,7 @@
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/layout.h"
 #include "ui/state/messages.h"
 #include "ui/state/registry.h"
@@ -396,7 +396,7 @@ static void forget(WrApp *app)
 
 const WrPart wr_part_patch = { .update = patch_update,
                                .next_time = wr_patch_next_time,
-                               .look = wr_patch_look,
+                               .view_event = wr_patch_view_event,
                                .draw = patch_draw,
                                .settle = settle,
                                .another = another,

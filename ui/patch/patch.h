@@ -83,7 +83,7 @@ void wr_viewport_commit_camera(WrApp *app);
 void wr_patch_commit_turn(WrApp *app);
 /* Handle an event while a command runs, true if it moved the view; and at the end of the
    command. */
-bool wr_patch_look(WrApp *app, const SDL_Event *event);
+bool wr_patch_view_event(WrApp *app, const SDL_Event *event);
 void wr_patch_commit_late(WrApp *app);
 /* Placement of the camera for the displayed rotation. False: there is no camera, or no room. */
 bool wr_patch_place(const WrApp *app, WrPlacement *out);

@@ -1,6 +1,6 @@
 #include "ui/patch/patch_cube.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/layout.h"
 #include "ui/state/session_view.h"
 #include "ui/state/settings.h"

@@ -1,11 +1,11 @@
 /* Dragging on the patch: rotation, lights, zoom; each becomes one command at its end. */
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/keys.h"
 #include "ui/state/layout.h"
 #include "ui/patch/patch.h"
 #include "ui/patch/patch_cube.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/line.h"
 #include "ui/state/scene_line.h"
 #include "ui/state/session_view.h"
@@ -71,7 +71,7 @@ static bool wheel(WrApp *app, const SDL_MouseWheelEvent *event)
     return true;
 }
 
-bool wr_patch_look(WrApp *app, const SDL_Event *event)
+bool wr_patch_view_event(WrApp *app, const SDL_Event *event)
 {
     const bool held = app->patch->meanwhile == WR_PATCH_HELD;
     if (held && event->type == SDL_MOUSEMOTION) {

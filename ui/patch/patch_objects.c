@@ -1,5 +1,5 @@
 #include "ui/patch/patch_objects.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/layout.h"
 #include "ui/state/line.h"
 #include "ui/state/session_view.h"

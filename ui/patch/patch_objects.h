@@ -2,7 +2,7 @@
    the active one. */
 #pragma once
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/preview/patch_pick.h"
 
 #include <stdbool.h>

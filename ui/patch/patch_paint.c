@@ -5,7 +5,7 @@
 #include "ui/state/action_list.h"
 #include "ui/patch/patch_paint.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/keys.h"
 #include "ui/state/layout.h"
 #include "ui/state/session_view.h"

@@ -1,7 +1,7 @@
 /* patch_paint.h - painting on the patch. */
 #pragma once
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/preview/patch_pick.h"
 
 #include <SDL.h>

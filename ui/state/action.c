@@ -1,6 +1,6 @@
 /* Named actions. */
 #include "ui/state/action.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
 #include "ui/state/messages.h"
 #include "ui/state/registry.h"

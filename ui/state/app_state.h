@@ -155,7 +155,7 @@ struct WrApp {
     uint64_t seam_key; /* key of the table and the scheme for which the seams were measured */
     WrMeter *meter;
     WrDeferred *later;
-    /* command running in the background (ui/state/busy.h); owned, NULL: none */
+    /* command running in the background (ui/state/background_command.h); owned, NULL: none */
     WrBusy *busy;
     WrWaits *waits;       /* actions queued behind it */
     bool gave_up;         /* the last background command was cancelled by the user */

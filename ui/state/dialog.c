@@ -1,7 +1,7 @@
 /* Opening and closing of dialogs, and their shared buttons. */
 #include "ui/state/dialog.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/layout.h"
 #include "ui/state/registry.h"
 #include "ui/toolkit/gui.h"

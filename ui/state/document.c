@@ -2,10 +2,10 @@
    through the session. */
 #include "ui/state/document.h"
 #include "ui/state/app_options.h"
-#include "ui/state/busy_internal.h"
+#include "ui/state/background_command_internal.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/action.h"
 #include "ui/state/messages.h"
 #include "ui/state/replace.h"
@@ -38,7 +38,7 @@
 static void note_recent(WrApp *app, const char *path)
 {
     char *full = wr_path_real(path);
-    if (full) wr_settings_note_recent(app->settings, full);
+    if (full) wr_settings_add_recent(app->settings, full);
     free(full);
 }
 
@@ -129,7 +129,7 @@ void wr_app_compact_journal(WrApp *app)
 {
     bool idle = app->hand->grab == WR_GRAB_NONE && !wr_session_in_stroke(app->session);
     if (idle && wr_session_journal_needs_compacting(app->session))
-        wr_busy_run_background(app, "Keeping the journal short", tend_work, NULL);
+        wr_busy_run_upkeep(app, "Keeping the journal short", tend_work, NULL);
 }
 
 /* Name the document after the picture. */
@@ -203,7 +203,7 @@ void wr_app_start_ahead(WrApp *app)
     ahead->threaded = wr_thread_begin(&ahead->thread, open_starter, ahead);
 }
 
-void wr_app_start_end(WrApp *app)
+void wr_app_start_join(WrApp *app)
 {
     WrAhead *ahead = app->file->ahead;
     if (!ahead) return;
@@ -225,7 +225,7 @@ static bool take_starter(WrApp *app, WrError *err)
     ahead->threaded = false;
     const bool good = ahead->good;
     if (!good) *err = ahead->err;
-    wr_app_start_end(app);
+    wr_app_start_join(app);
     return good;
 }
 

@@ -49,11 +49,11 @@ typedef struct WrDocumentState {
 
 void wr_app_compact_journal(WrApp *app); /* idle-time upkeep of the journal */
 /* Load the starter document, if nothing else was requested, on a separate thread while the window opens. No other
-   code may use the session until wr_app_start or wr_app_start_end. */
+   code may use the session until wr_app_start or wr_app_start_join. */
 void wr_app_start_ahead(WrApp *app);
 /* Open the starter, or the requested document, which may continue in the background. False: it cannot be opened. */
 bool wr_app_start(WrApp *app, WrError *err);
-void wr_app_start_end(WrApp *app); /* wait for the thread; may be called at any time */
+void wr_app_start_join(WrApp *app); /* wait for the thread; may be called at any time */
 void wr_app_new_document(WrApp *app);
 void wr_app_open(WrApp *app);
 void wr_app_open_path(WrApp *app, const char *path); /* with the question about unsaved work */

@@ -1,6 +1,6 @@
 /* Services of the window for all components: redraw, layout, scale, keys. */
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/keys.h"
 #include "ui/state/layout.h"
 #include "ui/state/messages.h"

@@ -35,7 +35,7 @@ typedef struct WrPart {
     bool (*works)(WrApp *app); /* true while it computes: its progress bar moves */
     /* Handle an event while a command runs in the background: true if it only changed the component's view. A
        resulting view command is run afterwards. */
-    bool (*look)(WrApp *app, const SDL_Event *event);
+    bool (*view_event)(WrApp *app, const SDL_Event *event);
     void (*draw)(WrApp *app);    /* draw its view, below all widgets */
     void (*let_go)(WrApp *app);  /* end a drag, keeping its result */
     void (*settle)(WrApp *app);  /* run delayed changes as a command now */

@@ -1,9 +1,9 @@
 /* Command lines: the only way for the window to change a document. */
-#include "ui/state/busy_internal.h"
+#include "ui/state/background_command_internal.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/action.h"
-#include "ui/state/line_words.h"
+#include "ui/state/step_label.h"
 #include "ui/state/messages.h"
 #include "ui/state/registry.h"
 #include "ui/state/session_view.h"
@@ -88,7 +88,7 @@ static bool put_off(WrApp *app, const char *line)
         return false;
     }
     WrText words = { 0 };
-    wr_line_words(line, &words);
+    wr_step_label(line, &words);
     wr_busy_put_off(app, wr_text_get(&words), run_late, line, !tended);
     wr_text_fini(&words);
     return true;
@@ -104,7 +104,7 @@ static bool run_command(WrApp *app, const char *text, const WrDocument *made, co
     WrText words = { 0 };
     wr_input_router_let_go(app);                       /* an open stroke would refuse the line */
     if (app->trying) wr_edit_preview_stop(app->trial); /* the preview is outdated */
-    wr_line_words(text, &words);
+    wr_step_label(text, &words);
     Line *line = wr_alloc(1, sizeof *line);
     *line = (Line){ .text = wr_strdup(text),
                     .words = wr_strdup(wr_text_get(&words)),

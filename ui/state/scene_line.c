@@ -1,5 +1,5 @@
 #include "ui/state/scene_line.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
 #include "ui/state/registry.h"
 #include "ui/state/session_view.h"

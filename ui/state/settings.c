@@ -330,7 +330,7 @@ static void put_first(char **list, int most, const char *text)
     list[0] = first;
 }
 
-void wr_settings_note_recent(WrSettings *settings, const char *path)
+void wr_settings_add_recent(WrSettings *settings, const char *path)
 {
     put_first(settings->recent, WR_RECENT_MAX, path);
 }
@@ -550,7 +550,7 @@ static void settings_merge(const WrSettings *base, const WrSettings *mine, WrSet
     merge_text(base->preset, mine->preset, &theirs->preset);
     merge_text(base->tip, mine->tip, &theirs->tip);
     merge_text(base->set, mine->set, &theirs->set);
-    merge_newest(base->recent, mine->recent, WR_RECENT_MAX, theirs, wr_settings_note_recent);
+    merge_newest(base->recent, mine->recent, WR_RECENT_MAX, theirs, wr_settings_add_recent);
     merge_newest(base->used, mine->used, WR_USED_MAX, theirs, wr_settings_note_used);
     merge_newest(base->fonts, mine->fonts, WR_FONTS_MAX, theirs, wr_settings_note_font);
     merge_favourites(base, mine, theirs);

@@ -51,7 +51,7 @@ typedef struct WrSettings {
     int tab;            /* index of the tab in the right panel */
     bool turning;       /* the patch rotates continuously */
     WrBrush brush;
-    WrCanvasLook look;
+    WrCanvasDisplay look;
     /* Files of the brush, owned, NULL: none; as in WrBrushSources. */
     char *preset, *tip, *set;
     double mask_strength; /* brush strength on masks, 0..1 */
@@ -120,4 +120,4 @@ const char *wr_settings_pen_name(const char *line);
 void wr_settings_keep_pen(WrSettings *settings, const char *line);
 
 /* Move a path to the front of the recent files. */
-void wr_settings_note_recent(WrSettings *settings, const char *path);
+void wr_settings_add_recent(WrSettings *settings, const char *path);

@@ -43,7 +43,7 @@ bool wr_display_no_output(const char *asked, const char *opened)
     return false;
 }
 
-const char *wr_display_driver_note(const WrDisplayEnv *env, const char *opened)
+const char *wr_display_driver_message(const WrDisplayEnv *env, const char *opened)
 {
     const bool native = opened && strcmp(opened, "wayland") == 0;
     if (!is_wayland(env) || !opened || (!native && strcmp(opened, "x11") != 0)) return NULL;

@@ -18,7 +18,7 @@ const char *wr_display_driver(const WrDisplayEnv *env);
    NULL. */
 bool wr_display_no_output(const char *asked, const char *opened);
 /* Message on the chosen driver and its effect on pens; NULL: none. In English; static. */
-const char *wr_display_driver_note(const WrDisplayEnv *env, const char *opened);
+const char *wr_display_driver_message(const WrDisplayEnv *env, const char *opened);
 
 /* ---- renderer back ends of the window, and their order ---- */
 

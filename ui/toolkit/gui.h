@@ -245,7 +245,7 @@ void wr_gui_progress(double width, double fraction);
 /* A dark square with coloured sides (left, right, top, bottom); for a tip. */
 void wr_gui_edge_colours_square(const char *id, double units, const WrColour sides[4]);
 
-/* ---- rows that contain widgets: between begin and end, wr_gui_row_at sets the next position ---- */
+/* ---- rows that contain widgets: between begin and end, wr_gui_row_set_cursor sets the next position ---- */
 typedef struct WrRow {
     double top, height; /* pixels of the window */
     double pointer_y;   /* pixels of the window */
@@ -258,7 +258,7 @@ typedef struct WrRow {
 /* A row across the whole area. */
 WrRow wr_gui_row_begin(int id, double height_units, bool selected);
 /* x: pixels from the row's left edge. tall: height of the following content in pixels; 0: a line of text. */
-void wr_gui_row_at(double x, double tall);
+void wr_gui_row_set_cursor(double x, double tall);
 void wr_gui_row_see(void);     /* right after begin: scroll the list until the row is visible */
 double wr_gui_row_width(void); /* pixels */
 void wr_gui_row_end(void);

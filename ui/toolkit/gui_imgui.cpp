@@ -18,19 +18,19 @@ WrGui *wr_gui_current(void)
     return static_cast<WrGui *>(ImGui::GetIO().UserData);
 }
 
-ImU32 wr_gui_colour_of(WrColour c)
+ImU32 wr_gui_colour_u32(WrColour c)
 {
     return IM_COL32((c >> 16) & 255, (c >> 8) & 255, c & 255, c >> 24);
 }
 
-ImVec4 wr_gui_vec_of(WrColour c)
+ImVec4 wr_gui_colour_vec4(WrColour c)
 {
-    return ImGui::ColorConvertU32ToFloat4(wr_gui_colour_of(c));
+    return ImGui::ColorConvertU32ToFloat4(wr_gui_colour_u32(c));
 }
 
 void wr_gui_edge(ImDrawList *list, ImVec2 low, ImVec2 high)
 {
-    ImU32 colour = wr_gui_colour_of(WR_COLOUR_EDGE);
+    ImU32 colour = wr_gui_colour_u32(WR_COLOUR_EDGE);
     list->AddRectFilled(ImVec2(low.x + 1, low.y), ImVec2(high.x - 1, low.y + 1), colour);
     list->AddRectFilled(ImVec2(low.x + 1, high.y - 1), ImVec2(high.x - 1, high.y), colour);
     list->AddRectFilled(ImVec2(low.x, low.y + 1), ImVec2(low.x + 1, high.y - 1), colour);
@@ -41,26 +41,27 @@ void wr_gui_edge(ImDrawList *list, ImVec2 low, ImVec2 high)
 
 static void set_colours(ImVec4 *c)
 {
-    c[ImGuiCol_Text] = wr_gui_vec_of(WR_COLOUR_TEXT);
-    c[ImGuiCol_TextDisabled] = wr_gui_vec_of(WR_COLOUR_FAINT);
-    c[ImGuiCol_WindowBg] = c[ImGuiCol_MenuBarBg] = wr_gui_vec_of(WR_COLOUR_PANEL);
-    c[ImGuiCol_PopupBg] = wr_gui_vec_of(WR_COLOUR_POPUP);
-    c[ImGuiCol_Border] = wr_gui_vec_of(WR_COLOUR_EDGE);
-    c[ImGuiCol_FrameBg] = c[ImGuiCol_ChildBg] = wr_gui_vec_of(WR_COLOUR_FIELD);
-    c[ImGuiCol_FrameBgHovered] = c[ImGuiCol_FrameBgActive] = wr_gui_vec_of(WR_COLOUR_FIELD_HOT);
-    c[ImGuiCol_Button] = wr_gui_vec_of(WR_COLOUR_BUTTON);
-    c[ImGuiCol_ButtonHovered] = wr_gui_vec_of(WR_COLOUR_BUTTON_HOT);
-    c[ImGuiCol_ButtonActive] = c[ImGuiCol_HeaderActive] = wr_gui_vec_of(WR_COLOUR_SELECTED);
-    c[ImGuiCol_Header] = c[ImGuiCol_HeaderHovered] = wr_gui_vec_of(WR_COLOUR_SELECTED);
-    c[ImGuiCol_CheckMark] = wr_gui_vec_of(WR_COLOUR_ACCENT);
-    c[ImGuiCol_Separator] = wr_gui_vec_of(WR_COLOUR_EDGE);
-    c[ImGuiCol_TextSelectedBg] = wr_gui_vec_of(WR_COLOUR_SELECTED);
-    c[ImGuiCol_ScrollbarBg] = wr_gui_vec_of(0x00000000u);
-    c[ImGuiCol_ScrollbarGrab] = wr_gui_vec_of(WR_COLOUR_GRAB);
-    c[ImGuiCol_ScrollbarGrabHovered] = wr_gui_vec_of(WR_COLOUR_GRAB_HOT);
-    c[ImGuiCol_ScrollbarGrabActive] = wr_gui_vec_of(WR_COLOUR_GRAB_HELD);
-    c[ImGuiCol_ModalWindowDimBg] = wr_gui_vec_of(0x60000000u);
-    c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgActive] = wr_gui_vec_of(WR_COLOUR_BAR);
+    c[ImGuiCol_Text] = wr_gui_colour_vec4(WR_COLOUR_TEXT);
+    c[ImGuiCol_TextDisabled] = wr_gui_colour_vec4(WR_COLOUR_FAINT);
+    c[ImGuiCol_WindowBg] = c[ImGuiCol_MenuBarBg] = wr_gui_colour_vec4(WR_COLOUR_PANEL);
+    c[ImGuiCol_PopupBg] = wr_gui_colour_vec4(WR_COLOUR_POPUP);
+    c[ImGuiCol_Border] = wr_gui_colour_vec4(WR_COLOUR_EDGE);
+    c[ImGuiCol_FrameBg] = c[ImGuiCol_ChildBg] = wr_gui_colour_vec4(WR_COLOUR_FIELD);
+    c[ImGuiCol_FrameBgHovered] = c[ImGuiCol_FrameBgActive] =
+        wr_gui_colour_vec4(WR_COLOUR_FIELD_HOT);
+    c[ImGuiCol_Button] = wr_gui_colour_vec4(WR_COLOUR_BUTTON);
+    c[ImGuiCol_ButtonHovered] = wr_gui_colour_vec4(WR_COLOUR_BUTTON_HOT);
+    c[ImGuiCol_ButtonActive] = c[ImGuiCol_HeaderActive] = wr_gui_colour_vec4(WR_COLOUR_SELECTED);
+    c[ImGuiCol_Header] = c[ImGuiCol_HeaderHovered] = wr_gui_colour_vec4(WR_COLOUR_SELECTED);
+    c[ImGuiCol_CheckMark] = wr_gui_colour_vec4(WR_COLOUR_ACCENT);
+    c[ImGuiCol_Separator] = wr_gui_colour_vec4(WR_COLOUR_EDGE);
+    c[ImGuiCol_TextSelectedBg] = wr_gui_colour_vec4(WR_COLOUR_SELECTED);
+    c[ImGuiCol_ScrollbarBg] = wr_gui_colour_vec4(0x00000000u);
+    c[ImGuiCol_ScrollbarGrab] = wr_gui_colour_vec4(WR_COLOUR_GRAB);
+    c[ImGuiCol_ScrollbarGrabHovered] = wr_gui_colour_vec4(WR_COLOUR_GRAB_HOT);
+    c[ImGuiCol_ScrollbarGrabActive] = wr_gui_colour_vec4(WR_COLOUR_GRAB_HELD);
+    c[ImGuiCol_ModalWindowDimBg] = wr_gui_colour_vec4(0x60000000u);
+    c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgActive] = wr_gui_colour_vec4(WR_COLOUR_BAR);
 }
 
 static void set_style(double scale)

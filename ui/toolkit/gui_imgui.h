@@ -177,8 +177,8 @@ bool wr_gui_draw_icon(ImDrawList *list, const char *icon, ImVec2 at, float side,
 const char *wr_gui_icon(const char *icon);
 /* Rasterise the fonts at the present scale and create their texture. */
 bool wr_gui_build_fonts(WrGui *gui, WrError *err);
-ImU32 wr_gui_colour_of(WrColour colour); /* from 0xAARRGGBB to ImGui's order */
-ImVec4 wr_gui_vec_of(WrColour colour);
+ImU32 wr_gui_colour_u32(WrColour colour); /* from 0xAARRGGBB to ImGui's order */
+ImVec4 wr_gui_colour_vec4(WrColour colour);
 /* A border of whole pixels without its corners: SDL's software renderer draws thin antialiased lines unevenly. */
 void wr_gui_edge(ImDrawList *list, ImVec2 low, ImVec2 high);
 /* Tip of the last item, whose identifier for the ring is `id`. */

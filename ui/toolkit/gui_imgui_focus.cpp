@@ -247,7 +247,7 @@ static void draw_ring(const WrKeyStop *stop)
     ring.ClipWith(window->OuterRectClipped);
     if (ring.GetWidth() < 3 * w || ring.GetHeight() < 3 * w) return;
     ImDrawList *list = ImGui::GetForegroundDrawList();
-    const ImU32 ink = wr_gui_colour_of(WR_COLOUR_FOCUS);
+    const ImU32 ink = wr_gui_colour_u32(WR_COLOUR_FOCUS);
     list->AddRectFilled(ring.Min, ImVec2(ring.Max.x, ring.Min.y + w), ink);
     list->AddRectFilled(ImVec2(ring.Min.x, ring.Max.y - w), ring.Max, ink);
     list->AddRectFilled(ring.Min, ImVec2(ring.Min.x + w, ring.Max.y), ink);

@@ -15,7 +15,7 @@ extern "C" double wr_gui_menu_bar_begin(bool tight)
 try {
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(8), px(6)));
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(px(tight ? 7 : 14), px(6)));
-    ImGui::PushStyleColor(ImGuiCol_MenuBarBg, wr_gui_colour_of(WR_COLOUR_BAR));
+    ImGui::PushStyleColor(ImGuiCol_MenuBarBg, wr_gui_colour_u32(WR_COLOUR_BAR));
     ImGui::BeginMainMenuBar();
     ImGui::SetCursorPosX(px(5)); /* aligns its first word with the row below */
     return (double)ImGui::GetWindowHeight();
@@ -97,7 +97,7 @@ extern "C" void wr_gui_popup_end(void)
 static bool dialog(const char *title, ImVec2 at, ImVec2 pivot, float width, float least, bool dim)
 {
     ImGui::GetStyle().Colors[ImGuiCol_ModalWindowDimBg] =
-        wr_gui_vec_of(dim ? 0x60000000u : 0x00000000u);
+        wr_gui_colour_vec4(dim ? 0x60000000u : 0x00000000u);
     ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
     ImGui::SetNextWindowSize(ImVec2(width, 0));
     if (least > 0)
@@ -251,16 +251,16 @@ static bool segment(const char *id, const char *said, ImVec2 size, WrColour grou
     const ImVec2 text = ImGui::CalcTextSize(said);
     bool pressed = ImGui::InvisibleButton(id, size);
     wr_gui_stop(WR_STOP_SEGMENT, on);
-    list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_FIELD));
+    list->AddRectFilled(at, end, wr_gui_colour_u32(WR_COLOUR_FIELD));
     if (on)
         list->AddRectFilled(ImVec2(at.x + 1, at.y + 1), ImVec2(end.x - 1, end.y - 1),
-                            wr_gui_colour_of(ground));
+                            wr_gui_colour_u32(ground));
     WrColour ink = on                       ? WR_COLOUR_STRONG
                    : ImGui::IsItemHovered() ? WR_COLOUR_TEXT
                                             : WR_COLOUR_LABEL;
     list->AddText(
         ImVec2(at.x + roundf((size.x - text.x) / 2), at.y + roundf((size.y - text.y) / 2)),
-        wr_gui_colour_of(ink), said);
+        wr_gui_colour_u32(ink), said);
     wr_gui_fits_window(said);
     return pressed;
 }
@@ -323,8 +323,8 @@ static bool tab(const char *label, ImVec2 place, ImVec2 size, bool on)
     wr_gui_stop(WR_STOP_TAB, on);
     if (on) {
         ImVec2 end(at.x + size.x, at.y + size.y);
-        list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_PANEL));
-        list->AddRectFilled(at, ImVec2(end.x, at.y + px(2)), wr_gui_colour_of(WR_COLOUR_ACCENT));
+        list->AddRectFilled(at, end, wr_gui_colour_u32(WR_COLOUR_PANEL));
+        list->AddRectFilled(at, ImVec2(end.x, at.y + px(2)), wr_gui_colour_u32(WR_COLOUR_ACCENT));
     }
     const char *said = wr_gui_said(label);
     ImVec2 text = ImGui::CalcTextSize(said);
@@ -332,7 +332,7 @@ static bool tab(const char *label, ImVec2 place, ImVec2 size, bool on)
     bool bright = on || ImGui::IsItemHovered();
     list->AddText(
         ImVec2(at.x + roundf((size.x - text.x) / 2), at.y + roundf((size.y - text.y) / 2)),
-        wr_gui_colour_of(bright ? WR_COLOUR_STRONG : WR_COLOUR_LABEL), said);
+        wr_gui_colour_u32(bright ? WR_COLOUR_STRONG : WR_COLOUR_LABEL), said);
     return pressed;
 }
 

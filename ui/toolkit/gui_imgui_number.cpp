@@ -102,12 +102,13 @@ static void draw_field(const WrNumber *spec, ImVec2 at, ImVec2 end, double value
 {
     ImDrawList *list = ImGui::GetWindowDrawList();
     float pad = ImGui::GetStyle().FramePadding.x;
-    list->AddRectFilled(at, end, wr_gui_colour_of(hovered ? WR_COLOUR_FIELD_HOT : WR_COLOUR_FIELD));
+    list->AddRectFilled(at, end,
+                        wr_gui_colour_u32(hovered ? WR_COLOUR_FIELD_HOT : WR_COLOUR_FIELD));
     float fill = roundf((end.x - at.x) * (float)place_of(spec, value));
     if (fill >= 2)
         list->AddRectFilled(
             ImVec2(at.x + 1, at.y + 1), ImVec2(at.x + fill, end.y - 1),
-            ImGui::GetColorU32(wr_gui_colour_of(hovered ? WR_COLOUR_FILL_HOT : WR_COLOUR_FILL)));
+            ImGui::GetColorU32(wr_gui_colour_u32(hovered ? WR_COLOUR_FILL_HOT : WR_COLOUR_FILL)));
     wr_gui_edge(list, at, end);
     char text[96];
     print_value(spec, value, text, sizeof text - 24);
@@ -313,35 +314,35 @@ extern "C" void wr_gui_draw_unclip(void)
 extern "C" void wr_gui_draw_line(double x0, double y0, double x1, double y1, WrColour colour,
                                  double width)
 {
-    views()->AddLine(at(x0, y0), at(x1, y1), wr_gui_colour_of(colour), (float)width);
+    views()->AddLine(at(x0, y0), at(x1, y1), wr_gui_colour_u32(colour), (float)width);
 }
 
 extern "C" void wr_gui_draw_rect(double x, double y, double w, double h, WrColour colour,
                                  double width)
 {
-    views()->AddRect(at(x, y), at(x + w, y + h), wr_gui_colour_of(colour), 0, 0, (float)width);
+    views()->AddRect(at(x, y), at(x + w, y + h), wr_gui_colour_u32(colour), 0, 0, (float)width);
 }
 
 extern "C" void wr_gui_draw_fill(double x, double y, double w, double h, WrColour colour,
                                  double rounding)
 {
-    views()->AddRectFilled(at(x, y), at(x + w, y + h), wr_gui_colour_of(colour), (float)rounding);
+    views()->AddRectFilled(at(x, y), at(x + w, y + h), wr_gui_colour_u32(colour), (float)rounding);
 }
 
 extern "C" void wr_gui_draw_circle(double x, double y, double radius, WrColour colour, double width)
 {
-    views()->AddCircle(at(x, y), (float)radius, wr_gui_colour_of(colour), 0, (float)width);
+    views()->AddCircle(at(x, y), (float)radius, wr_gui_colour_u32(colour), 0, (float)width);
 }
 
 extern "C" void wr_gui_draw_quad(const double x[4], const double y[4], WrColour colour)
 {
     views()->AddQuadFilled(at(x[0], y[0]), at(x[1], y[1]), at(x[2], y[2]), at(x[3], y[3]),
-                           wr_gui_colour_of(colour));
+                           wr_gui_colour_u32(colour));
 }
 
 extern "C" void wr_gui_draw_disc(double x, double y, double radius, WrColour colour)
 {
-    views()->AddCircleFilled(at(x, y), (float)radius, wr_gui_colour_of(colour));
+    views()->AddCircleFilled(at(x, y), (float)radius, wr_gui_colour_u32(colour));
 }
 
 extern "C" void wr_gui_draw_arc(double x, double y, double radius, double turns, WrColour colour,
@@ -350,12 +351,12 @@ extern "C" void wr_gui_draw_arc(double x, double y, double radius, double turns,
     const double top = -1.57079632679489662;
     views()->PathArcTo(at(x, y), (float)radius, (float)top,
                        (float)(top + turns * 6.28318530717958648), 24);
-    views()->PathStroke(wr_gui_colour_of(colour), 0, (float)width);
+    views()->PathStroke(wr_gui_colour_u32(colour), 0, (float)width);
 }
 
 extern "C" void wr_gui_draw_text(double x, double y, WrFont font, WrColour colour, const char *text)
 {
     ImFont *face = wr_gui_current()->fonts[font];
-    views()->AddText(face, wr_gui_size_of(face), at(x, y), wr_gui_colour_of(colour),
+    views()->AddText(face, wr_gui_size_of(face), at(x, y), wr_gui_colour_u32(colour),
                      wr_gui_said(text));
 }

@@ -5,7 +5,7 @@
 extern "C" WrGuiPage wr_gui_page_begin(const char *id, double wide, double tall)
 try {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
-    ImGui::PushStyleColor(ImGuiCol_ChildBg, wr_gui_colour_of(WR_COLOUR_FIELD));
+    ImGui::PushStyleColor(ImGuiCol_ChildBg, wr_gui_colour_u32(WR_COLOUR_FIELD));
     ImGui::BeginChild(id, ImVec2(wide > 0 ? (float)wide : 0, (float)tall), true,
                       ImGuiWindowFlags_AlwaysVerticalScrollbar);
     ImGui::PopStyleColor();

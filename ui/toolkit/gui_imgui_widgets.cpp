@@ -47,7 +47,7 @@ try {
     }
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, wr_gui_colour_of(background));
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, wr_gui_colour_u32(background));
     ImGui::Begin(name, nullptr, flags);
     ImGui::PopStyleColor();
     ImGui::PopStyleVar(2);
@@ -138,7 +138,7 @@ extern "C" void wr_gui_disable_end(void)
 static void text_in(WrFont font, WrColour colour, const char *text, bool wrapped)
 {
     ImGui::PushFont(wr_gui_current()->fonts[font]);
-    ImGui::PushStyleColor(ImGuiCol_Text, wr_gui_colour_of(colour));
+    ImGui::PushStyleColor(ImGuiCol_Text, wr_gui_colour_u32(colour));
     if (wrapped) ImGui::PushTextWrapPos(0.0f);
     ImGui::TextUnformatted(wr_gui_icon(wr_gui_said(text)));
     if (wrapped) ImGui::PopTextWrapPos();
@@ -158,7 +158,7 @@ static bool text_in_lines(WrColour colour, const char *text, float room)
     ImVec2 at = ImGui::GetCursorScreenPos();
     float top = at.y + floorf((ImGui::GetFrameHeight() - tall) / 2);
     ImGui::Dummy(ImVec2(room, ImGui::GetFrameHeight()));
-    ImGui::GetWindowDrawList()->AddText(small, size, ImVec2(at.x, top), wr_gui_colour_of(colour),
+    ImGui::GetWindowDrawList()->AddText(small, size, ImVec2(at.x, top), wr_gui_colour_u32(colour),
                                         said, nullptr, room);
     return true;
 }
@@ -384,7 +384,7 @@ try {
     wr_gui_edge(list, at, ImVec2(right + px(13), at.y + ImGui::GetFrameHeight()));
     if (!tight || place.x + said_wide < right - arrow)
         list->AddTriangleFilled(ImVec2(right - arrow, middle), ImVec2(right + arrow, middle),
-                                ImVec2(right, middle + arrow), wr_gui_colour_of(WR_COLOUR_LABEL));
+                                ImVec2(right, middle + arrow), wr_gui_colour_u32(WR_COLOUR_LABEL));
     if (wr_gui_reports_all)
         for (int i = 0; i < count; i++) wr_gui_said(items[i]);
     if (open) {
@@ -436,8 +436,8 @@ WR_CAUGHT(false)
 extern "C" bool wr_gui_button(const char *label, bool primary)
 try {
     if (primary) {
-        ImGui::PushStyleColor(ImGuiCol_Button, wr_gui_colour_of(WR_COLOUR_SELECTED));
-        ImGui::PushStyleColor(ImGuiCol_ButtonHovered, wr_gui_colour_of(WR_COLOUR_ACCENT));
+        ImGui::PushStyleColor(ImGuiCol_Button, wr_gui_colour_u32(WR_COLOUR_SELECTED));
+        ImGui::PushStyleColor(ImGuiCol_ButtonHovered, wr_gui_colour_u32(WR_COLOUR_ACCENT));
     }
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(14), px(5)));
     ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, px(3));
@@ -461,11 +461,11 @@ try {
     wr_gui_stop(WR_STOP_PRESS, false);
     ImDrawList *list = ImGui::GetWindowDrawList();
     ImVec2 end(at.x + side, at.y + side);
-    if (selected) list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_SELECTED), px(3));
+    if (selected) list->AddRectFilled(at, end, wr_gui_colour_u32(WR_COLOUR_SELECTED), px(3));
     else if (ImGui::IsItemHovered())
-        list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_BUTTON), px(3));
+        list->AddRectFilled(at, end, wr_gui_colour_u32(WR_COLOUR_BUTTON), px(3));
     ImFont *font = wr_gui_current()->fonts[WR_FONT_ICON];
-    const ImU32 ink = ImGui::GetColorU32(wr_gui_colour_of(
+    const ImU32 ink = ImGui::GetColorU32(wr_gui_colour_u32(
         selected ? WR_COLOUR_STRONG : WR_COLOUR_TEXT)); /* grey where it is disabled */
     const float drawn = roundf(wr_gui_size_of(font)), edge = roundf((side - drawn) / 2);
     if (wr_gui_draw_icon(list, icon, ImVec2(at.x + edge, at.y + edge), drawn, ink)) return pressed;
@@ -483,8 +483,8 @@ try {
     char text[400], said[320];
     snprintf(text, sizeof text, "%s%s%s", icon ? wr_gui_icon(icon) : "",
              icon && label[0] ? "  " : "", wr_gui_labelled(label, said));
-    ImGui::PushStyleColor(ImGuiCol_Button, wr_gui_colour_of(WR_COLOUR_CHIP));
-    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, wr_gui_colour_of(WR_COLOUR_CHIP_HOT));
+    ImGui::PushStyleColor(ImGuiCol_Button, wr_gui_colour_u32(WR_COLOUR_CHIP));
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, wr_gui_colour_u32(WR_COLOUR_CHIP_HOT));
     ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, px(3));
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(8), px(3)));
     wr_gui_row_room(ImGui::CalcTextSize(text, nullptr, true).x + px(16));
@@ -532,9 +532,9 @@ try {
     WrColour ground = selected ? WR_COLOUR_ROW_SELECTED : hovered ? WR_COLOUR_ROW_HOT : 0;
     if (ground)
         list->AddRectFilled(ImVec2(left, at.y), ImVec2(right, at.y + height),
-                            wr_gui_colour_of(ground));
+                            wr_gui_colour_u32(ground));
     list->AddRectFilled(ImVec2(left, at.y + height - 1), ImVec2(right, at.y + height),
-                        wr_gui_colour_of(WR_COLOUR_POPUP));
+                        wr_gui_colour_u32(WR_COLOUR_POPUP));
     bool was = gui->row_drag != 0 && gui->row_drag == ImGui::GetID("row");
     if (held && moved) gui->row_drag = ImGui::GetID("row");
     bool dropped = was && !held;
@@ -544,7 +544,7 @@ try {
 }
 WR_CAUGHT(WrRow{})
 
-extern "C" void wr_gui_row_at(double x, double tall)
+extern "C" void wr_gui_row_set_cursor(double x, double tall)
 {
     const WrGui *gui = wr_gui_current();
     float h = tall > 0 ? (float)tall : ImGui::GetFrameHeight();
@@ -579,7 +579,7 @@ extern "C" void wr_gui_drop_line(double y)
     float left, right, at = roundf((float)y);
     full_width(&left, &right);
     ImGui::GetForegroundDrawList()->AddRectFilled(
-        ImVec2(left, at - px(1)), ImVec2(right, at + px(1)), wr_gui_colour_of(WR_COLOUR_ACCENT));
+        ImVec2(left, at - px(1)), ImVec2(right, at + px(1)), wr_gui_colour_u32(WR_COLOUR_ACCENT));
 }
 
 extern "C" void wr_gui_text_cut(WrFont font, WrColour colour, const char *text, double width)
@@ -618,7 +618,7 @@ try {
         at = end + strspn(end, " ");
     }
     ImGui::PushFont(face);
-    ImGui::PushStyleColor(ImGuiCol_Text, wr_gui_colour_of(colour));
+    ImGui::PushStyleColor(ImGuiCol_Text, wr_gui_colour_u32(colour));
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + (float)width);
     ImGui::TextUnformatted(said);
     ImGui::PopTextWrapPos();
@@ -632,7 +632,7 @@ try {
     ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + (float)w, at.y + (float)h);
     ImGui::Dummy(ImVec2((float)w, (float)h));
     ImDrawList *list = ImGui::GetWindowDrawList();
-    list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_FIELD));
+    list->AddRectFilled(at, end, wr_gui_colour_u32(WR_COLOUR_FIELD));
     if (texture) list->AddImage(wr_gui_texture_id(texture), at, end);
     wr_gui_edge(list, at, end);
 }
@@ -644,7 +644,7 @@ try {
     ImGui::Dummy(ImVec2((float)w, (float)h));
     if (texture)
         ImGui::GetWindowDrawList()->AddImage(wr_gui_texture_id(texture), at, end, ImVec2(0, 0),
-                                             ImVec2(1, 1), wr_gui_colour_of(colour));
+                                             ImVec2(1, 1), wr_gui_colour_u32(colour));
 }
 WR_CAUGHT()
 
@@ -653,7 +653,7 @@ try {
     ImVec2 at = ImGui::GetCursorScreenPos();
     float h = ImGui::GetFrameHeight(), pad = ImGui::GetStyle().FramePadding.x, arrow = px(4);
     ImVec2 end(at.x + (float)width, at.y + h);
-    ImGui::PushStyleColor(ImGuiCol_Button, wr_gui_colour_of(WR_COLOUR_FIELD));
+    ImGui::PushStyleColor(ImGuiCol_Button, wr_gui_colour_u32(WR_COLOUR_FIELD));
     ImGui::PushID(id);
     bool pressed = ImGui::Button("##list", ImVec2((float)width, h));
     wr_gui_stop(WR_STOP_PRESS, false);
@@ -666,9 +666,9 @@ try {
     const char *said = wr_gui_said(label);
     list->AddText(ImGui::GetFont(), ImGui::GetFontSize(),
                   ImVec2(at.x + pad, at.y + ImGui::GetStyle().FramePadding.y),
-                  wr_gui_colour_of(WR_COLOUR_TEXT), said, nullptr, 0.0f, &clip);
+                  wr_gui_colour_u32(WR_COLOUR_TEXT), said, nullptr, 0.0f, &clip);
     list->AddTriangleFilled(ImVec2(right - arrow, middle), ImVec2(right + arrow, middle),
-                            ImVec2(right, middle + arrow), wr_gui_colour_of(WR_COLOUR_LABEL));
+                            ImVec2(right, middle + arrow), wr_gui_colour_u32(WR_COLOUR_LABEL));
     return pressed;
 }
 WR_CAUGHT(false)
@@ -680,13 +680,13 @@ try {
     bool pressed = ImGui::InvisibleButton(id, ImVec2((float)w, (float)h));
     wr_gui_stop(WR_STOP_PRESS, false);
     ImDrawList *list = ImGui::GetWindowDrawList();
-    list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_FIELD));
+    list->AddRectFilled(at, end, wr_gui_colour_u32(WR_COLOUR_FIELD));
     if (texture) list->AddImage(wr_gui_texture_id(texture), at, end);
     wr_gui_edge(list, at, end);
     if (chosen) {
         float out = px(2);
         list->AddRect(ImVec2(at.x - out, at.y - out), ImVec2(end.x + out, end.y + out),
-                      wr_gui_colour_of(WR_COLOUR_ACCENT), 0, 0, px(2));
+                      wr_gui_colour_u32(WR_COLOUR_ACCENT), 0, 0, px(2));
     }
     return pressed;
 }
@@ -704,16 +704,16 @@ try {
     label = wr_gui_said(label);
     ImVec2 end(at.x + (float)width, at.y + h);
     ImDrawList *list = ImGui::GetWindowDrawList();
-    list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_FIELD));
+    list->AddRectFilled(at, end, wr_gui_colour_u32(WR_COLOUR_FIELD));
     wr_gui_edge(list, at, end);
-    ImU32 ink = wr_gui_colour_of(ImGui::IsItemHovered() ? WR_COLOUR_TEXT : WR_COLOUR_LABEL);
+    ImU32 ink = wr_gui_colour_u32(ImGui::IsItemHovered() ? WR_COLOUR_TEXT : WR_COLOUR_LABEL);
     ImVec2 size = small->CalcTextSizeA(wr_gui_size_of(small), FLT_MAX, 0, keys);
     float y = at.y + floorf((h - wr_gui_size_of(small)) / 2);
     wr_gui_fits(label, small->CalcTextSizeA(wr_gui_size_of(small), FLT_MAX, 0, label).x + size.x,
                 (float)width - 3 * pad);
     list->AddText(small, wr_gui_size_of(small), ImVec2(at.x + pad, y), ink, label);
     list->AddText(small, wr_gui_size_of(small), ImVec2(end.x - pad - size.x, y),
-                  wr_gui_colour_of(WR_COLOUR_FAINT), keys);
+                  wr_gui_colour_u32(WR_COLOUR_FAINT), keys);
     return pressed;
 }
 WR_CAUGHT(false)
@@ -729,7 +729,7 @@ try {
     ImVec2 size = ImGui::CalcTextSize(icon);
     ImGui::GetWindowDrawList()->AddText(
         ImVec2(at.x + roundf((side - size.x) / 2), at.y + roundf((side - size.y) / 2)),
-        ImGui::GetColorU32(wr_gui_colour_of(hovered ? WR_COLOUR_STRONG : colour)), icon);
+        ImGui::GetColorU32(wr_gui_colour_u32(hovered ? WR_COLOUR_STRONG : colour)), icon);
     return pressed;
 }
 WR_CAUGHT(false)
@@ -743,12 +743,12 @@ try {
     ImGui::Dummy(ImVec2(w, h));
     at.y += floorf((h - bar) / 2);
     ImDrawList *list = ImGui::GetWindowDrawList();
-    list->AddRectFilled(at, ImVec2(at.x + w, at.y + bar), wr_gui_colour_of(WR_COLOUR_FIELD));
+    list->AddRectFilled(at, ImVec2(at.x + w, at.y + bar), wr_gui_colour_u32(WR_COLOUR_FIELD));
     double t = fmod(ImGui::GetTime(), 1.6) / 0.8; /* back and forth */
     float from = fraction < 0 ? (float)(0.75 * (t < 1 ? t : 2 - t)) : 0.0f, long_way = w - 2;
     list->AddRectFilled(ImVec2(at.x + 1 + roundf(long_way * from), at.y + 1),
                         ImVec2(at.x + 1 + roundf(long_way * (from + (float)f)), at.y + bar - 1),
-                        wr_gui_colour_of(WR_COLOUR_ACCENT));
+                        wr_gui_colour_u32(WR_COLOUR_ACCENT));
     wr_gui_edge(list, at, ImVec2(at.x + w, at.y + bar));
 }
 WR_CAUGHT()
@@ -760,15 +760,15 @@ try {
     ImGui::InvisibleButton(id, ImVec2(side, side));
     wr_gui_stop(WR_STOP_PRESS, false);
     ImDrawList *list = ImGui::GetWindowDrawList();
-    list->AddRectFilled(at, ImVec2(at.x + side, at.y + side), wr_gui_colour_of(WR_COLOUR_CHIP),
+    list->AddRectFilled(at, ImVec2(at.x + side, at.y + side), wr_gui_colour_u32(WR_COLOUR_CHIP),
                         px(3));
     float x0 = at.x + gap, y0 = at.y + gap, x1 = at.x + side - gap, y1 = at.y + side - gap;
-    list->AddRectFilled(ImVec2(x0, y0), ImVec2(x0 + line, y1), wr_gui_colour_of(sides[0]));
-    list->AddRectFilled(ImVec2(x1 - line, y0), ImVec2(x1, y1), wr_gui_colour_of(sides[1]));
+    list->AddRectFilled(ImVec2(x0, y0), ImVec2(x0 + line, y1), wr_gui_colour_u32(sides[0]));
+    list->AddRectFilled(ImVec2(x1 - line, y0), ImVec2(x1, y1), wr_gui_colour_u32(sides[1]));
     list->AddRectFilled(ImVec2(x0 + line, y0), ImVec2(x1 - line, y0 + line),
-                        wr_gui_colour_of(sides[2]));
+                        wr_gui_colour_u32(sides[2]));
     list->AddRectFilled(ImVec2(x0 + line, y1 - line), ImVec2(x1 - line, y1),
-                        wr_gui_colour_of(sides[3]));
+                        wr_gui_colour_u32(sides[3]));
 }
 WR_CAUGHT()
 
@@ -781,7 +781,7 @@ static void draw_cross(ImDrawList *list, const WrFocus *focus)
 {
     const float arm = (float)wr_gui_px(7), half = (float)wr_gui_px(1) / 2;
     const ImVec2 at = focus->pad_at;
-    const ImU32 ink = wr_gui_colour_of(focus->pad_held ? WR_COLOUR_RAISE : WR_COLOUR_FOCUS);
+    const ImU32 ink = wr_gui_colour_u32(focus->pad_held ? WR_COLOUR_RAISE : WR_COLOUR_FOCUS);
     list->AddRectFilled(ImVec2(at.x - arm, at.y - half), ImVec2(at.x + arm, at.y + half), ink);
     list->AddRectFilled(ImVec2(at.x - half, at.y - arm), ImVec2(at.x + half, at.y + arm), ink);
 }
@@ -804,7 +804,7 @@ try {
     focus->pad_cross = keys;
     focus->pad_at = pointer;
     ImDrawList *list = ImGui::GetWindowDrawList();
-    list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_FIELD));
+    list->AddRectFilled(at, end, wr_gui_colour_u32(WR_COLOUR_FIELD));
     wr_gui_edge(list, at, end);
     list->PushClipRect(ImVec2(at.x + 1, at.y + 1), ImVec2(end.x - 1, end.y - 1), true);
     gui->pad = list;
@@ -836,7 +836,7 @@ try {
     ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::Dummy(ImVec2(2 * r, tall > (double)frame ? (float)tall : frame));
     ImGui::GetWindowDrawList()->AddCircleFilled(ImVec2(at.x + r, at.y + frame / 2), r,
-                                                wr_gui_colour_of(colour));
+                                                wr_gui_colour_u32(colour));
 }
 WR_CAUGHT()
 
@@ -854,7 +854,7 @@ extern "C" void wr_gui_group_end(void)
 
 static void put_picture(ImDrawList *list, SDL_Texture *texture, ImVec2 at, ImVec2 end)
 {
-    list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_FIELD));
+    list->AddRectFilled(at, end, wr_gui_colour_u32(WR_COLOUR_FIELD));
     if (texture) list->AddImage(wr_gui_texture_id(texture), at, end);
 }
 
@@ -871,23 +871,23 @@ try {
     put_picture(list, texture, at, end);
     if (selected) {
         float w = px(2);
-        ImU32 ink = wr_gui_colour_of(WR_COLOUR_ACCENT);
+        ImU32 ink = wr_gui_colour_u32(WR_COLOUR_ACCENT);
         list->AddRectFilled(at, ImVec2(end.x, at.y + w), ink);
         list->AddRectFilled(ImVec2(at.x, end.y - w), end, ink);
         list->AddRectFilled(at, ImVec2(at.x + w, end.y), ink);
         list->AddRectFilled(ImVec2(end.x - w, at.y), end, ink);
     } else {
         wr_gui_edge(list, at, end);
-        if (hovered) list->AddRectFilled(at, end, wr_gui_colour_of(0x28ffffffu));
+        if (hovered) list->AddRectFilled(at, end, wr_gui_colour_u32(0x28ffffffu));
     }
     if (marked) {
         ImFont *font = ImGui::GetFont();
         float size = wr_gui_size_of(font) * 0.8f;
         ImVec2 wide = font->CalcTextSizeA(size, FLT_MAX, 0, wr_gui_icon(WR_ICON_STAR));
         ImVec2 where(end.x - wide.x - px(2), at.y + px(2));
-        list->AddText(font, size, ImVec2(where.x + 1, where.y + 1), wr_gui_colour_of(0xc0000000u),
+        list->AddText(font, size, ImVec2(where.x + 1, where.y + 1), wr_gui_colour_u32(0xc0000000u),
                       wr_gui_icon(WR_ICON_STAR));
-        list->AddText(font, size, where, wr_gui_colour_of(WR_COLOUR_CELL),
+        list->AddText(font, size, where, wr_gui_colour_u32(WR_COLOUR_CELL),
                       wr_gui_icon(WR_ICON_STAR));
     }
     return menu ? 2 : pressed ? 1 : 0;
@@ -928,10 +928,10 @@ WR_CAUGHT(false)
 
 extern "C" bool wr_gui_fold(const char *label, bool open)
 try {
-    ImGui::PushStyleColor(ImGuiCol_Header, wr_gui_colour_of(0));
-    ImGui::PushStyleColor(ImGuiCol_HeaderHovered, wr_gui_colour_of(WR_COLOUR_BUTTON));
-    ImGui::PushStyleColor(ImGuiCol_HeaderActive, wr_gui_colour_of(WR_COLOUR_BUTTON));
-    ImGui::PushStyleColor(ImGuiCol_Text, wr_gui_colour_of(WR_COLOUR_LABEL));
+    ImGui::PushStyleColor(ImGuiCol_Header, wr_gui_colour_u32(0));
+    ImGui::PushStyleColor(ImGuiCol_HeaderHovered, wr_gui_colour_u32(WR_COLOUR_BUTTON));
+    ImGui::PushStyleColor(ImGuiCol_HeaderActive, wr_gui_colour_u32(WR_COLOUR_BUTTON));
+    ImGui::PushStyleColor(ImGuiCol_Text, wr_gui_colour_u32(WR_COLOUR_LABEL));
     ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
     char said[320];
     if (wr_gui_reports_all) ImGui::SetNextItemOpen(true);
@@ -951,7 +951,7 @@ try {
     ImGui::Dummy(ImVec2(px(7), h));
     ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(at.x, at.y + px(2)),
                                               ImVec2(at.x + px(6), at.y + h - px(2)),
-                                              wr_gui_colour_of(colour), px(2));
+                                              wr_gui_colour_u32(colour), px(2));
 }
 WR_CAUGHT()
 

@@ -3,7 +3,7 @@
 #include "ui/tools/brush_outline.h"
 #include "ui/canvas/view.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/session_view.h"
 #include "ui/state/settings.h"
 #include "ui/toolkit/gui.h"

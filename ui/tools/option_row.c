@@ -32,7 +32,7 @@ static void label(const char *text)
 
 /* ---- brush parameters ---- */
 
-const WrBrushModeInfo *wr_option_mode_of(const WrApp *app)
+const WrBrushModeInfo *wr_current_brush_mode(const WrApp *app)
 {
     return &wr_brush_modes[app->settings->brush.mode];
 }
@@ -134,7 +134,7 @@ static void modes(WrApp *app, double width, bool fills)
     wr_gui_same_line(5);
     if (wr_gui_choice("mode", width, labels, count, &chosen))
         app->settings->brush.mode = (WrBrushMode)map[chosen];
-    wr_gui_tip(wr_option_mode_of(app)->help);
+    wr_gui_tip(wr_current_brush_mode(app)->help);
 }
 
 void wr_option_mode(WrApp *app, double width)
@@ -266,7 +266,7 @@ static void thumbnail(WrApp *app)
 
 void wr_option_brush_row(WrApp *app, const WrOption *first, int first_count)
 {
-    unsigned uses = wr_option_mode_of(app)->uses;
+    unsigned uses = wr_current_brush_mode(app)->uses;
     bool strong = (uses & WR_USES_STRENGTH) != 0,
          steadies = app->settings->steady != WR_SMOOTHING_OFF;
     bool forced = wr_tool_now(app)->mode != 0, round = app->settings->brush.preset == NULL;

@@ -29,4 +29,4 @@ void wr_option_hardness(WrApp *app, double width);
 void wr_option_pressure(WrApp *app, double width);
 void wr_option_symmetry(WrApp *app, double width);
 /* parameters used by the brush's mode */
-const WrBrushModeInfo *wr_option_mode_of(const WrApp *app);
+const WrBrushModeInfo *wr_current_brush_mode(const WrApp *app);

@@ -3,9 +3,9 @@
    continues to be drawn; the next one waits. */
 #include "ui/tools/stroke_input.h"
 #include "ui/state/action_list.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/keys.h"
 #include "ui/state/messages.h"
 #include "ui/state/registry.h"

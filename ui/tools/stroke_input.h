@@ -19,7 +19,7 @@ typedef struct WrStrokeJob {
     char *head; /* command line without points, owned; NULL once the session has it */
     WR_ARRAY(WrSample) samples; /* not yet passed to the session */
     bool released;              /* the pointer was released: no more samples will follow */
-    int waits; /* its number while it waits for a background command (ui/state/busy.h); else 0 */
+    int waits; /* its number while it waits for a background command (ui/state/background_command.h); else 0 */
 } WrStrokeJob;
 
 typedef struct WrBrushState {

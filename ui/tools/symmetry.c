@@ -2,7 +2,7 @@
 #include "ui/tools/symmetry.h"
 #include "ui/canvas/view.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/keys.h"
 #include "ui/state/layout.h"
 #include "ui/state/messages.h"

@@ -1,8 +1,8 @@
 /* Fill tool: a click applies the brush's mode to the connected region. */
 #include "ui/state/action_list.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/line.h"
 #include "ui/state/settings.h"
 #include "ui/toolkit/gui.h"
@@ -36,7 +36,7 @@ static void paint_line(const WrApp *app, WrText *line)
 static void press(WrApp *app, const WrPointer *at)
 {
     const WrDrawSettings *how = &app->settings->drawing;
-    WrSelectPoint home = wr_overlay_home(app, at->u, at->v);
+    WrSelectPoint home = wr_overlay_wrap_offset(app, at->u, at->v);
     WrText line = { 0 };
     app->hints = false;
     wr_text_add(&line, "flood ");
@@ -74,7 +74,7 @@ static void diagonal(WrApp *app, double width)
 
 static void options(WrApp *app)
 {
-    unsigned uses = wr_option_mode_of(app)->uses;
+    unsigned uses = wr_current_brush_mode(app)->uses;
     const WrOption items[] = { { "", 104, 12, wr_option_fill_mode, true },
                                { "Strength", 84, 0, wr_option_strength,
                                  (uses & WR_USES_STRENGTH) != 0 },

@@ -2,9 +2,9 @@
    moved until Enter or a double click paints the path. Backspace removes the last anchor, Escape cancels. */
 #include "ui/canvas/view.h"
 #include "ui/state/action_list.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/keys.h"
 #include "ui/state/line.h"
 #include "ui/state/messages.h"
@@ -95,7 +95,7 @@ static void write_line(const WrApp *app, WrText *line)
     const WrDrawState *draw = app->draw;
     const WrAnchor *list = draw->anchors.data;
     WrSelectPoint first = wr_overlay_uv(app, list[0].x, list[0].y);
-    WrSelectPoint home = wr_overlay_home(app, first.u, first.v);
+    WrSelectPoint home = wr_overlay_wrap_offset(app, first.u, first.v);
     bool fills = app->settings->drawing.fills, closed = draw->closed || fills;
     wr_text_add(line, is_path(app) ? "shape path points=" : "shape polygon points=");
     add_point(line, app, list[0].x, list[0].y, home);

@@ -2,9 +2,9 @@
    degrees, Escape cancels. */
 #include "ui/canvas/view.h"
 #include "ui/state/action_list.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/keys.h"
 #include "ui/state/line.h"
 #include "ui/state/settings.h"
@@ -65,7 +65,7 @@ static void release(WrApp *app, const WrPointer *at)
     if (hypot(draw->x1 - draw->x0, draw->y1 - draw->y0) * app->view->zoom < 3.0) return;
     WrSelectPoint a = wr_overlay_uv(app, draw->x0, draw->y0);
     WrSelectPoint b = wr_overlay_uv(app, draw->x1, draw->y1);
-    WrSelectPoint home = wr_overlay_home(app, a.u, a.v);
+    WrSelectPoint home = wr_overlay_wrap_offset(app, a.u, a.v);
     WrText line = { 0 };
     wr_text_addf(&line, "ramp %s", wr_ramp_names[how->ramp]);
     wr_line_number(&line, "from", wr_line_round(a.u + home.u, 7));

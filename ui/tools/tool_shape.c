@@ -3,9 +3,9 @@
 #include "ui/tools/tool_shape.h"
 #include "ui/canvas/view.h"
 #include "ui/state/action_list.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/keys.h"
 #include "ui/state/line.h"
 #include "ui/state/settings.h"
@@ -99,7 +99,7 @@ static void add_pair(WrText *line, const char *name, double a, double b)
 static void commit(WrApp *app, const double box[4])
 {
     WrSelectPoint a = wr_overlay_uv(app, box[0], box[1]), b = wr_overlay_uv(app, box[2], box[3]);
-    WrSelectPoint home = wr_overlay_home(app, (a.u + b.u) / 2, (a.v + b.v) / 2);
+    WrSelectPoint home = wr_overlay_wrap_offset(app, (a.u + b.u) / 2, (a.v + b.v) / 2);
     bool fills = app->settings->drawing.fills;
     WrText line = { 0 };
     a = (WrSelectPoint){ a.u + home.u, a.v + home.v };

@@ -5,9 +5,9 @@
 #include "ui/state/app_state.h"
 #include "ui/canvas/view.h"
 #include "ui/state/action_list.h"
-#include "ui/state/busy.h"
+#include "ui/state/background_command.h"
 #include "ui/state/dialog.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/keys.h"
 #include "ui/state/line.h"
 #include "ui/state/messages.h"
@@ -203,7 +203,7 @@ static void place_of(const WrApp *app, double *u, double *v)
     const WrStampState *draw = app->stamp;
     double pu = draw->placed ? draw->u : app->hand->at.u,
            pv = draw->placed ? draw->v : app->hand->at.v;
-    WrSelectPoint home = wr_overlay_home(app, pu, pv);
+    WrSelectPoint home = wr_overlay_wrap_offset(app, pu, pv);
     *u = wr_line_round(pu + home.u, 7);
     *v = wr_line_round(pv + home.v, 7);
 }
@@ -401,7 +401,7 @@ static void stamp_angle(WrApp *app, double width)
 
 static void options(WrApp *app)
 {
-    unsigned uses = wr_option_mode_of(app)->uses;
+    unsigned uses = wr_current_brush_mode(app)->uses;
     const WrOption items[] = { { "", 104, 12, wr_option_mode, true },
                                { "Size", 92, 0, stamp_size, true },
                                { "Angle", 74, 0, stamp_angle, true },

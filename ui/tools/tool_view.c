@@ -3,7 +3,7 @@
 #include "ui/canvas/view.h"
 #include "ui/state/action_list.h"
 #include "ui/state/app_state.h"
-#include "ui/state/input_router.h"
+#include "ui/state/pointer_state.h"
 #include "ui/state/keys.h"
 #include "ui/toolkit/gui.h"
 #include "ui/tools/tool.h"

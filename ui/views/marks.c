@@ -143,7 +143,7 @@ WrSelectPoint wr_overlay_uv(const WrApp *app, double x, double y)
     return (WrSelectPoint){ x / app->view->table_w, 1.0 - y / app->view->table_h };
 }
 
-WrSelectPoint wr_overlay_home(const WrApp *app, double u, double v)
+WrSelectPoint wr_overlay_wrap_offset(const WrApp *app, double u, double v)
 {
     const WrField *field = wr_app_field(app);
     return (WrSelectPoint){ wr_field_wrap_u(field) == WR_WRAP_PERIODIC ? -floor(u) : 0.0,

@@ -50,5 +50,5 @@ void wr_overlay_handle(const WrApp *app, double u, double v, bool round, bool ho
 /* u, v (unwrapped) of a position in texels, y downwards. */
 WrSelectPoint wr_overlay_uv(const WrApp *app, double x, double y);
 /* Whole cells to add to u, v to move it into the cell (on periodic axes). */
-WrSelectPoint wr_overlay_home(const WrApp *app, double u, double v);
+WrSelectPoint wr_overlay_wrap_offset(const WrApp *app, double u, double v);
 void wr_overlay_label(double x, double y, const char *text); /* centred at a pixel */

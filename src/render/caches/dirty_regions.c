@@ -166,8 +166,8 @@ static const float *narrowed(int count, size_t size, const void *numbers, float 
     return room;
 }
 
-void wr_dirty_note_places(const WrDirtyNotes *notes, int k, int count, size_t size, const void *x,
-                          const void *y, const void *tu, const void *tv)
+void wr_dirty_add_places(const WrDirtyNotes *notes, int k, int count, size_t size, const void *x,
+                         const void *y, const void *tu, const void *tv)
 {
     float room[4][WR_SPAN];
     const float *at_x = narrowed(count, size, x, room[0]),
@@ -177,8 +177,8 @@ void wr_dirty_note_places(const WrDirtyNotes *notes, int k, int count, size_t si
     else note_samples(notes, k, count, at_x, at_y, u, v);
 }
 
-void wr_dirty_note_box(const WrDirtyNotes *notes, int k, double x, double y, double tu, double tv,
-                       double reach_u, double reach_v)
+void wr_dirty_add_box(const WrDirtyNotes *notes, int k, double x, double y, double tu, double tv,
+                      double reach_u, double reach_v)
 {
     const float u = (float)reach_u, v = (float)reach_v;
     const WrDirtyBox box = { (float)tu, (float)tv, -u, u, -v, v };
@@ -329,7 +329,7 @@ bool wr_dirty_touches_patch(const WrDirty *keep, int tile, int column, int row)
     return meets_any(keep, &patches_of(keep, tile)[row * keep->across + column]);
 }
 
-void wr_dirty_field(WrDirty *keep, const WrField *field)
+void wr_dirty_store_field(WrDirty *keep, const WrField *field)
 {
     wr_field_free(keep->field);
     keep->field = wr_field_share(field);

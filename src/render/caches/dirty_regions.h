@@ -55,11 +55,11 @@ WrDirtyNotes wr_dirty_open(WrDirty *keep, int tile, int x, int y);
 void wr_dirty_close(WrDirty *keep, int tile);
 /* Records the table positions, 0..1, of up to WR_SPAN samples at x, y in a grid of k x k samples a pixel. size:
    sizeof(float) or sizeof(double), the element type of the four arrays. */
-void wr_dirty_note_places(const WrDirtyNotes *notes, int k, int count, size_t size, const void *x,
-                          const void *y, const void *tu, const void *tv);
+void wr_dirty_add_places(const WrDirtyNotes *notes, int k, int count, size_t size, const void *x,
+                         const void *y, const void *tu, const void *tv);
 /* Records one table position and everything within reach of it; reach in 0..1. */
-void wr_dirty_note_box(const WrDirtyNotes *notes, int k, double x, double y, double tu, double tv,
-                       double reach_u, double reach_v);
+void wr_dirty_add_box(const WrDirtyNotes *notes, int k, double x, double y, double tu, double tv,
+                      double reach_u, double reach_v);
 /* Finds the differences between the stored field and this one, of equal size and wrap: the differing texels of
    changed tiles, grown by `reach` texels. False: the fields cannot be compared, or nothing is stored. */
 bool wr_dirty_compare(WrDirty *keep, const WrField *field, int reach);
@@ -71,4 +71,4 @@ bool wr_dirty_touches(const WrDirty *keep, int tile);
 /* True if a change reaches patch `column`, `row` of the tile. */
 bool wr_dirty_touches_patch(const WrDirty *keep, int tile, int column, int row);
 /* Stores a snapshot of the field that the picture now shows. */
-void wr_dirty_field(WrDirty *keep, const WrField *field);
+void wr_dirty_store_field(WrDirty *keep, const WrField *field);

@@ -106,7 +106,7 @@ bool wr_env_lookup_update(WrEnvLookup *mirror, const WrEnvironmentMap *map,
 
 void wr_env_prefilter_drop_rungs(WrEnvPrefilter *grades)
 {
-    for (int i = 0; i < WR_TEXTURED_REFLECTION_RUNGS; i++) wr_env_lookup_drop(&grades->rung[i]);
+    for (int i = 0; i < WR_SVBRDF_RUNGS; i++) wr_env_lookup_drop(&grades->rung[i]);
 }
 
 void wr_env_prefilter_drop(WrEnvPrefilter *grades)
@@ -130,7 +130,7 @@ static void update_shares(WrEnvPrefilter *grades, const WrMaterial *m)
         return;
     grades->of = of, grades->ks = m->specular, grades->tint = m->tint, grades->gated = m->gate;
     grades->there = true;
-    wr_textured_reflection_init(&grades->vary, &of, m->specular, m->tint, m->gate);
+    wr_svbrdf_init(&grades->vary, &of, m->specular, m->tint, m->gate);
 }
 
 /* Range of blur levels that the material's widths need.
@@ -138,7 +138,7 @@ static void update_shares(WrEnvPrefilter *grades, const WrMaterial *m)
    by slopes moves towards rung 0. */
 static void rungs_of(const WrEnvironmentBrdf *gloss, const WrPlan *plan, int *first, int *last)
 {
-    const double rung = -log2(gloss->alpha), most = WR_TEXTURED_REFLECTION_RUNGS - 1;
+    const double rung = -log2(gloss->alpha), most = WR_SVBRDF_RUNGS - 1;
     *first = 0, *last = (int)most;
     if (wr_plan_runs(plan, WR_EFFECT_VARIED)) return;
     *last = (int)fmin(ceil(rung) + 1, most);
@@ -155,8 +155,8 @@ bool wr_env_prefilter_update(WrEnvPrefilter *grades, const WrScene *scene, const
     wr_scene_gloss(&scene->material, &gloss);
     rungs_of(&gloss, plan, &first, &last);
     for (int i = first; i <= last; i++) {
-        const bool blurred = i + 1 < WR_TEXTURED_REFLECTION_RUNGS;
-        wr_textured_reflection_rung(&gloss, i, &lobe);
+        const bool blurred = i + 1 < WR_SVBRDF_RUNGS;
+        wr_svbrdf_rung(&gloss, i, &lobe);
         if (!wr_env_lookup_update(&grades->rung[i], scene->environment.light,
                                   blurred ? &lobe : NULL, plan->gloss, pool, err))
             return false;
@@ -168,11 +168,11 @@ bool wr_env_prefilter_update(WrEnvPrefilter *grades, const WrScene *scene, const
    Padding to a multiple of four: kernels load four coefficients at once (vary_parts). */
 static void put_terms(const double *terms, double *to, float *single)
 {
-    for (int k = 0; k < WR_TEXTURED_REFLECTION_TERMS; k++)
+    for (int k = 0; k < WR_SVBRDF_TERMS; k++)
         to[k] = k < WR_ALBEDO_TERMS ? terms[k] : 0, single[k] = (float)to[k];
 }
 
-static void put_step(const WrTexturedReflection *vary, int i, WrKernVaryd *wide, WrKernVary *single)
+static void put_step(const WrSvbrdf *vary, int i, WrKernVaryd *wide, WrKernVary *single)
 {
     wide->mean[i] = vary->mean[i], single->mean[i] = (float)vary->mean[i];
     wide->again[i] = vary->again[i], single->again[i] = (float)vary->again[i];
@@ -183,8 +183,8 @@ static void put_step(const WrTexturedReflection *vary, int i, WrKernVaryd *wide,
 
 /* Reflected shares at step i: for non-metal and metal, or for one fixed metalness.
    own and white are linear in metalness, so a fixed metalness is mixed here once. */
-static void put_shares(const WrTexturedReflection *vary, bool alike, double metal, int i,
-                       WrKernVaryd *wide, WrKernVary *single)
+static void put_shares(const WrSvbrdf *vary, bool alike, double metal, int i, WrKernVaryd *wide,
+                       WrKernVary *single)
 {
     double own[2][WR_ALBEDO_TERMS], white[2][WR_ALBEDO_TERMS];
     for (int k = 0; k < 2 * WR_ALBEDO_TERMS; k++) {
@@ -204,7 +204,7 @@ static void put_shares(const WrTexturedReflection *vary, bool alike, double meta
    to texel (0, 0). */
 void wr_env_prefilter_fill(const WrEnvPrefilter *grades, const WrScene *scene, WrTileJob *job)
 {
-    const WrTexturedReflection *vary = &grades->vary;
+    const WrSvbrdf *vary = &grades->vary;
     const WrMaterial *m = &scene->material;
     WrKernVaryd *wide = &job->vary_double;
     WrKernVary *single = &job->vary;
@@ -215,11 +215,11 @@ void wr_env_prefilter_fill(const WrEnvPrefilter *grades, const WrScene *scene, W
     wide->again_twice = single->again_twice =
         wr_reflect_again(&wr_reflects[m->model], m->energy == WR_ENERGY_KEPT);
     wide->alike = single->alike = !job->facets[WR_FACET_METALNESS].near.rgba;
-    for (int i = 0; i < WR_TEXTURED_REFLECTION_STEPS; i++) {
+    for (int i = 0; i < WR_SVBRDF_STEPS; i++) {
         put_step(vary, i, wide, single);
         put_shares(vary, wide->alike, fmin(fmax(m->metalness, 0), 1), i, wide, single);
     }
-    for (int i = 0; i < WR_TEXTURED_REFLECTION_RUNGS; i++) {
+    for (int i = 0; i < WR_SVBRDF_RUNGS; i++) {
         const WrEnvLookup *of = &grades->rung[i];
         const WrKernMipLevel rung = { of->rgba ? of->rgba + 4 * ((ptrdiff_t)of->pitch + 1) : NULL,
                                       of->pitch, of->width, of->height };

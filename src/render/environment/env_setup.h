@@ -4,7 +4,7 @@
 #include "render/kernels/kern.h"
 #include "shade/environment_brdf.h"
 #include "shade/environment_map.h"
-#include "shade/textured_reflection.h"
+#include "shade/svbrdf.h"
 
 #include <stdbool.h>
 
@@ -38,11 +38,11 @@ typedef struct WrScene WrScene;
 typedef struct WrTileJob WrTileJob;
 
 typedef struct WrEnvPrefilter {
-    WrEnvLookup rung[WR_TEXTURED_REFLECTION_RUNGS]; /* only the levels in use */
-    WrReflectance of; /* the reflectance that `vary` was computed for */
+    WrEnvLookup rung[WR_SVBRDF_RUNGS]; /* only the levels in use */
+    WrReflectance of;                  /* the reflectance that `vary` was computed for */
     double ks, tint;
     bool gated, there;
-    WrTexturedReflection vary;
+    WrSvbrdf vary;
 } WrEnvPrefilter;
 
 bool wr_env_prefilter_update(WrEnvPrefilter *grades, const WrScene *scene, const WrPlan *plan,

@@ -766,7 +766,7 @@ static void start_keep(WrRenderer *renderer, const WrFrameRequest *request, Fram
 void wr_frame_mark_current(WrRenderer *renderer)
 {
     if (renderer->uses_uv_cache) renderer->uv_cache.whole = true;
-    if (renderer->keep.patches) wr_dirty_field(&renderer->keep, renderer->looked);
+    if (renderer->keep.patches) wr_dirty_store_field(&renderer->keep, renderer->looked);
 }
 
 /* Renders a picture of one object.

@@ -13,7 +13,7 @@
 #include "shade/solid_texture.h"
 #include "shade/reflection.h"
 #include "shade/environment_map.h"
-#include "shade/textured_reflection.h"
+#include "shade/svbrdf.h"
 #include "surface/surface.h"
 
 #include <stdbool.h>
@@ -100,8 +100,8 @@ typedef enum WrSeen {
 } WrSeen;
 
 /* Terms of an albedo, padded with 0 to whole vectors. */
-#define WR_TEXTURED_REFLECTION_TERMS 12
-_Static_assert(WR_TEXTURED_REFLECTION_TERMS >= WR_ALBEDO_TERMS, "all terms");
+#define WR_SVBRDF_TERMS 12
+_Static_assert(WR_SVBRDF_TERMS >= WR_ALBEDO_TERMS, "all terms");
 
 /* Environment blurred by one width, in the layout of WrKernMirror. */
 typedef struct WrKernMipLevel {

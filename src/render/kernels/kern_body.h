@@ -232,7 +232,7 @@ ALWAYS VEC unit_or(VEC a, VEC otherwise)
 #include "render/kernels/kern_reflection_body.h"
 #include "shade/environment_map_body.h"
 #include "render/kernels/kern_environment_body.h"
-#include "render/kernels/kern_textured_reflection_body.h"
+#include "render/kernels/kern_svbrdf_body.h"
 #include "render/kernels/kern_horizon_body.h"
 #include "render/kernels/kern_unlit_body.h"
 #include "render/kernels/kern_filter_body.h"

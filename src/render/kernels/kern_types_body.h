@@ -146,19 +146,17 @@ typedef struct WR_T(WrKernMirror) {
     int pitch, width, height;
     REAL even[3];
 } WR_T(WrKernMirror);
-/* The numbers of WrTexturedReflection (shade/textured_reflection.h), and the mirrored environment at each blur
+/* The numbers of WrSvbrdf (shade/svbrdf.h), and the mirrored environment at each blur
    level. */
 typedef struct WR_T(WrKernVary) {
     bool metals;      /* metal has no diffuse light */
     bool again_twice; /* `twice` and `mean` are not 0 */
     bool alike;       /* metalness is constant: own[0], white[0] belong to it */
-    REAL mean[WR_TEXTURED_REFLECTION_STEPS], again[WR_TEXTURED_REFLECTION_STEPS];
-    REAL albedo[WR_TEXTURED_REFLECTION_STEPS][WR_TEXTURED_REFLECTION_TERMS],
-        matt[WR_TEXTURED_REFLECTION_STEPS][WR_TEXTURED_REFLECTION_TERMS];
-    REAL twice[WR_TEXTURED_REFLECTION_STEPS][WR_TEXTURED_REFLECTION_TERMS];
-    REAL own[2][WR_TEXTURED_REFLECTION_STEPS][WR_TEXTURED_REFLECTION_TERMS],
-        white[2][WR_TEXTURED_REFLECTION_STEPS][WR_TEXTURED_REFLECTION_TERMS];
-    WrKernMipLevel rung[WR_TEXTURED_REFLECTION_RUNGS];
+    REAL mean[WR_SVBRDF_STEPS], again[WR_SVBRDF_STEPS];
+    REAL albedo[WR_SVBRDF_STEPS][WR_SVBRDF_TERMS], matt[WR_SVBRDF_STEPS][WR_SVBRDF_TERMS];
+    REAL twice[WR_SVBRDF_STEPS][WR_SVBRDF_TERMS];
+    REAL own[2][WR_SVBRDF_STEPS][WR_SVBRDF_TERMS], white[2][WR_SVBRDF_STEPS][WR_SVBRDF_TERMS];
+    WrKernMipLevel rung[WR_SVBRDF_RUNGS];
 } WR_T(WrKernVary);
 /* The table's horizons (field/horizon.h) and ambient occlusion (render/textures/ambient_occlusion.h). */
 typedef struct WR_T(WrKernHorizon) {

@@ -57,8 +57,8 @@ static void note_looks(const WrTileJob *job, const Rays *rays, const Strip *stri
                        const WrTileScratch *scratch)
 {
     if (scratch->notes.patches)
-        wr_dirty_note_places(&scratch->notes, grid_of(job->view, rays), strip->count, sizeof(REAL),
-                             strip->x, strip->y, strip->tu, strip->tv);
+        wr_dirty_add_places(&scratch->notes, grid_of(job->view, rays), strip->count, sizeof(REAL),
+                            strip->x, strip->y, strip->tu, strip->tv);
 }
 
 #include "render/pipeline/stage_half_precision_body.h"

@@ -120,8 +120,8 @@ static void note_far(const WrTileJob *job, int k, REAL x, REAL y, const Strip *f
     level = level < pyramid->levels ? level : pyramid->levels - 1;
     const double reach_u = 1.5 / pyramid->level[level].width + 2.0 / LOOK_OF(job)->width;
     const double reach_v = 1.5 / pyramid->level[level].height + 2.0 / LOOK_OF(job)->height;
-    wr_dirty_note_box(notes, k, (double)x, (double)y, (double)far->tu[i], (double)far->tv[i],
-                      reach_u, reach_v);
+    wr_dirty_add_box(notes, k, (double)x, (double)y, (double)far->tu[i], (double)far->tv[i],
+                     reach_u, reach_v);
 }
 
 static void note_batch(const WrTileJob *job, int k, const Batch *batch, const Strip *near,
@@ -132,8 +132,8 @@ static void note_batch(const WrTileJob *job, int k, const Batch *batch, const St
         const int i = batch->sample[at];
         const REAL level = strip->level[i], x = strip->x[i], y = strip->y[i];
         if (level < (REAL)1) {
-            wr_dirty_note_box(notes, k, (double)x, (double)y, (double)near->tu[a],
-                              (double)near->tv[a], 0, 0);
+            wr_dirty_add_box(notes, k, (double)x, (double)y, (double)near->tu[a],
+                             (double)near->tv[a], 0, 0);
             a++;
         }
         if (level > (REAL)0) note_far(job, k, x, y, far, b++, notes);

@@ -23,8 +23,8 @@ static void note_filtered(const WrTileJob *job, const Rays *rays, const Strip *s
     for (int i = 0; i < strip->count; i++) {
         const REAL x = strip->x[i], y = strip->y[i];
         if (strip->level[i] < (REAL)1)
-            wr_dirty_note_box(notes, k, (double)x, (double)y, (double)strip->tu[i],
-                              (double)strip->tv[i], 0, 0);
+            wr_dirty_add_box(notes, k, (double)x, (double)y, (double)strip->tu[i],
+                             (double)strip->tv[i], 0, 0);
         if (strip->level[i] > (REAL)0) note_far(job, k, x, y, strip, i, notes);
     }
 }

@@ -1,4 +1,4 @@
-/* reference.h - reference renderer, the picture that the accuracy ladder measures against. Double precision from
+/* reference.h - reference renderer, the picture that the accuracy benchmark measures against. Double precision from
    end to end, written separately from the fast path and without its kernels.
 
    F        the scene's formula if it has one; else the cubic B-spline through the table's samples, with

@@ -75,7 +75,7 @@ static WrVec3 outward(const WrReferenceStage *stage, const WrSurfacePoint *at,
 static bool meets(const WrReferenceCaster *caster, WrVec3 from, WrVec3 l, double away)
 {
     const WrPlacement *place = &caster->view.place;
-    const WrReferenceRay ray = { wr_place_object(place, from),
+    const WrReferenceRay ray = { wr_world_to_object(place, from),
                                  v3_scale(wr_place_shrink_back(place, l), 1 / place->size), 0 };
     WrReferenceHit hit;
     const bool met = caster->stage->raised.count > 0
@@ -116,7 +116,7 @@ static double reference_cast_share(const WrReferenceStage *stage, const WrSurfac
     /* with parallax, the point on the base, which is the shadow caster */
     WrSurfacePoint foot = *at;
     if (stage->parallax) wr_reference_surface_point(view, hit, &foot);
-    const WrVec3 p = wr_place_world(&view->place, foot.p);
+    const WrVec3 p = wr_object_to_world(&view->place, foot.p);
     const WrVec3 from = v3_mad(p, n, ABOVE * view->place.radius * view->size);
     if (!(radius > 0)) return is_blocked(stage, from, n, to, far) ? 0 : 1;
     const WrVec3 least = fabs(to.x) < 0.6 ? (WrVec3){ 1, 0, 0 } : (WrVec3){ 0, 1, 0 };

@@ -632,7 +632,7 @@ static WrShadowRaysTo see(const Standing *a, const Standing *b, const WrShadowRa
     const WrVec3 stretch = pa->stretched ? pa->stretch : (WrVec3){ 1, 1, 1 };
     const WrVec3 centre = v3_times(pa->centre, stretch);
     turn_to(pa, pb, pa->size / pb->size, to.m);
-    const WrVec3 at = wr_place_object(pb, pa->position);
+    const WrVec3 at = wr_world_to_object(pb, pa->position);
     const double *m = to.m;
     to.from = (WrVec3){ at.x - (m[0] * centre.x + m[1] * centre.y + m[2] * centre.z),
                         at.y - (m[3] * centre.x + m[4] * centre.y + m[5] * centre.z),

@@ -53,7 +53,8 @@ bool wr_occlusion_map_table_update(WrOcclusionMapTable *table, const WrScene *sc
     if (edited) table->open = NULL; /* incomplete while texels are updated */
     wr_occlusion_map_table_drop(table);
     if (!open)
-        open = wr_try_alloc(wr_horizon_plane(horizon), sizeof *open, "how open the relief is", err);
+        open = wr_try_alloc(wr_horizon_plane_size(horizon), sizeof *open, "how open the relief is",
+                            err);
     if (!open) return false;
     wr_occlusion_map_make(&opening, horizon->directions, across, down);
     wr_occlusion_map_table(&opening, horizon, field, sign, edited ? edit->changed : NULL, pool,

@@ -16,7 +16,7 @@
    squares neither overflow nor underflow (HC09). All rays and surfaces below are in these units. */
 static WrVec3 bring_in(const WrPlacement *place, double scale, WrVec3 w)
 {
-    return v3_scale(wr_place_object(place, w), scale);
+    return v3_scale(wr_world_to_object(place, w), scale);
 }
 
 static void store(double out[3], WrVec3 a)

@@ -1,5 +1,0 @@
-/* No replacement here: a system whose sandbox forbids opening paths has to replace the open functions
-   for the file being read, as Linux does. */
-#include "system/sandbox_open.h"
-
-_Static_assert(WR_SANDBOX_OPEN_FILE > 2, "beside the standard files");

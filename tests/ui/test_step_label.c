@@ -1,0 +1,65 @@
+/* Steps of the history in words. */
+#include "test.h"
+
+#include "base/text.h"
+
+#include "ui/state/step_label.h"
+
+#include <string.h>
+
+static void lines_are_said_in_words(void **state)
+{
+    (void)state;
+    static const char *const said[][2] = {
+        { "stroke preset=leaves radius=44 strength=0.9 points=0.1,0.2;0.3,0.4;0.5,0.6",
+          "Stroke, leaves, 3 samples" },
+        { "stroke preset=\"/home/me/my brushes/wet clay.myb\" points=0.1,0.2",
+          "Stroke, wet clay, 1 sample" },
+        { "stroke radius=3 mode=erase points=0.1,0.2;0.3,0.4", "Stroke, erased, 2 samples" },
+        { "stroke mode=lower points=0.1,0.2", "Stroke, lowered, 1 sample" },
+        { "dab 0.3,0.4 mode=smear radius=3", "Dab, smeared" },
+        { "dab 0.3,0.4 mode=raise", "Dab" },
+        { "dab 0.25,0.5 tip=stamps/rivet.png radius=20", "Dab, rivet" },
+        { "adjust blur sigma=3", "Gaussian blur" },
+        { "pattern bricks joint=7", "Bricks" },
+        { "text \"Tinny Town\" size=80", "Text: Tinny Town" },
+        { "layer add \"second one\"", "Layer, add second one" },
+        { "layer use 3 part=mask", "Layer 3 at hand" },
+        { "layer set 12 visible=off", "Layer 12 hidden" },
+        { "layer set 2 visible=on opacity=0.5", "Layer 2 shown" },
+        { "layer set 1 lock=on", "Layer 1 locked" },
+        { "layer set 7 lock=off", "Layer 7 unlocked" },
+        { "layer set 5 opacity=0.3", "Layer, set 5" },
+        { "image /tmp/pictures/bark.v2.png", "Heights of a picture, bark.v2" },
+        { "table 512x256", "New table, 512x256" },
+        { "light directional to=1,1,1 # noon", "Light, directional" },
+        { "hum 3", "Hum, 3" },
+        { "", "" },
+        { "stroke", "Stroke" },
+        { "stroke points=", "Stroke, 0 samples" },
+    };
+    for (size_t i = 0; i < sizeof said / sizeof *said; i++) {
+        WrText out = { 0 };
+        wr_step_label(said[i][0], &out);
+        assert_string_equal(wr_text_get(&out), said[i][1]);
+        wr_text_fini(&out);
+    }
+    /* lines of any length */
+    char line[40000] = "stroke points=";
+    for (int i = 0; i < 6000; i++) strcat(line, i ? ";0,0" : "0,0");
+    WrText out = { 0 };
+    wr_step_label(line, &out);
+    assert_string_equal(wr_text_get(&out), "Stroke, 6000 samples");
+    wr_text_clear(&out);
+    for (size_t i = 0; i + 2 < sizeof line; i++) line[i] = i % 2 ? ' ' : 'x';
+    line[sizeof line - 2] = '\0';
+    wr_step_label(line, &out);
+    assert_string_equal(wr_text_get(&out), "X, x x");
+    wr_text_fini(&out);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(lines_are_said_in_words) };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

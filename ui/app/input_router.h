@@ -1,0 +1,15 @@
+/* input_router.h - routing of pointer and key events to widgets, views and drags. */
+#pragma once
+#include "ui/state/app_state.h"
+#include "ui/state/registry.h"
+#include "ui/input/pen.h"
+
+#include <SDL.h>
+
+void wr_input_router_event(WrApp *app, const SDL_Event *event);
+void wr_input_router_pen(WrApp *app, const WrPenEvent *event);
+/* Update the view under the pointer after a frame, since widgets may have appeared or vanished without a pointer
+   motion. */
+void wr_input_router_update_hover(WrApp *app);
+
+extern const WrPart wr_part_hand;

@@ -1,7 +1,0 @@
-/* line_words.h - readable names of history steps: "Stroke, leaves, 43 samples". */
-#pragma once
-
-typedef struct WrText WrText;
-
-/* Append the name of a command line in the window's language to out. */
-void wr_line_words(const char *line, WrText *out);

@@ -1,0 +1,7 @@
+/* step_label.h - readable names of history steps: "Stroke, leaves, 43 samples". */
+#pragma once
+
+typedef struct WrText WrText;
+
+/* Append the name of a command line in the window's language to out. */
+void wr_step_label(const char *line, WrText *out);
