@@ -311,7 +311,8 @@ static bool lay(const Work *w, WrTriangleCorner c[3], WrVec3 n, WrError *err)
 
 /* ---- division of triangles ---- */
 
-/* True if the angles along an edge are to be divided. Depends on its two ends alone, in either order: each
+/* True if the angles along an edge are to be divided; at the axis always, so that its triangles, which meet without
+   a common angle there, are short. Depends on its two ends alone, in either order: each
    product and sum here is the same, or its negative, for the reverse edge. */
 static bool is_wide(const Work *w, WrVec3 a, WrVec3 b)
 {
@@ -319,7 +320,8 @@ static bool is_wide(const Work *w, WrVec3 a, WrVec3 b)
     const double shortest = SHORT * w->radius;
     if (v3_dot(d, d) <= shortest * shortest) return false;
     const double dot = a.x * b.x + a.y * b.y, cross = a.x * b.y - a.y * b.x;
-    if (!on_axis(w, a) && !on_axis(w, b) && (dot <= 0 || fabs(cross) > WIDE_TAN * dot)) return true;
+    const int poles = on_axis(w, a) + on_axis(w, b);
+    if (poles == 1 || (poles == 0 && (dot <= 0 || fabs(cross) > WIDE_TAN * dot))) return true;
     return w->is->kind == WR_PROJECTION_SPHERICAL &&
            (v3_dot(a, b) <= 0 || v3_len(v3_cross(a, b)) > WIDE_TAN * v3_dot(a, b));
 }
