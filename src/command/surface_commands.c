@@ -269,7 +269,8 @@ static void note_origin(WrSession *session, const char *path, const WrMesh *mesh
     wr_text_fini(&text);
 }
 
-static WrTriangles *read_triangles(WrSession *session, const char *path, WrError *err)
+static WrTriangles *read_triangles(WrSession *session, const char *path, WrLengthUnit *unit,
+                                   WrError *err)
 {
     WrMesh mesh;
     if (!wr_mesh_read_attributes(path, &mesh, err)) return NULL;
@@ -283,6 +284,7 @@ static WrTriangles *read_triangles(WrSession *session, const char *path, WrError
                                        .parts = parts,
                                        .part_count = mesh.part_count };
     WrTriangles *made = wr_triangles_new(&source, err);
+    *unit = mesh.unit;
     if (made) note_origin(session, path, &mesh);
     else wr_error_prefix(err, "%s: ", path);
     wr_free(parts);
@@ -402,10 +404,10 @@ static void note_patches(WrSession *session, const char *path, const WrTriangles
 /* ---- the command ---- */
 
 static WrTriangles *read_held(WrSession *session, const WrCall *call, const WrShape *shape,
-                              const char *path, WrError *err)
+                              const char *path, WrLengthUnit *unit, WrError *err)
 {
     if (shape->kind == WR_SURFACE_terrain) return terrain_read(session, path, shape, err);
-    if (shape->kind == WR_SURFACE_mesh) return read_triangles(session, path, err);
+    if (shape->kind == WR_SURFACE_mesh) return read_triangles(session, path, unit, err);
     return read_patches(path, (WrPatchTable)wr_call_choice(call, "table"), err);
 }
 
@@ -501,7 +503,7 @@ static bool run_projection(WrSession *session, const WrCall *call, WrScene *scen
 }
 
 static WrTriangles *find_mesh(WrSession *session, WrCall *call, const WrShape *shape,
-                              const char *name, WrError *err)
+                              const char *name, WrLengthUnit *unit, WrError *err)
 {
     if (session->loading) {
         const int object = session->state.document->scene->chosen;
@@ -517,7 +519,7 @@ static WrTriangles *find_mesh(WrSession *session, WrCall *call, const WrShape *s
        reported as such, not by the parse error that it may cause. glTF consists of several files, whose joint checksum is
        computed by wr_input_sha256. */
     WrSha256Work *hash = wr_sha256_begin(path);
-    mesh = read_held(session, call, shape, path, err);
+    mesh = read_held(session, call, shape, path, unit, err);
     WrError why = { "" };
     char ending[16];
     const bool parts = strcmp(wr_path_ending(path, ending), "gltf") == 0;
@@ -566,9 +568,11 @@ static bool run_mesh(WrSession *session, WrCall *call, WrScene *scene, WrError *
         return !table || run_table(session, call, scene, err);
     }
     const char *name = wr_call_arg(call, "file")->text;
-    WrTriangles *mesh = find_mesh(session, call, &scene->shape, name, err);
+    WrLengthUnit unit = WR_UNIT_UNKNOWN;
+    WrTriangles *mesh = find_mesh(session, call, &scene->shape, name, &unit, err);
     if (!mesh) return false;
     wr_scene_set_triangles(scene, mesh, name, wr_call_arg(call, "sha256")->text);
+    if (unit != WR_UNIT_UNKNOWN) scene->projection.unit = unit;
     return run_projection(session, call, scene, err);
 }
 

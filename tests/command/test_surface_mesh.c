@@ -400,6 +400,27 @@ static void a_mesh_is_projected_without_its_file(void **state)
     wr_text_fini(&text);
 }
 
+/* Units that files state: those of a 3MF file are kept, glTF is in metres. */
+static void units_are_the_files(void **state)
+{
+    (void)state;
+    WrText notes = { 0 }, text = { 0 };
+    WrSession *s = session_with(&notes);
+    must_run(s, "surface mesh file=" WR_SOURCE_DIR
+                "/tests/image/cases/box_inch.3mf projection=box cell=10mm");
+    assert_non_null(strstr(surface_line(s, &text), " projection=box cell=10mm unit=in\n"));
+    float most = 0;
+    for (int32_t i = 0; i < scene_in(s)->triangles->corner_count; i++)
+        most = fmaxf(most, fabsf(scene_in(s)->triangles->corners[i].u));
+    assert_near((double)most, 25.4, 1e-4); /* 10 inches from the middle to the farthest side */
+    assert_null(strstr(wr_text_get(&notes), "millimetres"));
+    must_run(s, "surface mesh unit=mm");
+    assert_non_null(strstr(surface_line(s, &text), " projection=box cell=10mm unit=mm\n"));
+    wr_session_free(s);
+    wr_text_fini(&notes);
+    wr_text_fini(&text);
+}
+
 /* Copies share the file's mesh in a document, each with its own projection. */
 static void objects_have_their_own_projections(void **state)
 {
@@ -486,6 +507,7 @@ int main(void)
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(hostile_projections_are_refused, enter_own_folder,
                                         leave_own_folder),
+        cmocka_unit_test_setup_teardown(units_are_the_files, enter_own_folder, leave_own_folder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -179,7 +179,7 @@ static void surface_file(WrApp *app)
     const bool left = wr_gui_field_left();
     wr_gui_tip(shape->kind == WR_SURFACE_terrain   ? "A picture: black is low, white is high"
                : shape->kind == WR_SURFACE_patches ? "A text of bicubic patches, such as teapot.bpt"
-                                                   : "OBJ, PLY, STL, glTF and others");
+                                                   : "OBJ, PLY, STL, glTF, 3MF and others");
     wr_gui_same_line(4);
     if (wr_gui_glyph("browse", WR_ICON_FOLDER, GLYPH, WR_COLOUR_LABEL)) browse(app, file);
     wr_gui_tip("Choose a file");
