@@ -635,8 +635,7 @@ static const WrArgSpec projection_args[] = {
       .words = wr_projection_names,
       .fallback_text = "uv",
       .help = "the texture coordinates: the file's own; along the projection's z; by each face's "
-              "direction along x, y or z; about z; about a point. Without a file: of the mesh that "
-              "is there, whose other settings stay" },
+              "direction along x, y or z; about z; about a point" },
     { .name = "cell",
       .type = WR_ARG_TUPLE,
       .components = 2,
@@ -1040,7 +1039,10 @@ const WrCommand wr_command_surface = {
     .help = "the surface that the table wrinkles",
     .details =
         "Parameters that are left out take their defaults. A mesh without a file is a square of "
-        "two triangles. On a cube faces=6 assigns each face a cell of its own of the table, three "
+        "two triangles; without one, but with a projection's settings, it is the mesh that is "
+        "there, whose other settings stay. The size of its table is cell=, not that of the command "
+        "cell, which is for exported maps. On a cube faces=6 assigns each face a cell of its own "
+        "of the table, three "
         "beside two from the lower left (front, right, back; left, top, bottom), within a margin "
         "of a 32nd: in cells of 64 texels and more no scheme but bspline-fit, and no filter, "
         "reads another face's heights.",

@@ -299,6 +299,7 @@ static void surface(WrApp *app)
         wr_profile_row(app);
     surface_texts(app);
     surface_file(app);
+    wr_projection_rows(app);
     const WrSceneParam *param = &wr_scene_params[WR_SCENE_PARAM_REPLICATE];
     const WrNumber spec = wr_param_slider(param);
     double ru = wr_app_scene(app)->replicate_u, rv = wr_app_scene(app)->replicate_v;
