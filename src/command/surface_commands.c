@@ -776,6 +776,15 @@ static void warn_seam(WrSession *session, const WrScene *scene)
             session,
             "replicate %g,%g leaves a seam on the %s, which is closed: whole numbers do not", u, v,
             info->name);
+    if (!scene->triangles || scene->projection.kind < WR_PROJECTION_CYLINDRICAL) return;
+    double radius;
+    const int round = wr_projection_round(scene->mesh_source, &scene->projection, &radius);
+    if (round * u != floor(round * u))
+        wr_session_note(
+            session,
+            "replicate %g,%g leaves a seam on the mesh, which has %d cells round: whole "
+            "numbers do not",
+            u, v, round);
 }
 
 /* Compile a surface's texts; *made stays NULL without texts. */

@@ -480,6 +480,11 @@ static void hostile_projections_are_refused(void **state)
         }
     must_run(s, "surface mesh projection=spherical cell=1e9 at=1e9,-1e9,1e9 turn=360,-360,1e-300");
     must_run(s, "surface mesh projection=cylindrical cell=2mm,1e9 at=15,15,15 crease=0");
+    must_run(s, "surface mesh projection=cylindrical cell=31mm,5mm at=15,15,0");
+    assert_null(strstr(wr_text_get(&notes), "leaves a seam"));
+    must_run(s, "replicate 0.3,1.5");
+    assert_non_null(
+        strstr(wr_text_get(&notes), "replicate 0.3,1.5 leaves a seam on the mesh, which has "));
     must_run(s, "surface mesh"); /* the square: nothing is left of the projection */
     must_run(s, "surface mesh file=cube.stl");
     assert_int_equal(scene_in(s)->projection.kind, WR_PROJECTION_UV);
