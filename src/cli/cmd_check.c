@@ -2,11 +2,62 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "command/session.h"
+#include "document/document.h"
+#include "document/document_file.h"
 #include "export/check.h"
 #include "field/seam_check.h"
+#include "scene/objects.h"
+#include "scene/scene.h"
+#include "surface/projection.h"
 
 #include <math.h>
 #include <string.h>
+
+/* ---- meshes of a document ---- */
+
+/* One line, or JSON object, for each object with a mesh: edges at which the table does not run on. Every model
+   with an atlas has some, so they are no problem of the file. */
+static bool add_mesh(const WrScene *object, int number, bool json, WrText *text, WrError *err)
+{
+    WrTextureSeams seams;
+    if (!wr_triangles_seams(object->triangles, &seams, err)) return false;
+    if (json) {
+        wr_text_addf(text,
+                     "%s{\"object\":%d,\"seams\":%d,\"longest\":", text->length > 0 ? "," : "",
+                     number, (int)seams.edges);
+        wr_text_add_json_number(text, seams.length);
+        const double at[3] = { seams.at.x, seams.at.y, seams.at.z };
+        for (int k = 0; k < 3; k++) {
+            wr_text_add(text, k ? "," : ",\"at\":[");
+            wr_text_add_json_number(text, at[k]);
+        }
+        wr_text_add(text, "]}");
+        return true;
+    }
+    wr_text_addf(text, "  mesh %-3d the table runs on across ", number);
+    if (seams.edges == 0) wr_text_add(text, "all edges\n");
+    else
+        wr_text_addf(text,
+                     "all edges but %d; the longest run of them is %.4g long, at %.4g,%.4g,%.4g\n",
+                     (int)seams.edges, seams.length, seams.at.x, seams.at.y, seams.at.z);
+    return true;
+}
+
+static bool add_meshes(const WrCli *cli, const char *path, WrText *text, WrError *err)
+{
+    if (!wr_document_recognise(path)) return true;
+    WrSession *session = wr_cli_session(cli, false, err);
+    bool good = session && wr_session_open(session, path, err);
+    const WrScene *scene = good ? wr_session_document(session)->scene : NULL;
+    for (int i = 0; good && i < wr_scene_object_count(scene); i++) {
+        const WrScene *object = wr_scene_object(scene, i);
+        if (object->triangles && object->shape.kind == WR_SURFACE_mesh)
+            good = add_mesh(object, i + 1, cli->json, text, err);
+    }
+    wr_session_free(session);
+    return good;
+}
 
 /* ---- text output ---- */
 
@@ -79,7 +130,7 @@ static const char *problem_text(WrCheckProblem problem)
     return "";
 }
 
-static void add_lines(WrText *text, const char *path, const WrCheck *check)
+static void add_lines(WrText *text, const char *path, const WrCheck *check, const char *meshes)
 {
     wr_text_addf(text, "%s: %dx%d, %d channel%s of %s, %s", path, check->width, check->height,
                  check->channels, check->channels == 1 ? "" : "s",
@@ -93,6 +144,7 @@ static void add_lines(WrText *text, const char *path, const WrCheck *check)
     add_edge(text, "v", &check->v);
     add_numbers(text, check);
     add_normals(text, check);
+    wr_text_add(text, meshes);
     for (int i = 0; i < WR_CHECK_PROBLEM_COUNT; i++)
         if (check->problems >> i & 1)
             wr_text_addf(text, "  PROBLEM  %s\n", problem_text((WrCheckProblem)i));
@@ -164,7 +216,7 @@ static void json_normals(WrText *text, const WrCheck *check)
     wr_text_addf(text, ",\"away\":%lld}", (long long)n->away);
 }
 
-static void add_object(WrText *text, const char *path, const WrCheck *check)
+static void add_object(WrText *text, const char *path, const WrCheck *check, const char *meshes)
 {
     wr_text_add(text, "{\"file\":");
     wr_text_add_json_string(text, path);
@@ -176,6 +228,7 @@ static void add_object(WrText *text, const char *path, const WrCheck *check)
     json_edge(text, "v", &check->v);
     json_numbers(text, &check->numbers);
     json_normals(text, check);
+    if (*meshes) wr_text_addf(text, ",\"meshes\":[%s]", meshes);
     wr_text_addf(text, ",\"not_finite\":%lld,\"problems\":[", (long long)check->replaced);
     bool any = false;
     for (int i = 0; i < WR_CHECK_PROBLEM_COUNT; i++) {
@@ -209,20 +262,22 @@ static int check_one(const WrCli *cli, const char *path, int kind, WrCoding codi
 {
     WrCheck check;
     WrError err = { "" };
-    WrText text = { 0 };
-    const bool read = wr_check_picture(path, kind, coding, &check, &err);
+    WrText text = { 0 }, meshes = { 0 };
+    const bool read =
+        wr_check_picture(path, kind, coding, &check, &err) && add_meshes(cli, path, &meshes, &err);
     int status = read ? WR_EXIT_DONE : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
-    if (status == WR_EXIT_INTERRUPTED) return status;
-    if (read && cli->json) add_object(&text, path, &check);
-    else if (read) add_lines(&text, path, &check);
-    else if (cli->json) {
+    if (read && cli->json) add_object(&text, path, &check, wr_text_get(&meshes));
+    else if (read) add_lines(&text, path, &check, wr_text_get(&meshes));
+    else if (cli->json && status != WR_EXIT_INTERRUPTED) {
         wr_text_add(&text, "{\"file\":");
         wr_text_add_json_string(&text, path);
         json_string(&text, "error", err.text);
         wr_text_add(&text, "}\n");
     }
-    if (wr_cli_print(cli, &text) != WR_EXIT_DONE || (read && check.problems))
+    if (status != WR_EXIT_INTERRUPTED &&
+        (wr_cli_print(cli, &text) != WR_EXIT_DONE || (read && check.problems)))
         status = WR_EXIT_FAILED;
+    wr_text_fini(&meshes);
     wr_text_fini(&text);
     return status;
 }

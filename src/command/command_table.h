@@ -65,6 +65,7 @@ typedef struct WrArgSpec {
     bool whole;       /* whole numbers only (a size always is) */
     /* whole texels along a side; a number between -1 and 1 is a fraction of that side */
     bool share;
+    bool length; /* lengths such as 10mm; without a unit in millimetres, as which they are stored */
     int components; /* numbers in a tuple, or in each tuple of a list; other types: 0 */
     /* [components] one range for each number, instead of low and high; NULL: none */
     const WrComponent *parts;

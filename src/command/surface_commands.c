@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
+#include "base/length_unit.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "command/args.h"
@@ -19,6 +20,7 @@
 #include "scene/scene.h"
 #include "surface/data.h"
 #include "surface/patches.h"
+#include "surface/projection.h"
 #include "surface/terrain.h"
 #include "surface/triangles.h"
 
@@ -267,7 +269,8 @@ static void note_origin(WrSession *session, const char *path, const WrMesh *mesh
     wr_text_fini(&text);
 }
 
-static WrTriangles *read_triangles(WrSession *session, const char *path, WrError *err)
+static WrTriangles *read_triangles(WrSession *session, const char *path, WrLengthUnit *unit,
+                                   WrError *err)
 {
     WrMesh mesh;
     if (!wr_mesh_read_attributes(path, &mesh, err)) return NULL;
@@ -281,6 +284,7 @@ static WrTriangles *read_triangles(WrSession *session, const char *path, WrError
                                        .parts = parts,
                                        .part_count = mesh.part_count };
     WrTriangles *made = wr_triangles_new(&source, err);
+    *unit = mesh.unit;
     if (made) note_origin(session, path, &mesh);
     else wr_error_prefix(err, "%s: ", path);
     wr_free(parts);
@@ -400,10 +404,10 @@ static void note_patches(WrSession *session, const char *path, const WrTriangles
 /* ---- the command ---- */
 
 static WrTriangles *read_held(WrSession *session, const WrCall *call, const WrShape *shape,
-                              const char *path, WrError *err)
+                              const char *path, WrLengthUnit *unit, WrError *err)
 {
     if (shape->kind == WR_SURFACE_terrain) return terrain_read(session, path, shape, err);
-    if (shape->kind == WR_SURFACE_mesh) return read_triangles(session, path, err);
+    if (shape->kind == WR_SURFACE_mesh) return read_triangles(session, path, unit, err);
     return read_patches(path, (WrPatchTable)wr_call_choice(call, "table"), err);
 }
 
@@ -415,8 +419,91 @@ static void note_held(WrSession *session, WrSurfaceKind kind, const char *path,
     else note_patches(session, path, mesh);
 }
 
+/* ---- projection of a mesh ---- */
+
+/* True if the call has an argument of the projection. */
+static bool names_projection(const WrCall *call)
+{
+    return wr_call_given(call, "projection") || wr_call_given(call, "cell") ||
+           wr_call_given(call, "turn") || wr_call_given(call, "at") ||
+           wr_call_given(call, "unit") || wr_call_given(call, "crease");
+}
+
+static void take_projection(const WrCall *call, WrProjection *to)
+{
+    const WrArg *cell = wr_call_arg(call, "cell");
+    if (wr_call_given(call, "projection"))
+        to->kind = (WrProjectionKind)wr_call_choice(call, "projection");
+    if (cell->given)
+        for (int k = 0; k < 2; k++) to->cell[k] = cell->numbers[k < cell->counts[0] ? k : 0];
+    if (wr_call_given(call, "turn"))
+        memcpy(to->turn_deg, wr_call_arg(call, "turn")->numbers, sizeof to->turn_deg);
+    to->placed |= wr_call_given(call, "at");
+    if (wr_call_given(call, "at")) memcpy(to->at, wr_call_arg(call, "at")->numbers, sizeof to->at);
+    if (wr_call_given(call, "unit"))
+        to->unit = (WrLengthUnit)(wr_call_choice(call, "unit") + WR_UNIT_MM);
+    if (wr_call_given(call, "crease")) to->crease_deg = wr_call_number(call, "crease");
+    if (to->kind != WR_PROJECTION_UV) return;
+    const WrProjection none =
+        wr_projection_default; /* without a meaning for the file's own (u,v) */
+    *to = (WrProjection){ .cell = { none.cell[0], none.cell[1] },
+                          .unit = to->unit,
+                          .crease_deg = to->crease_deg };
+}
+
+/* Use the file's mesh of the active object with another projection, since the file may have moved. */
+static bool reuse_mesh(const WrSession *session, WrScene *scene, WrError *err)
+{
+    const WrScene *before = session->state.document->scene;
+    if (!before->triangles || before->shape.kind != WR_SURFACE_mesh)
+        return wr_fail(err, "a projection belongs to a file=: the object has no mesh yet");
+    const WrTriangles *source = before->mesh_source ? before->mesh_source : before->triangles;
+    wr_scene_set_triangles(scene, wr_triangles_share(source), before->triangles_path,
+                           before->triangles_sha256);
+    scene->projection = before->projection;
+    return true;
+}
+
+static bool note_projection(WrSession *session, const WrScene *scene, WrError *err)
+{
+    const WrProjection *is = &scene->projection;
+    WrTextureSeams seams;
+    WrText text = { 0 };
+    double radius;
+    if (is->kind == WR_PROJECTION_UV) return true;
+    if (!wr_triangles_seams(scene->triangles, &seams, err)) return false;
+    wr_text_addf(&text, "projection=%s: %d triangles", wr_projection_names[is->kind],
+                 (int)scene->triangles->triangle_count);
+    if (is->unit == WR_UNIT_UNKNOWN)
+        wr_text_add(&text,
+                    "; the file's numbers are taken as millimetres: unit= states another unit");
+    if (is->kind >= WR_PROJECTION_CYLINDRICAL) {
+        const int round = wr_projection_round(
+            scene->mesh_source ? scene->mesh_source : scene->triangles, is, &radius);
+        wr_text_addf(&text, "; %d cells round, at a radius of %.4g mm", round, radius);
+    }
+    if (seams.edges > 0)
+        wr_text_addf(&text,
+                     "; the table does not run on across %d edges, the longest run of them %.4g "
+                     "long, at %.4g,%.4g,%.4g",
+                     (int)seams.edges, seams.length, seams.at.x, seams.at.y, seams.at.z);
+    wr_session_note(session, "%s", wr_text_get(&text));
+    wr_text_fini(&text);
+    return true;
+}
+
+/* Apply the projection of the call to the scene's mesh. */
+static bool run_projection(WrSession *session, const WrCall *call, WrScene *scene, WrError *err)
+{
+    WrProjection projection = scene->projection;
+    if (scene->shape.kind != WR_SURFACE_mesh) return true;
+    take_projection(call, &projection);
+    return wr_scene_project(scene, &projection, err) &&
+           (session->loading || note_projection(session, scene, err));
+}
+
 static WrTriangles *find_mesh(WrSession *session, WrCall *call, const WrShape *shape,
-                              const char *name, WrError *err)
+                              const char *name, WrLengthUnit *unit, WrError *err)
 {
     if (session->loading) {
         const int object = session->state.document->scene->chosen;
@@ -432,7 +519,7 @@ static WrTriangles *find_mesh(WrSession *session, WrCall *call, const WrShape *s
        reported as such, not by the parse error that it may cause. glTF consists of several files, whose joint checksum is
        computed by wr_input_sha256. */
     WrSha256Work *hash = wr_sha256_begin(path);
-    mesh = read_held(session, call, shape, path, err);
+    mesh = read_held(session, call, shape, path, unit, err);
     WrError why = { "" };
     char ending[16];
     const bool parts = strcmp(wr_path_ending(path, ending), "gltf") == 0;
@@ -475,14 +562,45 @@ static bool run_mesh(WrSession *session, WrCall *call, WrScene *scene, WrError *
         return terrain_take_layer(session, call, scene, err);
     if (!wr_call_given(call, "file")) {
         if (wr_call_given(call, "sha256")) return wr_fail(err, "sha256= belongs to a file=");
+        if (scene->shape.kind == WR_SURFACE_mesh && names_projection(call))
+            return reuse_mesh(session, scene, err) && run_projection(session, call, scene, err);
         const bool table = scene->shape.kind == WR_SURFACE_patches && wr_call_given(call, "table");
         return !table || run_table(session, call, scene, err);
     }
     const char *name = wr_call_arg(call, "file")->text;
-    WrTriangles *mesh = find_mesh(session, call, &scene->shape, name, err);
+    WrLengthUnit unit = WR_UNIT_UNKNOWN;
+    WrTriangles *mesh = find_mesh(session, call, &scene->shape, name, &unit, err);
     if (!mesh) return false;
     wr_scene_set_triangles(scene, mesh, name, wr_call_arg(call, "sha256")->text);
-    return true;
+    if (unit != WR_UNIT_UNKNOWN) scene->projection.unit = unit;
+    return run_projection(session, call, scene, err);
+}
+
+static void add_numbers(WrText *text, const char *name, const double *numbers, int count,
+                        const char *unit)
+{
+    wr_text_addf(text, " %s=", name);
+    for (int i = 0; i < count; i++) {
+        if (i > 0) wr_text_add(text, ",");
+        wr_text_add_number(text, numbers[i]);
+        wr_text_add(text, unit);
+    }
+}
+
+static void print_projection(const WrScene *scene, WrText *text)
+{
+    const WrProjection *is = &scene->projection;
+    if (!wr_scene_projected(scene)) return;
+    if (is->kind != WR_PROJECTION_UV) {
+        wr_text_addf(text, " projection=%s", wr_projection_names[is->kind]);
+        add_numbers(text, "cell", is->cell, is->cell[0] == is->cell[1] ? 1 : 2, "mm");
+        if (is->turn_deg[0] != 0 || is->turn_deg[1] != 0 || is->turn_deg[2] != 0)
+            add_numbers(text, "turn", is->turn_deg, 3, "");
+        if (is->placed) add_numbers(text, "at", is->at, 3, "");
+    }
+    if (is->unit != WR_UNIT_UNKNOWN)
+        wr_text_addf(text, " unit=%s", wr_length_units[is->unit - WR_UNIT_MM]);
+    if (is->crease_deg < WR_CREASE_NONE) add_numbers(text, "crease", &is->crease_deg, 1, "");
 }
 
 static void print_mesh(const WrScene *scene, bool content, WrText *text)
@@ -500,12 +618,53 @@ static void print_mesh(const WrScene *scene, bool content, WrText *text)
     if (scene->shape.kind == WR_SURFACE_patches && scene->triangles->patches)
         wr_text_addf(text, " table=%s", wr_patch_tables[scene->triangles->patches->table]);
     if (*scene->triangles_sha256) wr_text_addf(text, " sha256=%s", scene->triangles_sha256);
+    print_projection(scene, text);
 }
 
 static const char *table_name(int i)
 {
     return i < WR_PATCH_TABLES ? wr_patch_tables[i] : NULL;
 }
+
+#define TRIPLE(name_, shape_, low_, high_)                                                         \
+    .name = name_, .type = WR_ARG_TUPLE, .components = 3, .shape = shape_, .low = low_,            \
+    .high = high_
+static const WrArgSpec projection_args[] = {
+    { .name = "projection",
+      .type = WR_ARG_CHOICE,
+      .words = wr_projection_names,
+      .fallback_text = "uv",
+      .help = "the texture coordinates: the file's own; along the projection's z; by each face's "
+              "direction along x, y or z; about z; about a point" },
+    { .name = "cell",
+      .type = WR_ARG_TUPLE,
+      .components = 2,
+      .counts = TUPLE_OF(1) | TUPLE_OF(2),
+      .shape = "W[,H]",
+      .above = true,
+      .high = 1e9,
+      .length = true,
+      .unit = "mm",
+      .fallback = wr_projection_default.cell,
+      .help = "size of the table on the mesh; replicate divides it; about an axis the width is "
+              "fitted so that a whole number goes round" },
+    { TRIPLE("turn", "X,Y,Z", -360, 360), .unit = "degrees",
+      .fallback = wr_projection_default.turn_deg,
+      .help = "of the projection about the mesh's x, then y, then z" },
+    { TRIPLE("at", "X,Y,Z", -1e9, 1e9),
+      .help = "origin of the projection, in the file's unit; left out, the middle of the mesh" },
+    { .name = "unit",
+      .type = WR_ARG_CHOICE,
+      .words = wr_length_units,
+      .help = "of the file's numbers; left out, m for glTF, the file's own for 3MF, else mm" },
+    { .name = "crease",
+      .type = WR_ARG_NUMBER,
+      .high = WR_CREASE_NONE,
+      .fallback = &wr_projection_default.crease_deg,
+      .unit = "degrees",
+      .help = "below 180 normals are made anew: faces that meet at more than this have separate "
+              "ones, others smooth ones; 180: those of the file" },
+};
 
 static void form_mesh(WrSurfaceKind kind, WrArgSpec *args)
 {
@@ -517,6 +676,7 @@ static void form_mesh(WrSurfaceKind kind, WrArgSpec *args)
     args[1] = (WrArgSpec){ .name = "sha256",
                            .type = WR_ARG_SHA256,
                            .help = "of the file: another content is then an error" };
+    if (kind == WR_SURFACE_mesh) memcpy(args + 2, projection_args, sizeof projection_args);
     if (kind == WR_SURFACE_terrain) form_terrain(args);
     if (kind == WR_SURFACE_patches)
         args[2] =
@@ -616,6 +776,15 @@ static void warn_seam(WrSession *session, const WrScene *scene)
             session,
             "replicate %g,%g leaves a seam on the %s, which is closed: whole numbers do not", u, v,
             info->name);
+    if (!scene->triangles || scene->projection.kind < WR_PROJECTION_CYLINDRICAL) return;
+    double radius;
+    const int round = wr_projection_round(scene->mesh_source, &scene->projection, &radius);
+    if (round * u != floor(round * u))
+        wr_session_note(
+            session,
+            "replicate %g,%g leaves a seam on the mesh, which has %d cells round: whole "
+            "numbers do not",
+            u, v, round);
 }
 
 /* Compile a surface's texts; *made stays NULL without texts. */
@@ -879,7 +1048,10 @@ const WrCommand wr_command_surface = {
     .help = "the surface that the table wrinkles",
     .details =
         "Parameters that are left out take their defaults. A mesh without a file is a square of "
-        "two triangles. On a cube faces=6 assigns each face a cell of its own of the table, three "
+        "two triangles; without one, but with a projection's settings, it is the mesh that is "
+        "there, whose other settings stay. The size of its table is cell=, not that of the command "
+        "cell, which is for exported maps. On a cube faces=6 assigns each face a cell of its own "
+        "of the table, three "
         "beside two from the lower left (front, right, back; left, top, bottom), within a margin "
         "of a 32nd: in cells of 64 texels and more no scheme but bspline-fit, and no filter, "
         "reads another face's heights.",

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/length_unit.h"
 #include "base/memory.h"
 #include "base/message.h"
 #include "base/enum_rows.h"
@@ -136,6 +137,7 @@ void wr_arg_expectation(const WrArgSpec *spec, WrText *text)
     }
     if (!spec->parts) add_range(text, spec->low, spec->high, spec->above);
     if (spec->unit) wr_message_addf(text, " %s", spec->unit);
+    if (spec->length) wr_message_addf(text, ", or with its unit, such as 2.5cm or 1in");
     if (spec->share) wr_message_addf(text, ", or a share of the side between -1 and 1");
 }
 
@@ -187,7 +189,9 @@ static bool in_range(const WrArgSpec *spec, int part, double value)
 static bool parse_part(const WrArgSpec *spec, const char *where, const char *value, int part,
                        const char *text, size_t length, double *out, WrError *err)
 {
-    if (wr_number_parse(text, length, out) && in_range(spec, part, *out)) return true;
+    if ((spec->length ? wr_length_parse : wr_number_parse)(text, length, out) &&
+        in_range(spec, part, *out))
+        return true;
     if (!spec->parts) return fail_value(spec, where, value, err);
     const WrComponent *c = &spec->parts[part];
     WrText range = { 0 };
@@ -370,6 +374,7 @@ void wr_arg_print(const WrArgSpec *spec, const WrArg *arg, WrText *text)
         for (int i = 0; i < arg->counts[r]; i++) {
             if (i > 0) wr_text_add(text, spec->type == WR_ARG_SIZE ? "x" : ",");
             wr_text_add_number(text, arg->numbers[(size_t)r * (size_t)width + (size_t)i]);
+            if (spec->length) wr_text_add(text, "mm");
         }
     }
 }

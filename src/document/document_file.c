@@ -37,6 +37,7 @@ static WrSceneAge age_of_object(const WrScene *object)
         object->facets[WR_FACET_ROUGHNESS].image || object->facets[WR_FACET_METALNESS].image;
     const bool driving = object->grain.kind != WR_SOLID_TEXTURE_OFF &&
                          object->grain.drives != WR_SOLID_TEXTURE_COLOURS;
+    if (wr_scene_projected(object)) return WR_SCENE_OF_PROJECTION;
     if (pictured || driving || object->material.occlusion || object->parallax ||
         (object->colouring.count > 0 && object->colouring.hollow))
         return WR_SCENE_OF_FACETS;
@@ -54,6 +55,7 @@ WrSceneAge wr_scene_age(const WrScene *scene)
         const WrSceneAge own = age_of_object(wr_scene_object(scene, i));
         age = own > age ? own : age;
     }
+    if (age == WR_SCENE_OF_PROJECTION) return age;
     if (any_new_lamp(scene) || scene->dials.horizons != wr_dials_default().horizons ||
         scene->dials.rays != wr_dials_default().rays ||
         scene->dials.steps != wr_dials_default().steps || scene->camera.frame != 0 ||
@@ -215,7 +217,8 @@ static int version_of(const Saving *to)
 {
     const WrScene *scene = to->document->scene;
     const WrSceneAge age = wr_scene_age(scene);
-    if (wr_document_filters(to->document)) return WR_DOCUMENT_VERSION;
+    if (age == WR_SCENE_OF_PROJECTION) return WR_DOCUMENT_VERSION;
+    if (wr_document_filters(to->document)) return WR_DOCUMENT_VERSION_FILTERS;
     if (age == WR_SCENE_OF_FACETS) return WR_DOCUMENT_VERSION_FACETS;
     if (age == WR_SCENE_OF_CELL) return WR_DOCUMENT_VERSION_CELL;
     if (scene->environment.kind != WR_ENVIRONMENT_MAP_OFF) return WR_DOCUMENT_VERSION_SURROUND;

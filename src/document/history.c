@@ -83,8 +83,8 @@ static size_t bytes_of(const WrField *field)
     return field ? wr_field_bytes(field) : 0;
 }
 
-/* Pictures and the mesh of one object. */
-#define OWN (3 + WR_FACET_KINDS)
+/* Pictures and the meshes of one object. */
+#define OWN (4 + WR_FACET_KINDS)
 typedef struct Own {
     const void *of[OWN];
     size_t bytes[OWN];
@@ -98,13 +98,14 @@ static size_t image_bytes(const WrImage *image)
 
 static Own own_of(const WrScene *object)
 {
-    const WrTriangles *mesh = object->triangles;
+    const WrTriangles *mesh = object->triangles, *source = object->mesh_source;
     const WrImage *const rough = object->facets[WR_FACET_ROUGHNESS].image;
     const WrImage *const metal = object->facets[WR_FACET_METALNESS].image;
-    return (Own){ .of = { object->colour, object->normals.image, rough, metal, mesh },
+    return (Own){ .of = { object->colour, object->normals.image, rough, metal, mesh, source },
                   .bytes = { image_bytes(object->colour), image_bytes(object->normals.image),
                              image_bytes(rough), image_bytes(metal),
-                             mesh ? wr_scene_mesh_bytes(mesh) : 0 } };
+                             mesh ? wr_scene_mesh_bytes(mesh) : 0,
+                             source ? wr_scene_mesh_bytes(source) : 0 } };
 }
 
 static bool has(const WrScene *scene, const void *thing)

@@ -401,7 +401,8 @@ int wr_ora_version(const WrDocument *document, bool composite)
     const bool new =
         wr_object_any_picture(scene, WR_OBJECT_NORMALS) || wr_scene_several_meshes(scene);
     const WrSceneAge age = wr_scene_age(scene);
-    if (composite) return WR_ORA_VERSION;
+    if (age == WR_SCENE_OF_PROJECTION) return WR_ORA_VERSION;
+    if (composite) return WR_ORA_VERSION_COMPOSITE;
     if (wr_document_filters(document)) return WR_ORA_VERSION_FILTERS;
     if (age == WR_SCENE_OF_FACETS) return WR_ORA_VERSION_FACETS;
     if (age == WR_SCENE_OF_CELL) return WR_ORA_VERSION_CELL;

@@ -323,7 +323,7 @@ static bool solid_draw_net(const WrParams *params, const WrSolidNet *net, const 
 const WrParam wr_params_solid_mesh[] = {
     { .name = "file",
       .label = "File",
-      .help = "a mesh file: OBJ, PLY, STL, glTF and others",
+      .help = "a mesh file: OBJ, PLY, STL, glTF, 3MF and others",
       .unit = "",
       .kind = WR_PARAM_FILE,
       .positional = true },
@@ -874,7 +874,7 @@ const WrGenerator wr_solids[] = {
     ROW("cone", "Cone", "a cone; its tip points up", round_params, make_cone),
     ROW("torus", "Torus", "a ring; alternate=90 makes links of chains", torus_params, make_torus),
     ROW("capsule", "Capsule", "a rod with round ends", capsule_params, make_capsule),
-    ROW("mesh", "Mesh file", "triangles of a file: OBJ, PLY, STL, glTF and others",
+    ROW("mesh", "Mesh file", "triangles of a file: OBJ, PLY, STL, glTF, 3MF and others",
         wr_params_solid_mesh, solid_mesh),
     ROW("letters", "Letters", "letters of any font cut out of a plate, in any pose",
         wr_params_solid_letters, solid_letters),

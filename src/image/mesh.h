@@ -1,7 +1,9 @@
-/* mesh.h - triangle mesh files: OBJ, PLY, STL, glTF and other formats of the library.
+/* mesh.h - triangle mesh files: OBJ, PLY, STL, glTF, 3MF and other formats of the library.
 
    Independent of height tables. Files are untrusted and are read by the reader process, like images. */
 #pragma once
+#include "base/length_unit.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -24,8 +26,9 @@ typedef struct WrMeshPart {
    so far from the file's origin that 32-bit floats would round its relief, `origin` has been subtracted
    from its coordinates. */
 typedef struct WrMesh {
-    double origin[3]; /* add it to get the file's coordinates; 0,0,0 for a body near the origin */
-    bool single;      /* the coordinates in the file are 32-bit floats */
+    double origin[3];  /* add it to get the file's coordinates; 0,0,0 for a body near the origin */
+    bool single;       /* the coordinates in the file are 32-bit floats */
+    WrLengthUnit unit; /* stated by the file (3MF) */
     const float (*points)[3];    /* [point_count] x, y, z; finite, within 1e30 of 0 */
     const int32_t (*corners)[3]; /* [triangle_count] point indices; polygons are triangulated */
     int32_t point_count, triangle_count;

@@ -7,6 +7,7 @@
    its relief in 32-bit floats; so the lowest corner of its bounding box is subtracted first (WrMesh,
    origin). */
 #pragma once
+#include "base/length_unit.h"
 #include "image/mesh.h"
 
 #include <stdbool.h>
@@ -20,6 +21,7 @@ typedef struct WrText WrText;
 typedef struct WrMeshBuild {
     bool whole;              /* with normals, (u,v) and parts; otherwise these are dropped */
     bool single;             /* the coordinates were 32-bit floats already */
+    WrLengthUnit unit;       /* stated by the file */
     bool memory;             /* the failure was lack of memory */
     char part[WR_MESH_NAME]; /* name of the following triangles; set by wr_mesh_build_part */
     double (*points)[3];

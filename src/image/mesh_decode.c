@@ -373,6 +373,7 @@ static bool mesh_build_finish(const WrMeshBuild *build, WrText *block, WrError *
                         .triangles = build->triangle_count,
                         .whole = build->whole,
                         .single = build->single,
+                        .unit = (int32_t)build->unit,
                         .parts = build->whole ? build->part_count : 0 };
     find_origin(build, head.origin);
     add(block, &head, sizeof head);
@@ -476,6 +477,7 @@ static bool read_kind(const void *bytes, size_t length, const char *ending, WrMe
         wr_mesh_build_fini(build);
         build->whole = whole;
     }
+    if (strcmp(ending, "3mf") == 0 && !wr_3mf_open(bytes, length, build, err)) return false;
     return read_by_library(bytes, length, ending, build, err);
 }
 

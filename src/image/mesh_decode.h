@@ -14,7 +14,7 @@ typedef struct WrText WrText;
  * (u,v) and the parts. */
 typedef struct WrMeshHead {
     double origin[3];
-    int32_t points, triangles, whole, parts, single, unused;
+    int32_t points, triangles, whole, parts, single, unit;
 } WrMeshHead;
 
 #define WR_MESH_PARTS_MAX 4096

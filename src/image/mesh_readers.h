@@ -1,4 +1,4 @@
-/* mesh_readers.h - readers of mesh files: OBJ, PLY, STL and the triangles of glTF.
+/* mesh_readers.h - readers of mesh files: OBJ, PLY, STL, the triangles of glTF, the container of 3MF.
    Private to this module. */
 #pragma once
 #include <stdbool.h>
@@ -49,6 +49,12 @@ bool wr_ply_read(const char *bytes, size_t length, WrMeshBuild *build, WrError *
  * solid is a part.
  * Errors   one sentence that does not name the file, with the position and kind of the damage */
 bool wr_stl_read(const char *bytes, size_t length, WrMeshBuild *build, WrError *err);
+
+/* ---- container of 3MF files ---- */
+
+/* Checks the archive and sets the build's unit; the library reads the triangles.
+ * Errors   one sentence that does not name the file: damage, no model, unpacks to too many bytes */
+bool wr_3mf_open(const void *bytes, size_t length, WrMeshBuild *build, WrError *err);
 
 /* ---- reader of the triangles of a glTF 2.0 file ---- */
 

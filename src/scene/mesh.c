@@ -1,5 +1,6 @@
 /* The triangles of a scene, and their storage in documents. */
 #include "base/error.h"
+#include "base/file.h"
 #include "base/memory.h"
 #include "image/image.h"
 #include "scene/objects.h"
@@ -11,15 +12,10 @@
 
 /* The shape carries centre, radius and key as numbers, so that two shapes compare by their values without the
    mesh. The 64-bit key is two whole doubles below 2^32. */
-void wr_scene_set_triangles(WrScene *scene, WrTriangles *triangles, const char *path,
-                            const char *sha256)
+static void hold(WrScene *scene, WrTriangles *triangles)
 {
     wr_triangles_free(scene->triangles);
-    wr_free(scene->triangles_path);
     scene->triangles = triangles;
-    scene->triangles_path = triangles ? wr_strdup(path ? path : "") : NULL;
-    memset(scene->triangles_sha256, 0, sizeof scene->triangles_sha256);
-    if (triangles && sha256 && strlen(sha256) == 64) memcpy(scene->triangles_sha256, sha256, 64);
     if (!triangles) return;
     WrShape shape = scene->shape;
     if (!wr_surfaces[shape.kind]->held) wr_shape_default(WR_SURFACE_mesh, &shape);
@@ -29,6 +25,56 @@ void wr_scene_set_triangles(WrScene *scene, WrTriangles *triangles, const char *
     value[WR_MESH_KEY] = (double)(triangles->key >> 32);
     value[WR_MESH_KEY + 1] = (double)(triangles->key & 0xffffffffU);
     wr_scene_set_shape(scene, &shape);
+}
+
+/* glTF 2.0, 3.4: "The units for all linear distances are meters." */
+static WrLengthUnit unit_of(const char *path)
+{
+    char ending[16];
+    wr_path_ending(path, ending);
+    return strcmp(ending, "gltf") == 0 || strcmp(ending, "glb") == 0 ? WR_UNIT_M : WR_UNIT_UNKNOWN;
+}
+
+void wr_scene_set_triangles(WrScene *scene, WrTriangles *triangles, const char *path,
+                            const char *sha256)
+{
+    wr_triangles_free(scene->mesh_source);
+    scene->mesh_source = NULL;
+    wr_free(scene->triangles_path);
+    scene->triangles_path = triangles ? wr_strdup(path ? path : "") : NULL;
+    memset(scene->triangles_sha256, 0, sizeof scene->triangles_sha256);
+    if (triangles && sha256 && strlen(sha256) == 64) memcpy(scene->triangles_sha256, sha256, 64);
+    scene->projection = wr_projection_default;
+    if (triangles) scene->projection.unit = unit_of(scene->triangles_path);
+    hold(scene, triangles);
+}
+
+/* ---- projection ---- */
+
+static const WrTriangles *source_of(const WrScene *scene)
+{
+    return scene->mesh_source ? scene->mesh_source : scene->triangles;
+}
+
+bool wr_scene_project(WrScene *scene, const WrProjection *projection, WrError *err)
+{
+    WrTriangles *made = wr_triangles_project(source_of(scene), projection, err);
+    if (!made) return false;
+    if (!scene->mesh_source) scene->mesh_source = wr_triangles_share(scene->triangles);
+    hold(scene, made);
+    if (made == scene->mesh_source) { /* nothing was changed */
+        wr_triangles_free(scene->mesh_source);
+        scene->mesh_source = NULL;
+    }
+    scene->projection = *projection;
+    return true;
+}
+
+bool wr_scene_projected(const WrScene *scene)
+{
+    const WrProjection *p = &scene->projection;
+    return scene->triangles && (p->kind != WR_PROJECTION_UV || p->crease_deg < WR_CREASE_NONE ||
+                                p->unit != unit_of(scene->triangles_path));
 }
 
 size_t wr_scene_mesh_bytes(const WrTriangles *triangles)
@@ -60,7 +106,7 @@ static Kept kept_of(const WrScene *scene)
 {
     Kept kept = { .objects = wr_scene_object_count(scene) };
     for (int i = 0; i < kept.objects; i++) {
-        const WrTriangles *own = wr_scene_object(scene, i)->triangles;
+        const WrTriangles *own = source_of(wr_scene_object(scene, i));
         int k = 0;
         if (!own) continue;
         while (k < kept.meshes && kept.mesh[k]->key != own->key) k++;

@@ -325,6 +325,8 @@ WrScene *wr_scene_clone(const WrScene *scene)
             (WrFacetMap){ map->image ? wr_image_share(map->image) : NULL, laid_copy(&map->laid) };
     }
     if (scene->triangles) clone->triangles = wr_triangles_share(scene->triangles);
+    if (scene->mesh_source) clone->mesh_source = wr_triangles_share(scene->mesh_source);
+    clone->projection = scene->projection;
     clone->triangles_path = wr_strdup(scene->triangles_path);
     memcpy(clone->triangles_sha256, scene->triangles_sha256, sizeof clone->triangles_sha256);
     clone->form_layer = wr_strdup(scene->form_layer);
@@ -414,6 +416,7 @@ void wr_scene_free(WrScene *scene)
     for (int i = 0; i < scene->other_count; i++) wr_scene_free(scene->others[i]);
     wr_free(scene->others);
     wr_triangles_free(scene->triangles);
+    wr_triangles_free(scene->mesh_source);
     wr_free(scene->triangles_path);
     wr_free(scene->form_layer);
     wr_free(scene->lights);

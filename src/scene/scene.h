@@ -21,6 +21,7 @@
 #include "shade/environment_brdf.h"
 #include "shade/solid_texture.h"
 #include "shade/reflection.h"
+#include "surface/projection.h"
 #include "surface/surface.h"
 
 #include <stdbool.h>
@@ -139,6 +140,9 @@ struct WrScene {
     WrTriangles *triangles; /* shared; NULL: the square of two triangles (wr_triangles_square) */
     char *triangles_path;   /* as WrTextureSample's */
     char triangles_sha256[65];
+    WrTriangles
+        *mesh_source; /* shared; the file's mesh, from which `triangles` is derived; NULL: itself */
+    WrProjection projection; /* of kind `uv` for other surfaces */
     char
         *form_layer; /* for a terrain: the document's layer with its heights; owned; NULL: a file */
     uint64_t form_key; /* key of those heights when the triangles were computed (wr_layer_key) */
@@ -174,6 +178,10 @@ struct WrScene {
  * kind if that uses triangles, else it becomes a mesh. path and sha256 may be NULL. */
 void wr_scene_set_triangles(WrScene *scene, WrTriangles *triangles, const char *path,
                             const char *sha256);
+/* Derives the scene's triangles, of kind mesh, anew from those of its file. Errors: wr_triangles_project. */
+bool wr_scene_project(WrScene *scene, const WrProjection *projection, WrError *err);
+/* True if the projection or the unit differ from those of a file of this name alone. */
+bool wr_scene_projected(const WrScene *scene);
 /* Converts the meshes of the scene's objects to one picture of one channel, the storage format of
  * documents; and restores that of an object. The caller owns both; *out is NULL if there is none.
  * Errors: not a picture of meshes; out of memory. */

@@ -30,7 +30,8 @@ static double mesh_radius(const WrShape *s)
 static const WrSurfaceInfo mesh_row = {
     .name = "mesh",
     .label = "Mesh",
-    .help = "triangles out of a file: OBJ, PLY, STL, glTF and others; without one a square of two",
+    .help =
+        "triangles out of a file: OBJ, PLY, STL, glTF, 3MF and others; without one a square of two",
     .held = true,
     .open = true,
     .faces = 1,

@@ -562,7 +562,16 @@ expect 0 check good.png
 is 'status of check' $? 1
 is 'check as JSON' "$(jq -c '[.file, .u.seamless, .v.seamless, .normals.green, .problems, (.error | type)]' out | tr '\n' ' ')" \
     '["a \"ramp\".png",false,true,null,["seam-u"],"null"] ["cut.png",null,null,null,null,"string"] ["good.png",true,true,"down",[],"null"] '
-rm -f good.png cut.png 'a "ramp".png'
+# a document's mesh: a cube under a box projection has a seam at each edge
+printf 'v %s\n' '0 0 0' '30 0 0' '30 30 0' '0 30 0' '0 0 30' '30 0 30' '30 30 30' '0 30 30' >cube.obj
+printf 'f %s\n' '1 4 3 2' '5 6 7 8' '1 2 6 5' '2 3 7 6' '3 4 8 7' '4 1 5 8' >>cube.obj
+printf '%s\n' 'table 8x8' 'surface mesh file=cube.obj projection=box cell=7mm' 'save cube.exr' >cube.wrinkle
+expect 0 run cube.wrinkle
+expect 0 check cube.exr
+has out 'mesh 1   the table runs on across all edges but 12; the longest run of them is 360 long, at '
+"$program" check --json cube.exr >out 2>err
+is 'a mesh as JSON' "$(jq -c '[.meshes[0].object, .meshes[0].seams, .meshes[0].longest]' out)" '[1,12,360]'
+rm -rf good.png cut.png 'a "ramp".png' cube.obj cube.wrinkle cube.exr state
 empty 'a check'
 
 if [[ $failures != 0 ]]; then

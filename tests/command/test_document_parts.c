@@ -319,11 +319,11 @@ static void a_newer_version_opens_but_is_not_saved_over(void **state)
                                           { "wrinkle:opacity", "half" } };
     Notes notes = { 0 };
     WrError err = { "" };
-    write_parts("new.exr", "10", parts, 7, settings, 2);
+    write_parts("new.exr", "11", parts, 7, settings, 2);
     WrSession *s = new_session(&notes);
     if (!wr_session_open(s, "new.exr", &err)) fail_msg("%s", err.text);
     assert_non_null(
-        strstr(wr_text_get(&notes.text), "newer version of the program (document version 10"));
+        strstr(wr_text_get(&notes.text), "newer version of the program (document version 11"));
     assert_non_null(strstr(wr_text_get(&notes.text), "sparkle"));
     assert_int_equal(doc(s)->layer_count, 2);
     assert_int_equal(doc(s)->active, 1);

@@ -267,6 +267,231 @@ static void patches_and_terrains_are_kept(void **state)
     wr_text_fini(&notes);
 }
 
+/* ---- projections ---- */
+
+/* A cube in a text STL, whose facets are without normals. */
+static void write_cube(const char *path, double side)
+{
+    static const int at[12][3] = { { 0, 2, 1 }, { 0, 3, 2 }, { 4, 5, 6 }, { 4, 6, 7 },
+                                   { 0, 1, 5 }, { 0, 5, 4 }, { 1, 2, 6 }, { 1, 6, 5 },
+                                   { 2, 3, 7 }, { 2, 7, 6 }, { 3, 0, 4 }, { 3, 4, 7 } };
+    WrText text = { 0 };
+    wr_text_add(&text, "solid cube\n");
+    for (int i = 0; i < 12; i++) {
+        wr_text_add(&text, "facet normal 0 0 0\nouter loop\n");
+        for (int k = 0; k < 3; k++) {
+            const int c = at[i][k];
+            wr_text_addf(&text, "vertex %.7g %.7g %.7g\n", (c & 3) % 3 ? side : 0, c & 2 ? side : 0,
+                         c >= 4 ? side : 0);
+        }
+        wr_text_add(&text, "endloop\nendfacet\n");
+    }
+    wr_text_add(&text, "endsolid cube\n");
+    write_file(path, wr_text_get(&text));
+    wr_text_fini(&text);
+}
+
+static bool same_mesh(const WrTriangles *a, const WrTriangles *b)
+{
+    return a->corner_count == b->corner_count && a->triangle_count == b->triangle_count &&
+           memcmp(a->corners, b->corners, (size_t)a->corner_count * sizeof *a->corners) == 0 &&
+           memcmp(a->triangles, b->triangles, (size_t)a->triangle_count * sizeof *a->triangles) ==
+               0;
+}
+
+static void check_version(const char *path, const char *version)
+{
+    WrError err;
+    WrImageFile *file = wr_image_file_open(path, &err);
+    if (!file) fail_msg("%s", err.text);
+    assert_string_equal(wr_image_file_attribute(file, 0, "wrinkle:version"), version);
+    wr_image_file_close(file);
+}
+
+static const char *surface_line(const WrSession *session, WrText *scene)
+{
+    wr_text_fini(scene);
+    wr_session_scene_text(session, scene);
+    return strstr(wr_text_get(scene), "surface ");
+}
+
+/* Documents hold the file's mesh and the settings: another projection after loading is that of the file. */
+static void projections_are_kept(void **state)
+{
+    (void)state;
+    static const char *const names[] = { "d.exr", "d.ora" };
+    static const char *const kinds[] = { "planar", "box", "cylindrical", "spherical", "uv" };
+    WrError err = { "" };
+    for (int i = 0; i < 10; i++) {
+        WrText notes = { 0 }, was = { 0 }, is = { 0 };
+        char line[160];
+        WrSession *a = session_with(&notes), *b = session_with(&notes);
+        write_cube("cube.stl", 7.3890561);
+        must_run(a, "table 8x8");
+        snprintf(line, sizeof line,
+                 "surface mesh file=cube.stl projection=%s cell=1.5cm,0.5in turn=33.7,-71.3,128.9 "
+                 "at=0.3,12.9,8.77 unit=cm crease=30",
+                 kinds[i / 2]);
+        must_run(a, line);
+        snprintf(line, sizeof line, "save %s", names[i % 2]);
+        must_run(a, line);
+        assert_int_equal(unlink("cube.stl"), 0);
+        if (!wr_session_open(b, names[i % 2], &err)) fail_msg("%s", err.text);
+        if (i % 2 == 0) check_version("d.exr", "10");
+        assert_true(same_mesh(scene_in(a)->triangles, scene_in(b)->triangles));
+        assert_true(wr_hash_equal(wr_session_hash(a), wr_session_hash(b)));
+        assert_string_equal(surface_line(a, &was), surface_line(b, &is));
+        const char *rest = i / 2 == 4 ? " unit=cm crease=30\n"
+                                      : " cell=15mm,12.7mm turn=33.7,-71.3,128.9 "
+                                        "at=0.3,12.9,8.77 unit=cm crease=30\n";
+        assert_non_null(strstr(wr_text_get(&is), rest));
+        must_run(a, "surface mesh projection=cylindrical cell=20mm");
+        must_run(b, "surface mesh projection=cylindrical cell=20mm");
+        assert_true(same_mesh(scene_in(a)->triangles, scene_in(b)->triangles));
+        must_run(b, "undo");
+        assert_string_equal(surface_line(b, &is), strstr(wr_text_get(&was), "surface "));
+        must_run(b, "redo");
+        assert_true(wr_hash_equal(wr_session_hash(a), wr_session_hash(b)));
+        wr_session_free(a);
+        wr_session_free(b);
+        wr_text_fini(&notes);
+        wr_text_fini(&was);
+        wr_text_fini(&is);
+    }
+}
+
+/* Settings that are left out stay; the file's own coordinates and normals return. */
+static void a_mesh_is_projected_without_its_file(void **state)
+{
+    (void)state;
+    WrText notes = { 0 }, text = { 0 };
+    WrSession *s = session_with(&notes);
+    write_cube("cube.stl", 30);
+    must_run(s, "surface mesh file=cube.stl");
+    WrTriangles *first = wr_triangles_share(scene_in(s)->triangles);
+    assert_null(strstr(wr_text_get(&notes), "millimetres"));
+    must_run(s, "save plain.exr");
+    check_version("plain.exr", "4"); /* as before there were projections */
+    assert_int_equal(unlink("cube.stl"), 0);
+    must_run(s, "surface mesh projection=box cell=7mm crease=30");
+    assert_true(scene_in(s)->triangles->faceted && scene_in(s)->triangles->mapped);
+    assert_int_equal(scene_in(s)->triangles->corner_count, 24);
+    assert_non_null(strstr(wr_text_get(&notes),
+                           "projection=box: 12 triangles; the file's numbers are taken as "
+                           "millimetres: unit= states another unit; the table does not run on "
+                           "across 12 edges, the longest run of them 360 long, at "));
+    must_run(s, "surface mesh cell=14mm");
+    assert_non_null(strstr(surface_line(s, &text), " projection=box cell=14mm crease=30\n"));
+    must_run(s, "surface mesh unit=in");
+    assert_non_null(
+        strstr(surface_line(s, &text), " projection=box cell=14mm unit=in crease=30\n"));
+    must_run(s, "surface mesh projection=uv crease=180");
+    assert_true(same_mesh(scene_in(s)->triangles, first));
+    assert_null(scene_in(s)->mesh_source);
+    must_run(s, "undo 4");
+    assert_true(scene_in(s)->triangles == first && !scene_in(s)->mesh_source);
+    must_run(s, "redo 4");
+    must_run(s, "object add other");
+    must_run(s, "surface sphere");
+    must_fail(s, "surface mesh cell=5mm", "a projection belongs to a file=");
+    wr_triangles_free(first);
+    wr_session_free(s);
+    wr_text_fini(&notes);
+    wr_text_fini(&text);
+}
+
+/* Units that files state: those of a 3MF file are kept, glTF is in metres. */
+static void units_are_the_files(void **state)
+{
+    (void)state;
+    WrText notes = { 0 }, text = { 0 };
+    WrSession *s = session_with(&notes);
+    must_run(s, "surface mesh file=" WR_SOURCE_DIR
+                "/tests/image/cases/box_inch.3mf projection=box cell=10mm");
+    assert_non_null(strstr(surface_line(s, &text), " projection=box cell=10mm unit=in\n"));
+    float most = 0;
+    for (int32_t i = 0; i < scene_in(s)->triangles->corner_count; i++)
+        most = fmaxf(most, fabsf(scene_in(s)->triangles->corners[i].u));
+    assert_near((double)most, 25.4, 1e-4); /* 10 inches from the middle to the farthest side */
+    assert_null(strstr(wr_text_get(&notes), "millimetres"));
+    must_run(s, "surface mesh unit=mm");
+    assert_non_null(strstr(surface_line(s, &text), " projection=box cell=10mm unit=mm\n"));
+    wr_session_free(s);
+    wr_text_fini(&notes);
+    wr_text_fini(&text);
+}
+
+/* Copies share the file's mesh in a document, each with its own projection. */
+static void objects_have_their_own_projections(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    WrError err = { "" };
+    WrSession *a = session_with(&notes), *b = session_with(&notes);
+    write_cube("cube.stl", 30);
+    must_run(a, "surface mesh file=cube.stl projection=box");
+    must_run(a, "object add second");
+    must_run(a, "surface mesh file=cube.stl projection=spherical cell=5mm");
+    must_run(a, "object add third");
+    must_run(a, "surface mesh file=cube.stl");
+    must_run(a, "save all.exr");
+    if (!wr_session_open(b, "all.exr", &err)) fail_msg("%s", err.text);
+    assert_true(wr_hash_equal(wr_session_hash(a), wr_session_hash(b)));
+    for (int i = 0; i < 3; i++)
+        assert_true(same_mesh(wr_scene_object(scene_in(a), i)->triangles,
+                              wr_scene_object(scene_in(b), i)->triangles));
+    assert_false(wr_scene_several_meshes(scene_in(b)));
+    wr_session_free(a);
+    wr_session_free(b);
+    wr_text_fini(&notes);
+}
+
+static void hostile_projections_are_refused(void **state)
+{
+    (void)state;
+    static const char *const bad[][2] = {
+        { "cell=0", "cell=0: must be" },
+        { "cell=-1mm", "cell=-1mm: must be" },
+        { "cell=nan", "cell=nan: must be" },
+        { "cell=1e308in", "cell=1e308in: must be" },
+        { "cell=1,2,3", "cell=1,2,3: must be" },
+        { "cell=10km", "cell=10km: must be" },
+        { "projection=round", "projection=round" },
+        { "turn=1,2", "turn=1,2: must be" },
+        { "turn=0,0,361", "turn=0,0,361: must be" },
+        { "at=0,0,1e10", "at=0,0,1e10: must be" },
+        { "unit=mile", "unit=mile" },
+        { "crease=-1", "crease=-1: must be" },
+        { "crease=180.5", "crease=180.5: must be" },
+        { "projection=box cell=1um unit=m", "reaches over more than 65536 cells" },
+        { "projection=planar at=1e9,0,0", "reaches over more than 65536 cells" },
+        { "projection=spherical cell=1e-300", "reaches over more than 65536 cells" },
+    };
+    WrText notes = { 0 };
+    char line[160];
+    WrSession *s = session_with(&notes);
+    write_cube("cube.stl", 30);
+    must_run(s, "surface mesh file=cube.stl projection=box");
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        for (int with = 0; with < 2; with++) {
+            snprintf(line, sizeof line, "surface mesh %s%s", with ? "file=cube.stl " : "",
+                     bad[i][0]);
+            must_fail(s, line, bad[i][1]);
+        }
+    must_run(s, "surface mesh projection=spherical cell=1e9 at=1e9,-1e9,1e9 turn=360,-360,1e-300");
+    must_run(s, "surface mesh projection=cylindrical cell=2mm,1e9 at=15,15,15 crease=0");
+    must_run(s, "surface mesh projection=cylindrical cell=31mm,5mm at=15,15,0");
+    assert_null(strstr(wr_text_get(&notes), "leaves a seam"));
+    must_run(s, "replicate 0.3,1.5");
+    assert_non_null(
+        strstr(wr_text_get(&notes), "replicate 0.3,1.5 leaves a seam on the mesh, which has "));
+    must_run(s, "surface mesh"); /* the square: nothing is left of the projection */
+    must_run(s, "surface mesh file=cube.stl");
+    assert_int_equal(scene_in(s)->projection.kind, WR_PROJECTION_UV);
+    wr_session_free(s);
+    wr_text_fini(&notes);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -280,6 +505,14 @@ int main(void)
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(another_content_is_an_error, enter_own_folder,
                                         leave_own_folder),
+        cmocka_unit_test_setup_teardown(projections_are_kept, enter_own_folder, leave_own_folder),
+        cmocka_unit_test_setup_teardown(a_mesh_is_projected_without_its_file, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(objects_have_their_own_projections, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(hostile_projections_are_refused, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(units_are_the_files, enter_own_folder, leave_own_folder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

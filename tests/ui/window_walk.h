@@ -319,9 +319,12 @@ static inline bool walk_open_surface(Walk *walk, int which)
 {
     if (which >= WR_SURFACE_COUNT) return false;
     WrError err;
-    char line[64];
+    char line[1024];
     wr_tab_show(walk->app, "Scene");
-    snprintf(line, sizeof line, "surface %s", wr_surfaces[which]->name);
+    const char *file =
+        " file=" WR_SOURCE_DIR "/tests/image/cases/box_inch.3mf projection=cylindrical";
+    snprintf(line, sizeof line, "surface %s%s", wr_surfaces[which]->name,
+             which == WR_SURFACE_mesh ? file : "");
     wr_session_run(walk->session, line, &err); /* those that need a file keep the previous state */
     return walk_name(walk, "surface %s", wr_surfaces[which]->name);
 }

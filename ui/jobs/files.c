@@ -503,7 +503,7 @@ static const char *const *file_endings(WrFilePurpose purpose)
     static const char *const stamps[] = { PICTURES, "gbr", "gih", "pat", NULL };
     static const char *const documents[] = { PICTURES, "wrinkle", "ora", NULL };
     static const char *const models[] = { "gltf", "glb", NULL };
-    static const char *const meshes[] = { "obj", "ply", "stl", "gltf", "glb", "off",
+    static const char *const meshes[] = { "obj", "ply", "stl", "gltf", "glb", "3mf", "off",
                                           "dae", "3ds", "fbx", "lwo",  "x3d", NULL };
     static const char *const patches[] = { "bpt", "txt", NULL };
     static const char *const grounds[] = { PICTURES, "r16", "r32", "raw", "hgt", "fits", NULL };

@@ -179,7 +179,7 @@ static void surface_file(WrApp *app)
     const bool left = wr_gui_field_left();
     wr_gui_tip(shape->kind == WR_SURFACE_terrain   ? "A picture: black is low, white is high"
                : shape->kind == WR_SURFACE_patches ? "A text of bicubic patches, such as teapot.bpt"
-                                                   : "OBJ, PLY, STL, glTF and others");
+                                                   : "OBJ, PLY, STL, glTF, 3MF and others");
     wr_gui_same_line(4);
     if (wr_gui_glyph("browse", WR_ICON_FOLDER, GLYPH, WR_COLOUR_LABEL)) browse(app, file);
     wr_gui_tip("Choose a file");
@@ -299,6 +299,7 @@ static void surface(WrApp *app)
         wr_profile_row(app);
     surface_texts(app);
     surface_file(app);
+    wr_projection_rows(app);
     const WrSceneParam *param = &wr_scene_params[WR_SCENE_PARAM_REPLICATE];
     const WrNumber spec = wr_param_slider(param);
     double ru = wr_app_scene(app)->replicate_u, rv = wr_app_scene(app)->replicate_v;

@@ -25,4 +25,5 @@ typedef struct WrSurfaceState {
 typedef struct WrApp WrApp;
 /* Run the surface command for that shape. text: texts of its row; NULL: the defaults. */
 void wr_surface_run(WrApp *app, const WrShape *shape, const char *const *text);
-void wr_profile_row(WrApp *app); /* for a surface with a profile */
+void wr_profile_row(WrApp *app);     /* for a surface with a profile */
+void wr_projection_rows(WrApp *app); /* for a mesh of a file */

@@ -1,0 +1,149 @@
+/* Texture coordinates and normals of an imported mesh: rows of the scene panel. */
+#include "ui/state/app_state.h"
+#include "ui/state/line.h"
+#include "ui/state/scene_line.h"
+#include "ui/state/session_view.h"
+#include "ui/toolkit/gui.h"
+#include "ui/panels/panel_scene.h"
+#include "ui/panels/param_row.h"
+
+#include "base/text.h"
+#include "scene/scene.h"
+#include "surface/projection.h"
+#include "surface/triangles.h"
+
+#include <math.h>
+#include <string.h>
+
+#define LIVE_MOST 20000 /* triangles that are projected anew during a drag */
+
+static void run(WrApp *app, const char *name, const double *values, int count)
+{
+    WrText line = { 0 };
+    wr_text_addf(&line, "surface mesh %s=", name);
+    for (int i = 0; i < count; i++) {
+        if (i > 0) wr_text_add(&line, ",");
+        wr_text_add_number(&line, values[i]);
+    }
+    wr_scene_run(app, &line);
+}
+
+static void run_word(WrApp *app, const char *name, const char *word)
+{
+    WrText line = { 0 };
+    wr_text_addf(&line, "surface mesh %s=%s", name, word);
+    wr_scene_run(app, &line);
+}
+
+/* Shows the values of a drag; runs the command at its end. */
+static void take(WrApp *app, WrEdit edit, const WrProjection *is, const char *name,
+                 const double *values, int count)
+{
+    if (edit == WR_EDIT_NONE) return;
+    WrScene *live = wr_app_live_begin(app);
+    const bool small = live->triangles && live->triangles->triangle_count <= LIVE_MOST;
+    if (!small || !wr_scene_project(live, is, NULL)) live->projection = *is;
+    if (edit == WR_EDIT_DONE) run(app, name, values, count);
+}
+
+/* Size of the mesh, to the projection's origin, mm. Rows are limited by it, so that the mesh stays within
+   WR_PROJECTION_CELLS: about an axis it is up to two pi times as wide. */
+static double reach_mm(const WrTriangles *mesh, const WrProjection *is)
+{
+    double away = 2 * mesh->radius;
+    for (int k = 0; k < 3 && is->placed; k++) away += fabs(is->at[k] - mesh->centre[k]);
+    return away * wr_length_unit_mm(is->unit);
+}
+
+static void cell_row(WrApp *app)
+{
+    WrProjection is = wr_app_scene(app)->projection;
+    const double least = 8 * reach_mm(wr_app_scene(app)->triangles, &is) / WR_PROJECTION_CELLS;
+    const WrNumber spec = { .low = 0.1,
+                            .high = 1000,
+                            .hard_low = least,
+                            .hard_high = 1e9,
+                            .reset = wr_projection_default.cell[0],
+                            .decimals = -1,
+                            .unit = "mm",
+                            .logarithmic = true,
+                            .tip = "Width and height of the table on the mesh" };
+    wr_gui_label("Cell");
+    const double half = (wr_gui_available() - wr_gui_px(8)) / 2;
+    const WrEdit w = wr_gui_number("cell on mesh w", half, &spec, &is.cell[0]);
+    wr_gui_same_line(8);
+    const WrEdit h = wr_gui_number("cell on mesh h", half, &spec, &is.cell[1]);
+    take(app, w > h ? w : h, &is, "cell", is.cell, 2);
+}
+
+static void place_rows(WrApp *app)
+{
+    static const char *const turn_ids[3] = { "projection turn x", "projection turn y",
+                                             "projection turn z" };
+    static const char *const at_ids[3] = { "projection at x", "projection at y",
+                                           "projection at z" };
+    const WrTriangles *mesh = wr_app_scene(app)->triangles;
+    const WrNumber turn = {
+        .low = -180,
+        .high = 180,
+        .hard_low = -360,
+        .hard_high = 360,
+        .decimals = 1,
+        .tip = "Turns the projection about the mesh's x, then y, then z, in degrees"
+    };
+    WrProjection is = wr_app_scene(app)->projection;
+    const double reach =
+        2 * mesh->radius + fabs(mesh->centre[0]) + fabs(mesh->centre[1]) + fabs(mesh->centre[2]);
+    const double most = fmin(1e9, fmin(is.cell[0], is.cell[1]) / wr_length_unit_mm(is.unit) *
+                                      WR_PROJECTION_CELLS / 32);
+    const WrNumber at = { .low = -reach,
+                          .high = reach,
+                          .hard_low = -fmax(most, reach),
+                          .hard_high = fmax(most, reach),
+                          .decimals = -1,
+                          .tip = "Origin of the projection, in the mesh's coordinates" };
+    const WrEdit turned = wr_param_vector("Turn", turn_ids, &turn, is.turn_deg);
+    take(app, turned, &is, "turn", is.turn_deg, 3);
+    if (!is.placed) memcpy(is.at, mesh->centre, sizeof is.at);
+    const WrEdit moved = wr_param_vector("Origin", at_ids, &at, is.at);
+    is.placed = true;
+    take(app, moved, &is, "at", is.at, 3);
+}
+
+static void normals_row(WrApp *app)
+{
+    WrProjection is = wr_app_scene(app)->projection;
+    const WrNumber spec = { .low = 0,
+                            .high = WR_CREASE_NONE,
+                            .reset = WR_CREASE_NONE,
+                            .decimals = 0,
+                            .tip = "Edges of a larger angle are sharp, others smooth; 180: the "
+                                   "normals of the file" };
+    wr_gui_label("Crease");
+    const WrEdit edit = wr_gui_number("crease", 0, &spec, &is.crease_deg);
+    take(app, edit, &is, "crease", &is.crease_deg, 1);
+}
+
+void wr_projection_rows(WrApp *app)
+{
+    static const char *const labels[WR_PROJECTIONS] = { "Of the file", "Planar", "Box",
+                                                        "Cylindrical", "Spherical" };
+    static const char *const units[WR_UNIT_COUNT] = { "mm (assumed)", "mm",   "cm",         "m",
+                                                      "inches",       "feet", "micrometres" };
+    const WrScene *scene = wr_app_scene(app);
+    if (scene->shape.kind != WR_SURFACE_mesh || !scene->triangles) return;
+    int kind = (int)scene->projection.kind, unit = (int)scene->projection.unit;
+    wr_gui_label("Projection");
+    if (wr_gui_choice("projection", 0, labels, WR_PROJECTIONS, &kind))
+        run_word(app, "projection", wr_projection_names[kind]);
+    wr_gui_tip("How the table is laid on the mesh");
+    if (scene->projection.kind != WR_PROJECTION_UV) {
+        cell_row(app);
+        place_rows(app);
+        wr_gui_label("Unit");
+        if (wr_gui_choice("mesh unit", 0, units, WR_UNIT_COUNT, &unit) && unit > 0)
+            run_word(app, "unit", wr_length_units[unit - WR_UNIT_MM]);
+        wr_gui_tip("Unit of the mesh's coordinates");
+    }
+    normals_row(app);
+}
