@@ -138,7 +138,9 @@ bool wr_mesh_solid_make(WrExportJob *job, WrSolidBody *body, WrError *err)
                                 .most = WR_SOLID_MAX };
     if (!ask.mesh) return wr_fail(err, "the mesh has no file: `surface mesh file=FILE` reads one");
     if (!ask.mesh->mapped)
-        return wr_fail(err, "the mesh has no texture coordinates, which relief needs");
+        return wr_fail(err, "the mesh has no texture coordinates, which relief needs: `surface "
+                            "mesh projection=box` "
+                            "makes them");
     wr_scene_stretch(job->scene, &ask.stretch, &cofactor);
     set_scale(&ask, job->options.solid_size);
     bool good = wr_mesh_relief_make(&relief, &ask, err);

@@ -22,6 +22,7 @@
 #include "base/pool.h"
 #include "base/progress.h"
 #include "field/field.h"
+#include "field/scheme_list.h"
 #include "render/tessellation/facet.h"
 #include "scene/scene.h"
 #include "surface/triangles.h"
@@ -33,7 +34,7 @@
 #define SMALLEST (1.0 / 64) /* longest side of a triangle that is bisected, in errors */
 #define SAMPLES_MAX 4096    /* of a triangle along u or v, or along a side */
 #define FORMULA 256         /* samples of a formula per cell */
-#define FINE_MAX 16e6       /* texels on the mesh; above it only their centres are sampled */
+#define FINE_MAX 4e6        /* texels on the mesh; above it only their centres are sampled */
 #define FEW 8               /* faces about a point, without allocation */
 #define SHARE 1e-3          /* of the error: F that differ by less are one */
 #define ONE_NORMAL 0.99996  /* cosine of half a degree: normals that differ by less are one */
@@ -643,7 +644,10 @@ bool wr_mesh_relief_make(WrMeshRelief *r, const WrMeshReliefRequest *request, Wr
     r->request = *request;
     r->texels[0] = fabs(scene->replicate_u) * (formula ? FORMULA : wr_field_width(request->field));
     r->texels[1] = fabs(scene->replicate_v) * (formula ? FORMULA : wr_field_height(request->field));
-    r->fine = request->fine && texels_of(r) < FINE_MAX ? 3.0 : 1.0;
+    /* a bilinear F has its kinks and extremes at texels' centres, and on the lines between them */
+    const bool straight =
+        !formula && (scene->scheme == WR_SCHEME_BILINEAR || scene->scheme == WR_SCHEME_CENTRAL);
+    r->fine = request->fine && !straight && texels_of(r) < FINE_MAX ? 3.0 : 1.0;
     r->low = INFINITY, r->high = -INFINITY;
     return add_faces(r, err) && refine_all(r, err);
 }
