@@ -156,6 +156,16 @@ static bool take_part(const WrBakeHit *at, double out[3])
     return true;
 }
 
+static const float hit_colour[3] = { 0.1f, 0.5f, 0.1f }, back_colour[3] = { 0.1f, 0.1f, 0.8f },
+                   miss_colour[3] = { 0.8f, 0.05f, 0.05f };
+
+static bool take_hit(const WrBakeHit *at, double out[3])
+{
+    (void)at;
+    for (int k = 0; k < 3; k++) out[k] = (double)hit_colour[k];
+    return true;
+}
+
 WR_ROWS(wr_bakes);
 const WrBakeRow wr_bakes[WR_BAKE_KINDS] = {
     [WR_ROW(WR_BAKE_HEIGHT)] = { "height", 1, false, take_height,
@@ -174,6 +184,8 @@ const WrBakeRow wr_bakes[WR_BAKE_KINDS] = {
                                     "greys, bright on edges, dark in grooves, 0.5 flat" },
     [WR_ROW(WR_BAKE_PARTS)] = { "parts", 3, false, take_part,
                                 "a colour for each part or material of the detailed mesh" },
+    [WR_ROW(WR_BAKE_HITS)] = { "hits", 3, false, take_hit,
+                               "where rays hit, green; miss, red; meet only backs, blue" },
 };
 WR_ROWS_END(wr_bakes, WR_BAKE_KINDS);
 
@@ -281,6 +293,10 @@ static void finish(Bake *bake)
         if (row->unit) {
             const WrVec3 n = v3_unit(vector(value), (WrVec3){ 0, 0, 1 });
             value[0] = (float)n.x, value[1] = (float)n.y, value[2] = (float)n.z;
+        }
+        if (texel->hits == 0 && texel->seen && bake->options->kind == WR_BAKE_HITS) {
+            memcpy(value, texel->seen & BACK ? back_colour : miss_colour, sizeof hit_colour);
+            bake->cover.owner[i] = 0;
         }
         if (texel->hits == 0) {
             report->missed += texel->seen & COVERED;

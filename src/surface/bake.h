@@ -23,6 +23,7 @@ typedef enum WrBakeKind {
     WR_BAKE_OCCLUSION, /* cosine-weighted part of the hemisphere that the detailed mesh leaves open */
     WR_BAKE_CURVATURE, /* mean curvature k as 1/2 + x / (2 + 2 |x|), x = k radius / 20 */
     WR_BAKE_PARTS,     /* a colour for each part of the detailed mesh */
+    WR_BAKE_HITS,      /* colours: hit, missed, only backs */
     WR_BAKE_KINDS
 } WrBakeKind;
 

@@ -387,9 +387,14 @@ static void texels_over_a_hole_are_counted_and_padded(void **state)
     wr_free(map);
     /* From a cage of the whole body the rays meet the far side from within. */
     options.cage = 3;
-    wr_free(bake(simple, detailed, options, &report));
+    options.kind = WR_BAKE_HITS;
+    map = bake(simple, detailed, options, &report);
     assert_int_equal(report.missed, 13 * 10);
     assert_int_equal(report.backs, 13 * 10);
+    int blue = 0;
+    for (int i = 0; i < WIDE * TALL; i++) blue += map[3 * i + 2] > 0.5f;
+    assert_int_equal(blue, 13 * 10);
+    wr_free(map);
     wr_triangles_free(simple);
     wr_triangles_free(detailed);
 }
