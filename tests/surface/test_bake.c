@@ -438,12 +438,13 @@ static void parts_meet_those_of_their_name(void **state)
 {
     (void)state;
     for (int match = 0; match < 2; match++) {
-        Arrays a = arrays_new(12, 6), b = arrays_new(8, 4);
+        Arrays a = arrays_new(12, 6), b = arrays_new(12, 6);
         add_plane(&a, "floor_low", 0, 1, 0, 0, 0.5);
         add_plane(&a, "shelf_low", 0, 1, 0.5, 0.5, 0.75);
         add_plane(&a, "lamp_low", 2, 3, 0, 0.75, 1);
         add_plane(&b, "shelf_high", 0, 1, 0.625, 0, 1);
-        add_plane(&b, "floor_high", 0, 1, 0.25, 0, 1);
+        add_plane(&b, "floor", 0, 1, 0.25, 0, 1); /* of both, the first that is hit */
+        add_plane(&b, "floor_high", 0, 1, 0.1875, 0, 1);
         WrTriangles *simple = arrays_done(&a, true), *detailed = arrays_done(&b, true);
         WrBakeReport report;
         float *map = bake(
