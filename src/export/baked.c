@@ -4,7 +4,7 @@
      n' = unit(x vT + y vB + z vN),   vB = sign vN x vT,   vT and vN interpolated and not normalised
 
    obtain n' = unit(n - grad F), grad F = Fu grad u + Fv grad v without its component along n
-   (surface/triangles.h). Of several points with one (u,v) the last triangle counts: mirrored ones have the same
+   (surface/triangles.h). The slopes of the object's normal map are added to F's. Of several points with one (u,v) the last triangle counts: mirrored ones have the same
    normal there. */
 #include "base/error.h"
 #include "base/memory.h"
@@ -12,6 +12,7 @@
 #include "export/job.h"
 #include "field/field.h"
 #include "scene/scene.h"
+#include "scene/texture_sample.h"
 #include "surface/surface.h"
 #include "surface/tangent_frames.h"
 #include "surface/triangles.h"
@@ -23,6 +24,8 @@ typedef struct Bake {
     WrExportJob *job;
     const WrTriangles *mesh;
     const WrTangent *frames; /* [3 triangles] */
+    const WrTangent
+        *lecture; /* [3 triangles] of the object's normal map, in frame=lecture; else NULL */
     WrUvCoverage cover;
 } Bake;
 
@@ -46,6 +49,31 @@ static void corners_of(const Bake *bake, int32_t triangle, WrVec3 p[3], WrVec3 n
     }
 }
 
+/* Adds the slopes of the object's normal map, as pictures of the object show it. */
+static void add_normal_map(const Bake *bake, int32_t triangle, const double l[3], WrVec3 vt,
+                           WrVec3 vn, double u, double v, double *fu, double *fv)
+{
+    const WrExportJob *job = bake->job;
+    const WrVec3 none = { 0, 0, 0 };
+    const WrTrianglesPlace place = { triangle, { l[1], l[2] } };
+    const bool table = !job->analytic;
+    WrMapAxes axes = { vt, v3_scale(v3_cross(vn, vt), bake->frames[3 * (size_t)triangle].sign),
+                       vn };
+    WrSurfacePoint at;
+    if (!job->scene->normals.image) return;
+    if (bake->lecture) {
+        const WrTangent *own = &bake->lecture[3 * (size_t)triangle];
+        axes.t = v3_unit(mixed(l, (WrVec3[3]){ own[0].t, own[1].t, own[2].t }), none);
+        axes.b = v3_unit(mixed(l, (WrVec3[3]){ own[0].b, own[1].b, own[2].b }), none);
+        axes.n = v3_unit(vn, none);
+    }
+    wr_triangles_at(bake->mesh, &place, &at);
+    wr_texture_sample_add_normals(
+        job->scene, !table || wr_field_wrap_u(job->field) == WR_WRAP_PERIODIC,
+        !table || wr_field_wrap_v(job->field) == WR_WRAP_PERIODIC, &at,
+        v3_len(axes.t) > 0 && v3_len(axes.b) > 0 ? &axes : NULL, u, v, fu, fv);
+}
+
 /* Normal of one texel. False if the point has no frame. */
 static bool bake_texel(const Bake *bake, int32_t triangle, int x, int y, WrVec3 *out)
 {
@@ -58,8 +86,9 @@ static bool bake_texel(const Bake *bake, int32_t triangle, int x, int y, WrVec3 
     const bool sloped = wr_triangle_gradients(p, (const double(*)[2])uv, &face, &gu, &gv);
     const WrVec3 vn = mixed(l, n), vt = mixed(l, t), unit = v3_unit(vn, sloped ? face : up);
     if (sloped && job->scene->bump != WR_BUMP_NONE) {
-        wr_scene_height(job->scene, job->field, (x + 0.5) / job->width,
-                        1.0 - (y + 0.5) / job->height, &f, &fu, &fv);
+        const double u = (x + 0.5) / job->width, v = 1.0 - (y + 0.5) / job->height;
+        wr_scene_height(job->scene, job->field, u, v, &f, &fu, &fv);
+        add_normal_map(bake, triangle, l, vt, vn, u, v, &fu, &fv);
         grad = v3_mad(v3_scale(gu, fu), gv, fv);
         grad = v3_mad(grad, unit, -v3_dot(unit, grad));
     }
@@ -106,14 +135,21 @@ static bool bake_all(Bake *bake, WrError *err)
 static bool bake_mesh(WrExportJob *job, const WrTriangles *mesh, WrError *err)
 {
     const size_t count = 3 * (size_t)mesh->triangle_count;
+    const bool map = job->scene->normals.image && !job->scene->normals.object &&
+                     wr_scene_frame(job->scene) == WR_FRAME_LECTURE;
     WrTangent *frames = wr_try_alloc(count, sizeof *frames, "the frames of a mesh", err);
-    Bake bake = { .job = job, .mesh = mesh, .frames = frames };
+    WrTangent *lecture =
+        map ? wr_try_alloc(count, sizeof *lecture, "the frames of a mesh", err) : NULL;
+    Bake bake = { .job = job, .mesh = mesh, .frames = frames, .lecture = lecture };
     const bool good =
-        frames &&
+        frames && (!map || lecture) &&
         wr_tangents_mikk(mesh->corners, mesh->triangles, mesh->triangle_count, frames, err) &&
+        (!map ||
+         wr_tangents_average(mesh->corners, mesh->triangles, mesh->triangle_count, lecture, err)) &&
         bake_all(&bake, err);
     wr_uv_coverage_fini(&bake.cover);
     wr_free(frames);
+    wr_free(lecture);
     return good;
 }
 
