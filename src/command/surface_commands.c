@@ -247,13 +247,18 @@ static WrTrianglePart *parts_of(const WrMesh *mesh)
     return parts;
 }
 
+static bool is_moved(const WrMesh *mesh)
+{
+    return mesh->origin[0] != 0 || mesh->origin[1] != 0 || mesh->origin[2] != 0;
+}
+
 /* Note the offset if the positions were moved to the origin. */
 static void note_origin(WrSession *session, const char *path, const WrMesh *mesh)
 {
     WrText text = { 0 };
     double away = 0;
+    if (!is_moved(mesh)) return;
     for (int k = 0; k < 3; k++) away = fmax(away, fabs(mesh->origin[k]));
-    if (!(away > 0)) return;
     wr_text_addf(&text, "%s: lies far from its file's origin: ", path);
     for (int k = 0; k < 3; k++) {
         if (k > 0) wr_text_add(&text, ",");
@@ -269,8 +274,8 @@ static void note_origin(WrSession *session, const char *path, const WrMesh *mesh
     wr_text_fini(&text);
 }
 
-static WrTriangles *read_triangles(WrSession *session, const char *path, WrLengthUnit *unit,
-                                   WrError *err)
+WrTriangles *wr_session_read_mesh(WrSession *session, const char *path, WrLengthUnit *unit,
+                                  bool *moved, WrError *err)
 {
     WrMesh mesh;
     if (!wr_mesh_read_attributes(path, &mesh, err)) return NULL;
@@ -284,9 +289,10 @@ static WrTriangles *read_triangles(WrSession *session, const char *path, WrLengt
                                        .parts = parts,
                                        .part_count = mesh.part_count };
     WrTriangles *made = wr_triangles_new(&source, err);
-    *unit = mesh.unit;
+    if (unit) *unit = mesh.unit;
     if (made) note_origin(session, path, &mesh);
     else wr_error_prefix(err, "%s: ", path);
+    if (moved) *moved = is_moved(&mesh);
     wr_free(parts);
     wr_mesh_fini(&mesh);
     return made;
@@ -407,7 +413,7 @@ static WrTriangles *read_held(WrSession *session, const WrCall *call, const WrSh
                               const char *path, WrLengthUnit *unit, WrError *err)
 {
     if (shape->kind == WR_SURFACE_terrain) return terrain_read(session, path, shape, err);
-    if (shape->kind == WR_SURFACE_mesh) return read_triangles(session, path, unit, err);
+    if (shape->kind == WR_SURFACE_mesh) return wr_session_read_mesh(session, path, unit, NULL, err);
     return read_patches(path, (WrPatchTable)wr_call_choice(call, "table"), err);
 }
 

@@ -288,9 +288,8 @@ const WrExportKind wr_export_kinds[] = {
       .describe = wr_export_object_describe },
     { .name = "normal-baked",
       .label = "normal map baked for the mesh",
-      .help =
-          "the mesh's own normals as the bump turns them, in the frames of MikkTSpace: Blender, "
-          "Unreal, Unity, Godot, glTF",
+      .help = "the mesh's own normals as the bump and its normal map turn them, in the frames of "
+              "MikkTSpace: Blender, Unreal, Unity, Godot, glTF",
       .options = { DEPTH,
                    DITHER,
                    OBJECT,

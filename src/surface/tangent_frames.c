@@ -404,3 +404,14 @@ bool wr_tangents_mikk(const WrTriangleCorner *corners, const WrTriangle *triangl
     wr_free(m.frames.tri);
     return good;
 }
+
+bool wr_tangent_components(WrVec3 vt, WrVec3 vn, double sign, WrVec3 of, WrVec3 *out)
+{
+    const WrVec3 vb = v3_scale(v3_cross(vn, vt), sign);
+    const WrVec3 bn = v3_cross(vb, vn), nt = v3_cross(vn, vt), tb = v3_cross(vt, vb);
+    const double det = v3_dot(vt, bn);
+    if (!(fabs(det) > 1e-12)) return false;
+    *out = v3_unit((WrVec3){ v3_dot(of, bn) / det, v3_dot(of, nt) / det, v3_dot(of, tb) / det },
+                   (WrVec3){ 0, 0, 1 });
+    return true;
+}

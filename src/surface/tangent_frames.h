@@ -34,3 +34,8 @@ bool wr_tangents_average(const WrTriangleCorner *corners, const WrTriangle *tria
  * its normal, has (1,0,0) and sign -1; -0 is 0. */
 bool wr_tangents_mikk(const WrTriangleCorner *corners, const WrTriangle *triangles, int32_t count,
                       WrTangent *out, WrError *err);
+
+/* Unit components x, y, z of a vector, for programs that shade by unit(x vT + y vB + z vN), vB = sign vN x vT:
+ * vT and vN are interpolated between corners, and neither unit nor perpendicular. Returns false, with unchanged
+ * output, if the three are almost in one plane. */
+bool wr_tangent_components(WrVec3 vt, WrVec3 vn, double sign, WrVec3 of, WrVec3 *out);

@@ -383,6 +383,45 @@ static void numbers_between_two_codes_are_written_too(void **state)
     wr_session_free(s);
 }
 
+/* The object's normal map and bump painted over it leave as one map. */
+static void a_baked_map_holds_the_normal_map_too(void **state)
+{
+    (void)state;
+    static float both[60 * 40 * 4], one[60 * 40 * 4], bump[60 * 40 * 4];
+    static const char *const frames[] = { "mikk", "lecture", "gradient" };
+    write_ball("ball.obj");
+    for (int k = 0; k < 3; k++) {
+        Said said = { "" };
+        WrText line = { 0 };
+        WrSession *s = told_session(&said);
+        must_run(s, "table 512x512");
+        must_run(s, "formula fourier terms=3,2,0.5,0,0");
+        must_run(s, "surface mesh file=ball.obj");
+        must_run(s, "bump height=0.02 scheme=bspline");
+        must_run(s, "export normal-baked first.exr");
+        wr_text_addf(&line, "normalmap first.exr frame=%s strength=0.7", frames[k]);
+        must_run(s, wr_text_get(&line));
+        must_run(s, "formula fourier terms=0,5,0.3,0,0 blend=replace");
+        draw(s, both);
+        must_run(s, "export normal-baked both.exr");
+        must_run(s, "normalmap off");
+        draw(s, bump);
+        must_run(s, "fill 0");
+        must_run(s, "normalmap both.exr frame=mikk");
+        draw(s, one);
+        double sum = 0, map = 0;
+        for (int i = 0; i < 60 * 40 * 4; i++) {
+            sum += pow((double)(both[i] - one[i]), 2), map += pow((double)(both[i] - bump[i]), 2);
+        }
+        const double rms = sqrt(sum / (60 * 40 * 4)), rms_map = sqrt(map / (60 * 40 * 4));
+        if (getenv("WR_SHOW")) printf("%s: rms %g, of the map %g\n", frames[k], rms, rms_map);
+        if (!(rms < 6e-4 && rms_map > 4 * rms))
+            fail_msg("%s: rms %g, of the map %g", frames[k], rms, rms_map);
+        wr_text_fini(&line);
+        wr_session_free(s);
+    }
+}
+
 /* On a mesh, by MikkTSpace: shaded with those frames it equals the bumped picture. */
 static void a_baked_map_gives_the_bumped_picture(void **state)
 {
@@ -431,6 +470,7 @@ int main(void)
         cmocka_unit_test(an_exported_map_gives_the_bumped_picture),
         cmocka_unit_test(a_map_along_the_axes_gives_the_bumped_picture),
         cmocka_unit_test(a_baked_map_gives_the_bumped_picture),
+        cmocka_unit_test(a_baked_map_holds_the_normal_map_too),
     };
     return cmocka_run_group_tests(tests, enter_state_folder, remove_folder);
 }

@@ -16,7 +16,7 @@ clauses_max=0 # first lines of headers that begin with a clause instead of a nou
 coined_max=0   # words of the project's own that the field has another word for; none is in the glossary of src/README.md
 
 mind='knows|tells|asks|says|minds|wishes|wears|wants|thinks|believes|remembers|forgets|sees|likes|told|asked|wished|brings|gives|takes'
-coined='cage|caged|knots|rooms|brothers|shelf|wearer'
+coined='caged|knots|rooms|brothers|shelf|wearer'
 clause='what|how|where|which|whether|when|who|that|why|all|of|to|as'
 
 # The text of comments, one line each, from source files on standard input.

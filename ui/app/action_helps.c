@@ -122,6 +122,8 @@ const char *const wr_action_helps[] = {
     ROW(grid, "Draw lines at even distances into the table"),
     ROW(import, "Take a picture's brightness as heights of the active layer"),
     ROW(gltf, "Take the materials and pictures of a glTF or GLB file for the objects"),
+    ROW(bake_relief, "Make a layer of a detailed mesh's relief over the object's own mesh"),
+    ROW(bake_normals, "Make the object's normal map from a detailed mesh"),
     ROW(zoom_in, "Show the table larger"),
     ROW(zoom_out, "Show the table smaller"),
     ROW(zoom_100, "Show each texel as one pixel"),

@@ -105,6 +105,8 @@ static WrFileTake *const takes[] = {
     [WR_ROW(WR_FILE_PATCHES)] = wr_surface_take_patches,
     [WR_ROW(WR_FILE_TERRAIN)] = wr_surface_terrain_file_chosen,
     [WR_ROW(WR_FILE_GLTF)] = wr_file_take_gltf,
+    [WR_ROW(WR_FILE_BAKE_RELIEF)] = wr_file_take_bake_relief,
+    [WR_ROW(WR_FILE_BAKE_NORMALS)] = wr_file_take_bake_normals,
     [WR_ROW(WR_FILE_PRESET)] = wr_preset_browser_overwrite,
 };
 WR_ROWS_END(takes, WR_FILE_PURPOSES);

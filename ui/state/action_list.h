@@ -117,6 +117,8 @@
     X(fill, "")                                                                                    \
     X(grid, "")                                                                                    \
     X(gltf, "")                                                                                    \
+    X(bake_relief, "")                                                                             \
+    X(bake_normals, "")                                                                            \
     X(import, "")                                                                                  \
     X(zoom_in, "+ = Shift+= Ctrl++ Ctrl+= Keypad_+")                                               \
     X(zoom_out, "- Ctrl+- Keypad_-")                                                               \

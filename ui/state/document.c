@@ -506,17 +506,53 @@ void wr_file_take_save(WrApp *app, const char *path)
     save_to(app, path);
 }
 
-void wr_file_take_gltf(WrApp *app, const char *path)
+static void run_on_file(WrApp *app, const char *verb, const char *path, const char *rest)
 {
     WrText line = { 0 };
-    wr_text_add(&line, "gltf ");
+    wr_text_add(&line, verb);
     wr_text_add_word(&line, path);
+    wr_text_add(&line, rest);
     wr_app_run_slow(app, wr_text_get(&line));
     wr_text_fini(&line);
 }
 
+static void choose(WrApp *app, WrFilePurpose purpose)
+{
+    if (!wr_files_request_path(app->files, purpose, NULL, "")) wr_dialog_open(app, WR_DIALOG_FILE);
+}
+
+void wr_file_take_gltf(WrApp *app, const char *path)
+{
+    run_on_file(app, "gltf ", path, "");
+}
+
 void wr_app_choose_gltf(WrApp *app)
 {
-    if (!wr_files_request_path(app->files, WR_FILE_GLTF, NULL, ""))
-        wr_dialog_open(app, WR_DIALOG_FILE);
+    choose(app, WR_FILE_GLTF);
+}
+
+void wr_file_take_bake_relief(WrApp *app, const char *path)
+{
+    run_on_file(app, "bake ", path, "");
+}
+
+void wr_file_take_bake_normals(WrApp *app, const char *path)
+{
+    run_on_file(app, "bake ", path, " map=normal samples=2");
+}
+
+void wr_app_choose_bake_relief(WrApp *app)
+{
+    choose(app, WR_FILE_BAKE_RELIEF);
+}
+
+void wr_app_choose_bake_normals(WrApp *app)
+{
+    choose(app, WR_FILE_BAKE_NORMALS);
+}
+
+bool wr_app_can_bake(const WrApp *app)
+{
+    const WrScene *scene = wr_app_scene(app);
+    return scene->shape.kind == WR_SURFACE_mesh && scene->triangles;
 }

@@ -76,5 +76,11 @@ void wr_file_take_save(WrApp *app, const char *path);
 void wr_file_take_import(WrApp *app, const char *path);
 void wr_file_take_gltf(WrApp *app, const char *path);
 void wr_app_choose_gltf(WrApp *app); /* choose a file whose material the active object gets */
+/* Bake a detailed mesh, or choose its file. */
+void wr_file_take_bake_relief(WrApp *app, const char *path);
+void wr_file_take_bake_normals(WrApp *app, const char *path);
+void wr_app_choose_bake_relief(WrApp *app);
+void wr_app_choose_bake_normals(WrApp *app);
+bool wr_app_can_bake(const WrApp *app); /* the active object is a mesh of a file */
 void wr_file_take_export(WrApp *app, const char *path);
 void wr_file_take_history(WrApp *app, const char *path);

@@ -19,6 +19,7 @@
 
 typedef struct WrError WrError;
 typedef struct WrField WrField;
+typedef struct WrRayTree WrRayTree;
 typedef struct WrTriangles WrTriangles;
 
 #define WR_SHADOW_RAYS_RAYS 256 /* maximum number of rays to an area lamp */
@@ -41,11 +42,8 @@ typedef struct WrShadowRaysBody {
     int quad_count;
     bool endless;
     WrTriangles *triangles; /* own share; NULL: closed form */
-    /* bounding boxes as a heap: the children of k are 2 k + 1 and 2 k + 2; owned */
-    float (*boxes)[6];
-    int32_t *order; /* triangles sorted by box; owned */
-    int32_t leaves; /* leaves of the heap, a power of two */
-    double lift;    /* distance from the surface at which rays start */
+    WrRayTree *tree;        /* of the triangles; owned */
+    double lift;            /* distance from the surface at which rays start */
 } WrShadowRaysBody;
 
 /* A caster in the space of another object: o = m p + from, for p in that object's units, stretched. */

@@ -1,0 +1,316 @@
+/* The command bake: quantities of a detailed mesh file, as a layer or a picture of the active object. */
+#include "base/error.h"
+#include "base/hash.h"
+#include "base/memory.h"
+#include "base/message.h"
+#include "base/progress.h"
+#include "base/text.h"
+#include "command/args.h"
+#include "command/commands.h"
+#include "command/session_internal.h"
+#include "document/document.h"
+#include "field/field.h"
+#include "image/image.h"
+#include "scene/normal_map.h"
+#include "scene/scene.h"
+#include "surface/bake.h"
+#include "surface/triangles.h"
+
+#include <math.h>
+#include <string.h>
+
+#define READ 0.3 /* of the progress, for the file */
+
+static const char *const matches[] = { "all", "name", NULL };
+
+static bool cage_parse(const char *text, double *cage)
+{
+    *cage = 0;
+    if (strcmp(text, "auto") == 0) return true;
+    return wr_number_parse(text, strlen(text), cage) && *cage > 0 && *cage <= 1e9;
+}
+
+static bool check_cage(const void *ctx, const char *name, const char *value, WrError *err)
+{
+    double cage;
+    (void)ctx;
+    if (cage_parse(value, &cage)) return true;
+    return wr_fail(err, "%s=%.40s: must be auto, or a distance above 0, up to 1e9", name, value);
+}
+
+/* Checks before the file is read. */
+static bool check(const WrSession *session, const WrCall *call, WrBakeKind kind, WrError *err)
+{
+    const WrDocument *document = session->state.document;
+    const WrScene *scene = document->scene;
+    const WrField *like = document->layers[0].heights;
+    const double *size = wr_call_arg(call, "size")->numbers;
+    if (scene->shape.kind != WR_SURFACE_mesh || !scene->triangles)
+        return wr_fail(err,
+                       "the object is a %s: a detailed mesh is baked onto a mesh (`surface mesh "
+                       "file=FILE`)",
+                       wr_surfaces[scene->shape.kind]->name);
+    if (kind != WR_BAKE_HEIGHT) return true;
+    if (document->layer_count >= WR_LAYERS_MAX)
+        return wr_fail(err, "a document has up to %d layers", WR_LAYERS_MAX);
+    if (!(fabs(scene->height) > 0))
+        return wr_fail(err, "bump height=0: heights have no size on it; choose another height");
+    if (scene->replicate_u != 1 || scene->replicate_v != 1)
+        return wr_fail(err,
+                       "replicate %g,%g: the table repeats on the object; bake heights at "
+                       "`replicate 1,1`",
+                       scene->replicate_u, scene->replicate_v);
+    if (wr_call_given(call, "size") &&
+        (size[0] != wr_field_width(like) || size[1] != wr_field_height(like)))
+        return wr_fail(err,
+                       "size=%gx%g: heights become a layer, which has the table's size %dx%d; "
+                       "change that first (`adjust resize`)",
+                       size[0], size[1], wr_field_width(like), wr_field_height(like));
+    return true;
+}
+
+/* ---- results ---- */
+
+/* Distances become heights of a new layer above the active one, in the table's unit. */
+static bool put_layer(WrSession *session, float *map, WrError *err)
+{
+    WrDocument *document = session->state.document;
+    const WrField *like = document->layers[0].heights;
+    const int w = wr_field_width(like), h = wr_field_height(like);
+    const double by = 1 / document->scene->height;
+    for (size_t i = 0; i < (size_t)w * (size_t)h; i++) map[i] = (float)((double)map[i] * by);
+    WrLayer layer = wr_layer_make("baked", like);
+    WrField *heights = wr_field_new(w, h, wr_field_wrap_u(like), wr_field_wrap_v(like), 0, err);
+    if (!heights) {
+        wr_layer_fini(&layer);
+        return false;
+    }
+    wr_field_write(heights, 0, 0, w, h, map, (size_t)w);
+    wr_field_free(layer.heights);
+    wr_field_free(layer.cover);
+    layer.heights = heights;
+    layer.cover = NULL;
+    wr_document_insert(document, document->active + 1, layer);
+    document->active++;
+    return true;
+}
+
+/* The picture's name is the file's; its checksum is of its own numbers, since the file holds no picture. */
+static void name_picture(WrTextureSample *laid, const char *path, const WrImage *image)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
+    wr_texture_sample_fini(laid);
+    laid->path = wr_strdup(path);
+    wr_sha256_bytes(image->data, count * sizeof *image->data, laid->sha256);
+    laid->own = true;
+    laid->ru = laid->rv = 1;
+}
+
+static bool put_normals(WrSession *session, const char *path, WrImage *image, bool object,
+                        WrError *err)
+{
+    int64_t away = 0;
+    WrImage *taken = object ? wr_image_share(image) : wr_normal_map_raised(image, &away, err);
+    if (!taken) return false;
+    if (away)
+        wr_session_note(session, "%lld texels that look away were brought to the horizon",
+                        (long long)away);
+    WrScene *scene = wr_scene_clone(session->state.document->scene);
+    WrNormalMap *map = &scene->normals;
+    wr_image_free(map->image);
+    wr_texture_sample_fini(&map->laid);
+    *map = (WrNormalMap){ .image = taken,
+                          .channels = 3,
+                          .object = object,
+                          .frame = object ? WR_FRAME_AUTO : WR_FRAME_MIKK,
+                          .strength = 1 };
+    name_picture(&map->laid, path, taken);
+    wr_session_replace_scene(session, scene);
+    return true;
+}
+
+static bool put_picture(WrSession *session, const char *path, const WrBakeOptions *options,
+                        const float *map, WrError *err)
+{
+    const int channels = wr_bakes[options->kind].channels;
+    WrImage *image = wr_image_new(options->width, options->height, channels, err);
+    bool good = image != NULL;
+    if (!good) return false;
+    image->type = WR_PIXEL_F32;
+    memcpy(image->data, map,
+           (size_t)options->width * (size_t)options->height * (size_t)channels * sizeof *map);
+    if (wr_bakes[options->kind].unit) {
+        good = put_normals(session, path, image, options->kind == WR_BAKE_OBJECT_NORMAL, err);
+        wr_image_free(image);
+        return good;
+    }
+    WrScene *scene = wr_scene_clone(session->state.document->scene);
+    wr_scene_drop_colour(scene);
+    scene->colour = image;
+    name_picture(&scene->colour_laid, path, image);
+    wr_session_replace_scene(session, scene);
+    return true;
+}
+
+static void note_bake(WrSession *session, const char *path, const WrBakeOptions *options,
+                      const WrBakeReport *report)
+{
+    WrText text = { 0 };
+    wr_message_addf(&text, "%s: %s baked into %dx%d, cage %.4g", path, wr_bakes[options->kind].name,
+                    options->width, options->height, report->cage);
+    if (options->kind == WR_BAKE_HEIGHT && report->low <= report->high)
+        wr_message_addf(&text, ", distances %.4g to %.4g", report->low, report->high);
+    wr_message_addf(&text, "; %lld texels", (long long)report->texels);
+    if (report->missed)
+        wr_message_addf(&text,
+                        ", %lld of which missed it (%lld met only backs) and are filled from their "
+                        "neighbours",
+                        (long long)report->missed, (long long)report->backs);
+    else wr_message_addf(&text, ", none missed");
+    if (report->frameless)
+        wr_message_addf(&text, "; %lld have no tangent frame", (long long)report->frameless);
+    if (report->alone)
+        wr_message_addf(&text, "; %d parts of the object have none of their name in the file",
+                        report->alone);
+    wr_session_note(session, "%s", wr_text_get(&text));
+    wr_text_fini(&text);
+}
+
+/* ---- the command ---- */
+
+static WrTriangles *read_high(WrSession *session, WrCall *call, const char *path, WrError *err)
+{
+    bool moved = false;
+    WrTriangles *high = wr_session_check_sha256(call, path, err)
+                            ? wr_session_read_mesh(session, path, NULL, &moved, err)
+                            : NULL;
+    if (!high || !moved) return high;
+    wr_fail(err, "%s: lies far from its file's origin; move both meshes near it", path);
+    wr_triangles_free(high);
+    return NULL;
+}
+
+static WrBakeOptions options_of(const WrSession *session, const WrCall *call)
+{
+    const WrField *like = session->state.document->layers[0].heights;
+    const double *size = wr_call_arg(call, "size")->numbers;
+    const bool given = wr_call_given(call, "size");
+    WrBakeOptions options = { .kind = (WrBakeKind)wr_call_choice(call, "map"),
+                              .width = given ? (int)size[0] : wr_field_width(like),
+                              .height = given ? (int)size[1] : wr_field_height(like),
+                              .samples = (int)wr_call_number(call, "samples"),
+                              .padding = (int)wr_call_number(call, "padding"),
+                              .match = wr_call_choice(call, "match") == 1,
+                              .pool = session->options.pool };
+    if (wr_call_given(call, "cage")) cage_parse(wr_call_arg(call, "cage")->text, &options.cage);
+    return options;
+}
+
+static bool bake(WrSession *session, const char *name, const WrTriangles *high,
+                 const WrBakeOptions *options, WrError *err)
+{
+    WrBakeReport report;
+    WrProgressPart part;
+    const WrProgress *outer = wr_progress_enter(&part, READ, 1);
+    float *map = wr_bake(session->state.document->scene->triangles, high, options, &report, err);
+    wr_progress_set(outer);
+    if (!map) return false;
+    bool good = report.missed < report.texels ||
+                wr_fail(err,
+                        "%s: none of %lld rays met its front within the cage distance %g (%lld met "
+                        "backs): do both meshes have one place and unit?",
+                        name, (long long)report.texels, report.cage, (long long)report.backs);
+    if (good) note_bake(session, name, options, &report);
+    good =
+        good && (options->kind == WR_BAKE_HEIGHT ? put_layer(session, map, err)
+                                                 : put_picture(session, name, options, map, err));
+    wr_free(map);
+    return good;
+}
+
+static bool run_bake(WrSession *session, WrCall *call, WrError *err)
+{
+    const WrBakeOptions options = options_of(session, call);
+    const char *name = wr_call_arg(call, "FILE")->text;
+    if (!check(session, call, options.kind, err)) return false;
+    char *path = wr_session_input_path(session, name);
+    WrTriangles *high = read_high(session, call, path, err);
+    const bool good = high && bake(session, name, high, &options, err);
+    wr_triangles_free(high);
+    wr_free(path);
+    return good;
+}
+
+static const char *map_name(int i)
+{
+    return i < WR_BAKE_KINDS ? wr_bakes[i].name : NULL;
+}
+
+static void map_explain(int i, WrText *text)
+{
+    wr_text_add(text, wr_bakes[i].help);
+}
+
+static const WrArgSpec args_bake[] = {
+    { PLACE("FILE"), .type = WR_ARG_PATH,
+      .help = "the detailed mesh, at the place and in the unit of the object's own" },
+    { .name = "map",
+      .type = WR_ARG_CHOICE,
+      .choice = map_name,
+      .explain = map_explain,
+      .fallback_text = "height",
+      .help = "the quantity" },
+    { .name = "cage",
+      .type = WR_ARG_TEXT,
+      .shape = "auto|DISTANCE",
+      .check = check_cage,
+      .help = "distance from the object, outwards and inwards, within which rays meet the detailed "
+              "mesh. auto, or left out: just enough for all of it" },
+    { .name = "samples",
+      .type = WR_ARG_NUMBER,
+      .low = 1,
+      .high = WR_BAKE_SAMPLES_MAX,
+      .whole = true,
+      .fallback = NUMBERS(1),
+      .help = "rays along each side of a texel, of which the mean is taken" },
+    { .name = "size",
+      .type = WR_ARG_SIZE,
+      .low = 1,
+      .high = WR_FIELD_MAX,
+      .unit = "texels",
+      .help = "of the picture. Left out, as the table" },
+    { .name = "padding",
+      .type = WR_ARG_NUMBER,
+      .low = 0,
+      .high = WR_BAKE_PADDING_MAX,
+      .whole = true,
+      .fallback = NUMBERS(8),
+      .unit = "texels",
+      .help = "how far it is continued about the islands of (u,v), and into holes" },
+    { .name = "match",
+      .type = WR_ARG_CHOICE,
+      .words = matches,
+      .fallback_text = "all",
+      .help = "name: each part of the object meets only parts of its own name, not counting an "
+              "ending _low or _high" },
+    { .name = "sha256",
+      .type = WR_ARG_SHA256,
+      .help = "of the file: another content is then an error" },
+    { 0 }
+};
+
+const WrCommand wr_command_bake = {
+    .name = "bake",
+    .kind = WR_CLASS_EDIT,
+    .args = args_bake,
+    .run = run_bake,
+    .help = "relief and other maps of a detailed mesh, for the object's mesh",
+    .details =
+        "From each texel's point on the object a ray starts at the cage distance outside, along "
+        "the interpolated normal, and runs inwards to the first triangle of the detailed mesh that "
+        "shows its front. Heights are divided by `bump height=`, so that bump and displacement are "
+        "as high as the mesh. Pictures lie once over the object's (u,v). The slopes of heights and "
+        "normals add up: bake one of the two. A note reports the rays that missed or met only "
+        "backs.",
+    .example = "bake stone-high.ply map=normal size=2048x2048 samples=2"
+};
