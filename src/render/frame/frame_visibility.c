@@ -155,6 +155,7 @@ bool wr_renderer_pick_triangle(WrRenderer *renderer, double x, double y, int32_t
         !wr_renderer_pick(renderer, x, y, &u, &v, &face))
         return false;
     *triangle = renderer->scratch[0]->picked;
+    if (renderer->dice.base_of) *triangle = renderer->dice.base_of[*triangle];
     return true;
 }
 
