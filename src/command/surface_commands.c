@@ -337,7 +337,8 @@ static void add_map(WrText *text, const WrTriangles *mesh)
               "corners differ from another by a rounding of u, v: tangent frames part there");
 }
 
-static void note_mesh(WrSession *session, const char *path, const WrTriangles *mesh)
+/* own: its own texture coordinates are used. */
+static void note_mesh(WrSession *session, const char *path, const WrTriangles *mesh, bool own)
 {
     WrText text = { 0 };
     const WrTrianglesReport *report = &mesh->report;
@@ -349,7 +350,7 @@ static void note_mesh(WrSession *session, const char *path, const WrTriangles *m
     add_count(&text, report->no_normal + report->bad_normal,
               "corners without a normal have the mean of their faces'");
     add_count(&text, report->face_normal, "corners have their face's normal");
-    add_map(&text, mesh);
+    if (own) add_map(&text, mesh);
     char ending[16];
     wr_path_ending(path, ending);
     if (strcmp(ending, "gltf") == 0 || strcmp(ending, "glb") == 0)
@@ -418,10 +419,10 @@ static WrTriangles *read_held(WrSession *session, const WrCall *call, const WrSh
 }
 
 static void note_held(WrSession *session, WrSurfaceKind kind, const char *path,
-                      const WrTriangles *mesh)
+                      const WrTriangles *mesh, bool own)
 {
     if (kind == WR_SURFACE_terrain) terrain_note(session, path, mesh);
-    else if (kind == WR_SURFACE_mesh) note_mesh(session, path, mesh);
+    else if (kind == WR_SURFACE_mesh) note_mesh(session, path, mesh, own);
     else note_patches(session, path, mesh);
 }
 
@@ -536,7 +537,9 @@ static WrTriangles *find_mesh(WrSession *session, WrCall *call, const WrShape *s
         mesh = NULL;
         wr_fail(err, "%s", wr_error_message(&why));
     }
-    if (mesh) note_held(session, shape->kind, path, mesh);
+    const bool own = shape->kind != WR_SURFACE_mesh || !wr_call_given(call, "projection") ||
+                     wr_call_choice(call, "projection") == WR_PROJECTION_UV;
+    if (mesh) note_held(session, shape->kind, path, mesh, own);
     wr_free(path);
     return mesh;
 }

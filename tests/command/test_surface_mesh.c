@@ -414,6 +414,7 @@ static void units_are_the_files(void **state)
         most = fmaxf(most, fabsf(scene_in(s)->triangles->corners[i].u));
     assert_near((double)most, 25.4, 1e-4); /* 10 inches from the middle to the farthest side */
     assert_null(strstr(wr_text_get(&notes), "millimetres"));
+    assert_null(strstr(wr_text_get(&notes), "no texture coordinates"));
     must_run(s, "surface mesh unit=mm");
     assert_non_null(strstr(surface_line(s, &text), " projection=box cell=10mm unit=mm\n"));
     wr_session_free(s);
