@@ -223,6 +223,7 @@ WrRayTree *wr_ray_tree_new(const WrTriangles *mesh, int32_t first, int32_t count
     const size_t n = (size_t)count;
     WrRayTree *tree = wr_alloc(1, sizeof *tree);
     Builder b = { .tree = tree };
+    WR_ASSERT(count > 0);
     tree->mesh = wr_triangles_share(mesh);
     bool good = (b.boxes = wr_try_alloc_unset(n, sizeof *b.boxes, what, err)) &&
                 (b.order = wr_try_alloc_unset(n, sizeof *b.order, what, err)) &&
