@@ -227,7 +227,7 @@ static bool set_grid(WrExportOptions *options, const char *value, WrError *err)
     {                                                                                              \
         { "size", "MM",                                                                            \
           "longest side of the surface without its relief; left out: of a plane what "             \
-          "`cell mm=on` says, of a mesh its file's own unit as millimetres, else 100",             \
+          "`cell mm=on` says, of a mesh its file's unit, else 100",                                \
           wr_export_set_solid_size },                                                              \
             { "error", "MM", "how far a texel may be from its triangle; left out: 0.05",           \
               wr_export_set_solid_error },                                                         \

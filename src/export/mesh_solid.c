@@ -3,6 +3,7 @@
 #include "export/mesh_solid.h"
 
 #include "base/error.h"
+#include "base/length_unit.h"
 #include "base/memory.h"
 #include "export/job.h"
 #include "export/solid_body.h"
@@ -73,11 +74,12 @@ static void limit_folds(WrMeshRelief *r, WrExportReport *report)
 
 /* ---- the whole ---- */
 
-/* Millimetres per unit of the mesh: 1, with its own origin, or such that its longest side is `size`. */
+/* Millimetres per unit of the mesh: those of its file's unit, with its own origin, or such that its longest side is
+   `size`. */
 static void set_scale(WrMeshReliefRequest *ask, double size)
 {
     WrVec3 low = { INFINITY, INFINITY, INFINITY }, high = { -INFINITY, -INFINITY, -INFINITY };
-    ask->scale = 1.0;
+    ask->scale = wr_length_unit_mm(ask->scene->projection.unit);
     if (!(size > 0)) return;
     for (int32_t i = 0; i < ask->mesh->corner_count; i++) {
         const float *p = ask->mesh->corners[i].p;

@@ -207,10 +207,10 @@ static void mesh_numbers(WrForms *f)
     wr_gui_choice("edges", 0, edges, 2, &f->mesh_round);
     wr_gui_label("Folds");
     wr_gui_choice("folds", 0, folds, 2, &f->mesh_limited);
-    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
-                        "Size 0: a unit of the mesh's file is a millimetre, in its own place. Else "
-                        "it is the longest side without relief. Folds are places where the relief "
-                        "turns over.");
+    wr_gui_text_wrapped(
+        WR_FONT_SMALL, WR_COLOUR_LABEL,
+        "Size 0: as large as the file's unit says, in its own place. Else it is the "
+        "longest side without relief. Folds are places where the relief turns over.");
 }
 
 static void solid_numbers(WrForms *f)
