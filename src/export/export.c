@@ -456,8 +456,16 @@ static void add_solid(const WrExportReport *report, WrText *text)
                      "; %lld triangles span a step of the relief at hard edges or seams of u, v",
                      (long long)report->solid_steps);
     if (report->solid_limited > 0)
-        wr_text_addf(text, "; relief lowered at %lld points, where it would fold over",
-                     (long long)report->solid_limited);
+        wr_text_addf(
+            text, "; relief lowered at %lld points, where it would fold over or meet other relief",
+            (long long)report->solid_limited);
+    if (report->solid_thin > 0)
+        wr_text_addf(
+            text,
+            "; at %lld points the relief is deeper than half the wall or gap there, most at "
+            "%.6g,%.6g,%.6g: a lower height, or folds=limit",
+            (long long)report->solid_thin, report->solid_thinnest[0], report->solid_thinnest[1],
+            report->solid_thinnest[2]);
     if (report->solid_folds > 0)
         wr_text_addf(text,
                      "; %lld triangles are folded over by the relief, the highest at "

@@ -214,10 +214,12 @@ typedef struct WrExportReport {
     double solid_size[3]; /* of the body, including relief and back */
     double solid_volume;  /* mm3; 0 of an open mesh */
     /* of a mesh: */
-    bool solid_open;       /* as the mesh is */
-    int64_t solid_folds;   /* triangles that the relief turned over ... */
-    double solid_fold[3];  /* ... and the place of the highest, mm */
-    int64_t solid_limited; /* points at which the relief was lowered */
+    bool solid_open;      /* as the mesh is */
+    int64_t solid_folds;  /* triangles that the relief turned over ... */
+    double solid_fold[3]; /* ... and the place of the highest, mm */
+    int64_t solid_thin;   /* points where the relief is deeper than half the wall, or gap, ... */
+    double solid_thinnest[3]; /* ... and the place of the worst, mm */
+    int64_t solid_limited;    /* points at which the relief was lowered */
     int64_t
         solid_steps; /* triangles at hard edges and seams of (u,v) that span a step of the relief */
     bool model;      /* a model, without the three above */

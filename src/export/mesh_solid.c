@@ -5,10 +5,12 @@
 #include "base/error.h"
 #include "base/length_unit.h"
 #include "base/memory.h"
+#include "base/pool.h"
 #include "export/job.h"
 #include "export/solid_body.h"
 #include "render/tessellation/mesh_relief.h"
 #include "scene/scene.h"
+#include "surface/ray_tree.h"
 #include "surface/triangles.h"
 
 #include <math.h>
@@ -70,6 +72,71 @@ static void limit_folds(WrMeshRelief *r, WrExportReport *report)
     wr_free(low);
     for (int32_t i = 0; i < r->points.count; i++)
         report->solid_limited += r->points.data[i].part < 1.0;
+}
+
+/* ---- thin walls and narrow gaps ---- */
+
+#define ROOM_PIECE 1024  /* points */
+#define OFF_SURFACE 1e-5 /* of the mesh's radius: rays start there, off the point's own faces */
+#define ROOM_USED 0.9    /* of the room, after limiting */
+
+/* Each point's relief may take half of the way to the mesh's next face in its direction: that face may come as far. */
+typedef struct Rooms {
+    const WrMeshRelief *relief;
+    const WrRayTree *tree;
+    double *room; /* [points]: half of that way, object units; INFINITY: there is enough */
+} Rooms;
+
+static void room_piece(int index, int worker, void *ctx)
+{
+    (void)worker;
+    const Rooms *rooms = ctx;
+    const WrMeshRelief *r = rooms->relief;
+    const double off = OFF_SURFACE * r->request.mesh->radius;
+    for (int32_t i = ROOM_PIECE * index; i < r->points.count && i < ROOM_PIECE * (index + 1); i++) {
+        const WrMeshReliefPoint *point = &r->points.data[i];
+        const double height = v3_len(point->d);
+        WrRayHit hit;
+        rooms->room[i] = INFINITY;
+        if (!(height > off)) continue;
+        const WrVec3 way = v3_scale(point->d, 1.0 / height);
+        if (wr_ray_tree_closest(rooms->tree, v3_mad(point->base, way, off), way, 2.0 * height,
+                                false, &hit))
+            rooms->room[i] = (hit.t + off) / 2.0;
+    }
+}
+
+/* Counts the points whose relief has no room, and lowers it there if that was asked for. */
+static bool check_rooms(WrMeshRelief *r, bool limit, WrExportReport *report, WrError *err)
+{
+    WrRayTree *tree = wr_ray_tree_new(r->request.mesh, 0, r->request.mesh->triangle_count, err);
+    double *room =
+        tree ? wr_try_alloc((size_t)r->points.count, sizeof *room, "a solid", err) : NULL;
+    Rooms rooms = { r, tree, room };
+    double least = 1.0;
+    bool good =
+        room && (wr_pool_run_with_progress(r->request.pool, r->points.count / ROOM_PIECE + 1,
+                                           room_piece, &rooms) ||
+                 wr_fail(err, "cancelled"));
+    for (int32_t i = 0; i < r->points.count && good; i++) {
+        WrMeshReliefPoint *point = &r->points.data[i];
+        const double height = v3_len(point->d), part = room[i] / height;
+        if (!(part < 1.0)) continue;
+        if (limit) {
+            point->part = ROOM_USED * part;
+            wr_mesh_relief_move(r, i);
+            continue;
+        }
+        report->solid_thin++;
+        if (part >= least) continue;
+        const WrVec3 at = wr_mesh_relief_position(r, point->base);
+        least = part;
+        report->solid_thinnest[0] = at.x, report->solid_thinnest[1] = at.y,
+        report->solid_thinnest[2] = at.z;
+    }
+    wr_free(room);
+    wr_ray_tree_free(tree);
+    return good;
 }
 
 /* ---- the whole ---- */
@@ -152,7 +219,9 @@ bool wr_mesh_solid_make(WrExportJob *job, WrSolidBody *body, WrError *err)
                     "error=%.6g mm needs more than %d triangles: a larger error, a smaller size, "
                     "or a coarser mesh",
                     ask.error, ask.most);
-    if (good && job->options.solid_limited) limit_folds(&relief, &job->report);
+    const bool limit = job->options.solid_limited;
+    good = good && check_rooms(&relief, limit, &job->report, err);
+    if (good && limit) limit_folds(&relief, &job->report);
     if (good) {
         report_relief(&relief, &job->report);
         fill_body(&relief, body);

@@ -890,6 +890,30 @@ static void relief_in_an_inner_corner_folds(void **state)
     }
 }
 
+/* A slab 0.1 thick with relief 0.07 deep on both sides: every point is counted, or lowered until the sides are apart. */
+static void relief_stays_within_its_wall(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        WrExportReport report;
+        WrDocument *document = document_of(5, 3, 0, WR_WRAP_PERIODIC);
+        Quads *q = new_quads();
+        add_quad(q, (WrVec3){ 0, 0, 0 }, (WrVec3){ 1.3, 0, 0 }, (WrVec3){ 0, 0.9, 0 }, 0.7);
+        add_quad(q, (WrVec3){ 0, 0, -0.1 }, (WrVec3){ 0, 0.9, 0 }, (WrVec3){ 1.3, 0, 0 }, 0.7);
+        set_mesh(document, q, 0);
+        document->scene->height *= -0.07 / height_of(document);
+        Body body =
+            export_body(document, "ply", k ? "error=0.01 folds=limit" : "error=0.01", &report);
+        assert_int_equal(k ? report.solid_limited : report.solid_thin, 8);
+        assert_int_equal(k ? report.solid_thin : report.solid_limited, 0);
+        if (k == 0)
+            assert_near(report.solid_size[2], 0.04, 1e-6); /* the sides have changed places */
+        else assert_near(report.solid_size[2], 0.1 - 2 * 0.9 * 0.05, 1e-6);
+        wr_mesh_fini(&body.mesh);
+        wr_document_free(document);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -909,6 +933,7 @@ int main(void)
         cmocka_unit_test(relief_on_a_mesh_keeps_to_the_error),
         cmocka_unit_test(an_edge_of_three_faces_has_no_gap),
         cmocka_unit_test(relief_in_an_inner_corner_folds),
+        cmocka_unit_test(relief_stays_within_its_wall),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
 }
