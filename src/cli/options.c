@@ -397,7 +397,9 @@ static bool is_kind_setting(const char *word)
     return false;
 }
 
-/* Suggest "--do 'dials samples=...'": the only command form that has an argument of the option's name. */
+#define ALIKE 3 /* suggestions, at most */
+
+/* Suggest "--do 'dials samples=...' or --do '...'": the commands with an argument of the option's name, if they are few. */
 static bool add_commands_of_argument(const char *word, WrText *text)
 {
     const char *name = word + strspn(word, "-");
@@ -409,10 +411,11 @@ static bool add_commands_of_argument(const char *word, WrText *text)
         const int count = wr_command_specs(wr_commands[i], -1, specs);
         for (int k = 0; k < count; k++)
             if (!specs[k].positional && strlen(specs[k].name) == length &&
-                strncmp(specs[k].name, name, length) == 0 && found++ == 0)
-                wr_text_addf(text, "--do '%s %s=...'", wr_commands[i]->name, specs[k].name);
+                strncmp(specs[k].name, name, length) == 0)
+                wr_text_addf(text, "%s--do '%s %s=...'", found++ > 0 ? " or " : "",
+                             wr_commands[i]->name, specs[k].name);
     }
-    return found == 1;
+    return found >= 1 && found <= ALIKE;
 }
 
 static bool fail_option(const WrSubcommand *command, const char *word, WrError *err)

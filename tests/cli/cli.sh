@@ -73,7 +73,7 @@ has err 'did you mean occlusion?'
 expect 2 export --as height --depth 16 -o a.png
 has err 'did you mean depth=VALUE'
 expect 2 render --samples 16 -o a.png
-has err "did you mean --do 'dials samples=...'"
+has err "--do 'dials samples=...'"
 expect 2 render a.exr b.png
 has err 'did you mean -o b.png?'
 expect 1 render --do dab 0.5,0.5 -o a.png
