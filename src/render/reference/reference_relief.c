@@ -655,7 +655,7 @@ bool wr_reference_raised_init(WrReferenceRaised *raised, const WrShape *shape,
     return true;
 }
 
-#define MESH_ERROR 0x1p-13
+#define MESH_ERROR 0x1p-12
 #define MESH_MOST 2000000
 
 /* The triangles of the picture's relief (mesh_relief.h), but finer, with the heights of the table's spline as everywhere

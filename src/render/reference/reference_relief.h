@@ -60,7 +60,7 @@ typedef struct WrReferenceRaised {
     WrRaisedSheet *sheets; /* [count], owned; count 0: the surface is not displaced */
     int count;
     double size; /* of the object with its relief, object units */
-    /* Relief on a mesh: triangles within 2^-13 of its radius, their faces, and the mesh; else unused. */
+    /* Relief on a mesh: triangles within 2^-12 of its radius, their faces, and the mesh; else unused. */
     WrReferenceMesh facets;
     int32_t *base_of;
     WrTriangles *base;
