@@ -451,6 +451,9 @@ static void add_solid(const WrExportReport *report, WrText *text)
                  (long long)report->triangles, report->solid_error, size[0], size[1], size[2]);
     if (report->solid_open) wr_text_add(text, ", open, as the mesh is");
     else wr_text_addf(text, ", volume %.6g mm3", report->solid_volume);
+    if (report->solid_missed > 0)
+        wr_text_addf(text, "; in %lld triangles the relief is too steep for the requested error",
+                     (long long)report->solid_missed);
     if (report->solid_steps > 0)
         wr_text_addf(text,
                      "; %lld triangles span a step of the relief at hard edges or seams of u, v",

@@ -217,6 +217,7 @@ typedef struct WrExportReport {
     bool solid_open;      /* as the mesh is */
     int64_t solid_folds;  /* triangles that the relief turned over ... */
     double solid_fold[3]; /* ... and the place of the highest, mm */
+    int64_t solid_missed; /* triangles too small to bisect whose error is larger than requested */
     int64_t solid_thin;   /* points where the relief is deeper than half the wall, or gap, ... */
     double solid_thinnest[3]; /* ... and the place of the worst, mm */
     int64_t solid_limited;    /* points at which the relief was lowered */

@@ -8,6 +8,7 @@
 #include "base/pool.h"
 #include "export/job.h"
 #include "export/solid_body.h"
+#include "render/tessellation/dice.h"
 #include "render/tessellation/mesh_relief.h"
 #include "scene/scene.h"
 #include "surface/ray_tree.h"
@@ -186,6 +187,7 @@ static void report_relief(const WrMeshRelief *r, WrExportReport *report)
         const WrMeshReliefTriangle *t = &r->triangles.data[i];
         if (t->error > t->allowed && wr_mesh_relief_at_crease(r, t)) report->solid_steps++;
         else report->solid_error = fmax(report->solid_error, (double)t->error);
+        report->solid_missed += t->error > t->allowed && !wr_mesh_relief_at_crease(r, t);
     }
     report->low = r->low;
     report->high = r->high;
@@ -212,7 +214,14 @@ bool wr_mesh_solid_make(WrExportJob *job, WrSolidBody *body, WrError *err)
                             "makes them");
     wr_scene_stretch(job->scene, &ask.stretch, &cofactor);
     set_scale(&ask, job->options.solid_size);
-    bool good = wr_mesh_relief_make(&relief, &ask, err);
+    WrRaised raised;
+    bool good = wr_raised_init(&raised, job->scene, job->field, err);
+    ask.scene = raised.scene;
+    if (raised.field) ask.field = raised.field;
+    good = good && wr_mesh_relief_make(&relief, &ask, err);
+    if (good && relief.full && relief.triangles.count == 0)
+        good = wr_fail(err, "the mesh has too many texels of the table for a solid: fewer repeats "
+                            "(replicate), or a larger cell=");
     if (good && relief.full)
         good =
             wr_fail(err,
@@ -227,5 +236,6 @@ bool wr_mesh_solid_make(WrExportJob *job, WrSolidBody *body, WrError *err)
         fill_body(&relief, body);
     }
     wr_mesh_relief_fini(&relief);
+    wr_raised_fini(&raised);
     return good;
 }

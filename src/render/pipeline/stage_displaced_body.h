@@ -17,6 +17,10 @@ static void base_strip(const WrTileJob *job, int face, Strip *strip, Watch *watc
     watch_lap(watch, WR_STAGE_GEOMETRY);
 }
 
+/* Cosine between n' and a facet of a mesh's relief below which the facet's side says nothing: facets of about a pixel
+   may be tilted by their error, and those at creases are. */
+#define TILTED (REAL)0.3
+
 /* Turns n' of a displaced surface to the visible side of the facet, whichever side of the base that is. */
 static void face_viewer(const WrTileJob *job, const Rays *rays, Strip *strip)
 {
@@ -25,10 +29,15 @@ static void face_viewer(const WrTileJob *job, const Rays *rays, Strip *strip)
     for (int i = 0; i < strip->count; i++) {
         REAL n[3];
         facet_of(&job->triangle_look, strip->triangle[i], n);
-        const REAL to = n[0] * (at[0] - move * strip->px[i]) +
-                        n[1] * (at[1] - move * strip->py[i]) + n[2] * (at[2] - move * strip->pz[i]);
-        const REAL along = n[0] * strip->bx[i] + n[1] * strip->by[i] + n[2] * strip->bz[i];
-        const REAL sign = to * along < (REAL)0 ? (REAL)-1 : (REAL)1;
+        const VEC view = { at[0] - move * strip->px[i], at[1] - move * strip->py[i],
+                           at[2] - move * strip->pz[i] };
+        const VEC facet = { n[0], n[1], n[2] };
+        const VEC bumped = { strip->bx[i], strip->by[i], strip->bz[i] };
+        const REAL along = v_dot(facet, bumped);
+        const bool tilted =
+            job->dice->base && !(along > TILTED * length_of(facet) * length_of(bumped));
+        const REAL side = tilted ? v_dot(bumped, view) : v_dot(facet, view) * along;
+        const REAL sign = side < (REAL)0 ? (REAL)-1 : (REAL)1;
         strip->bx[i] *= sign;
         strip->by[i] *= sign;
         strip->bz[i] *= sign;

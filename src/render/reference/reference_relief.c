@@ -683,6 +683,8 @@ bool wr_reference_raised_mesh_init(WrReferenceRaised *raised, const WrScene *sce
                                       .fine = true,
                                       .most = MESH_MOST };
     good = good && wr_mesh_relief_make(&relief, &ask, err);
+    if (good && relief.triangles.count == 0)
+        good = wr_fail(err, "the mesh has too many texels of the table for the reference");
     WrTriangles *facets = good ? wr_mesh_relief_triangles(&relief, &raised->base_of, err) : NULL;
     good = facets && wr_reference_mesh_init(&raised->facets, facets, err);
     wr_mesh_relief_fini(&relief);

@@ -1210,6 +1210,9 @@ static double eased_at(const WrReferenceStage *stage, const WrReferenceRay *ray,
     return isfinite(periods) ? left_of(periods) : 0;
 }
 
+#define TILTED                                                                                     \
+    0.3 /* as in the picture: facets of relief that are tilted more do not decide the side */
+
 static bool hit_stage(const WrReferenceStage *stage, const WrReferenceRay *ray, WrReferenceHit *hit,
                       WrSurfacePoint *at, double *side)
 {
@@ -1239,8 +1242,10 @@ bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrRe
     WrVec3 seen = v3_scale(perturbed, side);
     if (stage->raised.count > 0) {
         at.p = v3_mad(ray.q, ray.d, hit.s); /* at an edge this is not P + F n */
-        const WrVec3 facet = stage->raised.base ? hit.facet : perturbed;
-        const double away = v3_dot(facet, ray.d) * v3_dot(facet, perturbed);
+        const WrVec3 facet = stage->raised.base ? v3_unit(hit.facet, perturbed) : perturbed;
+        const double along = v3_dot(facet, perturbed);
+        const double away =
+            along > TILTED * v3_len(perturbed) ? v3_dot(facet, ray.d) : v3_dot(perturbed, ray.d);
         seen = away > 0 ? v3_neg(perturbed) : perturbed;
     }
     out->normal = embossed(stage, at.p, side, seen);

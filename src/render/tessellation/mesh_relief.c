@@ -32,7 +32,8 @@
 
 #define PIECE 128           /* triangles measured by one thread at a time */
 #define SMALLEST (1.0 / 64) /* longest side of a triangle that is bisected, in errors */
-#define SAMPLES_MAX 4096    /* of a triangle along u or v, or along a side */
+#define MOST_SAMPLES 64     /* of a triangle along u or v in a picture */
+#define SPAN 256            /* texels along u or v: larger triangles are bisected unseen */
 #define FORMULA 256         /* samples of a formula per cell */
 #define FINE_MAX 4e6        /* texels on the mesh; above it only their centres are sampled */
 #define FEW 8               /* faces about a point, without allocation */
@@ -448,10 +449,10 @@ static bool add_sample(Samples *s, double w1, double w2)
 }
 
 /* Lattice points on one axis from low to high, at (i + 1/2) step: the first, and the step between. */
-static double lattice(double texels, double low, double high, double *step)
+static double lattice(const WrMeshRelief *r, double texels, double low, double high, double *step)
 {
-    *step = 1.0 / texels;
-    *step *= fmax(ceil((high - low) * texels / SAMPLES_MAX), 1.0);
+    *step = r->request.fine ? 1.0 / texels
+                            : fmax(ceil((high - low) * texels / MOST_SAMPLES), 1.0) / texels;
     return (ceil(low / *step - 0.5) + 0.5) * *step;
 }
 
@@ -465,7 +466,7 @@ static bool sample_texels(Samples *s)
     const double low = fmin(c[0].v, fmin(c[1].v, c[2].v)),
                  high = fmax(c[0].v, fmax(c[1].v, c[2].v));
     double step_u, step_v;
-    for (double v = lattice(fine * s->relief->texels[1], low, high, &step_v); v < high;
+    for (double v = lattice(s->relief, fine * s->relief->texels[1], low, high, &step_v); v < high;
          v += step_v) {
         double from = INFINITY, to = -INFINITY; /* the row's part in the triangle */
         for (int k = 0; k < 3; k++) {
@@ -475,7 +476,7 @@ static bool sample_texels(Samples *s)
             from = fmin(from, u);
             to = fmax(to, u);
         }
-        for (double u = lattice(fine * s->relief->texels[0], from, to, &step_u); u < to;
+        for (double u = lattice(s->relief, fine * s->relief->texels[0], from, to, &step_u); u < to;
              u += step_u) {
             const double x = u - c[0].u, y = v - c[0].v;
             if (!add_sample(s, (x * dv[1] - y * du[1]) / det, (y * du[0] - x * dv[0]) / det))
@@ -498,8 +499,8 @@ static bool sample_crossings(Samples *s, int k, double texels, double from, doub
 {
     double step;
     const double high = fmax(from, to);
-    for (double x = lattice(s->relief->fine * texels, fmin(from, to), high, &step); x < high;
-         x += step)
+    for (double x = lattice(s->relief, s->relief->fine * texels, fmin(from, to), high, &step);
+         x < high; x += step)
         if (!add_on_side(s, k, (x - from) / (to - from))) return false;
     return true;
 }
@@ -519,6 +520,17 @@ static bool sample_sides(Samples *s)
             return false;
     }
     return add_sample(s, 1.0 / 3, 1.0 / 3) && measure(s);
+}
+
+/* False for a triangle over so many texels that sampling it would take long: it is bisected first. */
+static bool fits_span(const WrMeshRelief *r, const WrMeshReliefPlace corner[3])
+{
+    double most = 0.0;
+    for (int k = 0; k < 3; k++) {
+        const WrMeshReliefPlace *p = &corner[k], *q = &corner[(k + 1) % 3];
+        most = fmax(most, fmax(fabs(p->u - q->u) * r->texels[0], fabs(p->v - q->v) * r->texels[1]));
+    }
+    return most <= SPAN;
 }
 
 static double allowed_error(const WrMeshRelief *r, const WrMeshReliefTriangle *t)
@@ -547,6 +559,7 @@ static double error_of(const WrMeshRelief *r, const WrMeshReliefTriangle *t)
     for (int k = 0; k < 3; k++)
         s.corner[k] =
             wr_mesh_relief_place(r->request.mesh, t->face, (double)t->b[k][0], (double)t->b[k][1]);
+    if (r->request.fine && s.mapped && !fits_span(r, s.corner)) return INFINITY;
     if (sample_sides(&s) && (!s.mapped || sample_texels(&s))) measure(&s);
     return sqrt(s.worst);
 }
@@ -649,6 +662,10 @@ bool wr_mesh_relief_make(WrMeshRelief *r, const WrMeshReliefRequest *request, Wr
         !formula && (scene->scheme == WR_SCHEME_BILINEAR || scene->scheme == WR_SCHEME_CENTRAL);
     r->fine = request->fine && !straight && texels_of(r) < FINE_MAX ? 3.0 : 1.0;
     r->low = INFINITY, r->high = -INFINITY;
+    if (request->fine && texels_of(r) > 0.5 * SPAN * SPAN * request->most) {
+        r->full = true;
+        return true;
+    }
     return add_faces(r, err) && refine_all(r, err);
 }
 

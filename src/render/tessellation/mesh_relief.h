@@ -67,7 +67,7 @@ typedef struct WrMeshReliefPlace {
 } WrMeshReliefPlace;
 
 /* relief: zero-initialised; call fini even after a failure. Errors: no memory, cancelled. With more than `most`
-   triangles it stops, `full` is set, and errors remain. */
+   triangles it stops, `full` is set, and errors remain; with so many texels that `fine` sampling is hopeless it stops at once, without any. */
 bool wr_mesh_relief_make(WrMeshRelief *relief, const WrMeshReliefRequest *request, WrError *err);
 void wr_mesh_relief_fini(WrMeshRelief *relief);
 
