@@ -34,8 +34,8 @@ static void face_viewer(const WrTileJob *job, const Rays *rays, Strip *strip)
         const VEC facet = { n[0], n[1], n[2] };
         const VEC bumped = { strip->bx[i], strip->by[i], strip->bz[i] };
         const REAL along = v_dot(facet, bumped);
-        const bool tilted =
-            job->dice->base && !(along > TILTED * length_of(facet) * length_of(bumped));
+        const REAL least = TILTED * length_of(facet) * length_of(bumped);
+        const bool tilted = job->dice->base && along < least && -along < least;
         const REAL side = tilted ? v_dot(bumped, view) : v_dot(facet, view) * along;
         const REAL sign = side < (REAL)0 ? (REAL)-1 : (REAL)1;
         strip->bx[i] *= sign;

@@ -1210,8 +1210,8 @@ static double eased_at(const WrReferenceStage *stage, const WrReferenceRay *ray,
     return isfinite(periods) ? left_of(periods) : 0;
 }
 
-#define TILTED                                                                                     \
-    0.3 /* as in the picture: facets of relief that are tilted more do not decide the side */
+/* As in the picture: cosine below which a facet of relief does not decide the side. */
+#define TILTED 0.3
 
 static bool hit_stage(const WrReferenceStage *stage, const WrReferenceRay *ray, WrReferenceHit *hit,
                       WrSurfacePoint *at, double *side)
@@ -1244,8 +1244,8 @@ bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrRe
         at.p = v3_mad(ray.q, ray.d, hit.s); /* at an edge this is not P + F n */
         const WrVec3 facet = stage->raised.base ? v3_unit(hit.facet, perturbed) : perturbed;
         const double along = v3_dot(facet, perturbed);
-        const double away =
-            along > TILTED * v3_len(perturbed) ? v3_dot(facet, ray.d) : v3_dot(perturbed, ray.d);
+        const double away = fabs(along) < TILTED * v3_len(perturbed) ? v3_dot(perturbed, ray.d)
+                                                                     : v3_dot(facet, ray.d) * along;
         seen = away > 0 ? v3_neg(perturbed) : perturbed;
     }
     out->normal = embossed(stage, at.p, side, seen);
