@@ -213,6 +213,10 @@ bool wr_mesh_solid_make(WrExportJob *job, WrSolidBody *body, WrError *err)
                             "mesh projection=box` "
                             "makes them");
     wr_scene_stretch(job->scene, &ask.stretch, &cofactor);
+    if (wr_scene_is_thin(job->scene) &&
+        fmin(fabs(ask.stretch.x), fmin(fabs(ask.stretch.y), fabs(ask.stretch.z))) <= WR_THINNEST)
+        return wr_fail(
+            err, "the object is flat (size=...,0): a solid needs a size above 0 along all axes");
     set_scale(&ask, job->options.solid_size);
     WrRaised raised;
     bool good = wr_raised_init(&raised, job->scene, job->field, err);

@@ -1100,11 +1100,10 @@ static bool check(const WrExportJob *job, WrError *err)
 {
     const WrExportOptions *o = &job->options;
     if (o->solid_thickness > 0 && wr_surfaces[job->scene->shape.kind]->held)
-        return wr_fail(
-            err,
-            "thickness=%.6g: a back is made for surfaces by formulas; an open mesh stays "
-            "open: leave thickness= out",
-            o->solid_thickness);
+        return wr_fail(err,
+                       "thickness=%.6g: a back is made for surfaces by formulas, not for meshes: "
+                       "leave thickness= out",
+                       o->solid_thickness);
     if (!(o->solid_size >= 0) || !(o->solid_error > 0) || o->solid_thickness < 0)
         return wr_fail(err, "size %g, error %g, thickness %g: must be above 0, in millimetres",
                        o->solid_size, o->solid_error, o->solid_thickness);
