@@ -1,4 +1,4 @@
-/* The container of 3MF files: limits on what it unpacks to, and the unit of its model. The library reads the
+/* The container of 3MF files: limits on its unpacked size, and the unit of its model. The library reads the
    triangles but passes over both.
 
    Source: 3MF Core Specification 1.3, 3.4 (model: unit, "millimeter" if missing); PKWARE APPNOTE 6.3, 4.3. */

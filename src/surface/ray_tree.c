@@ -219,16 +219,16 @@ static void copy_facets(const Builder *b, int32_t first, int32_t count)
 
 WrRayTree *wr_ray_tree_new(const WrTriangles *mesh, int32_t first, int32_t count, WrError *err)
 {
-    static const char what[] = "a tree of triangles";
+    static const char purpose[] = "a tree of triangles";
     const size_t n = (size_t)count;
     WrRayTree *tree = wr_alloc(1, sizeof *tree);
     Builder b = { .tree = tree };
     WR_ASSERT(count > 0);
     tree->mesh = wr_triangles_share(mesh);
-    bool good = (b.boxes = wr_try_alloc_unset(n, sizeof *b.boxes, what, err)) &&
-                (b.order = wr_try_alloc_unset(n, sizeof *b.order, what, err)) &&
-                (tree->nodes = wr_try_alloc_unset(2 * n, sizeof *tree->nodes, what, err)) &&
-                (tree->facets = wr_try_alloc_unset(n, sizeof *tree->facets, what, err));
+    bool good = (b.boxes = wr_try_alloc_unset(n, sizeof *b.boxes, purpose, err)) &&
+                (b.order = wr_try_alloc_unset(n, sizeof *b.order, purpose, err)) &&
+                (tree->nodes = wr_try_alloc_unset(2 * n, sizeof *tree->nodes, purpose, err)) &&
+                (tree->facets = wr_try_alloc_unset(n, sizeof *tree->facets, purpose, err));
     if (good) {
         measure(&b, mesh, first, count);
         good = build(&b, count) || wr_fail(err, "cancelled");

@@ -680,12 +680,12 @@ void wr_mesh_relief_fini(WrMeshRelief *r)
 WrTriangles *wr_mesh_relief_triangles(const WrMeshRelief *r, int32_t **base_of, WrError *err)
 {
     const int32_t count = r->triangles.count, faces = r->request.mesh->triangle_count;
-    const char *const what = "a displaced surface";
-    WrTriangleCorner *corners = wr_try_alloc(3 * (size_t)count, sizeof *corners, what, err);
+    const char *const purpose = "a displaced surface";
+    WrTriangleCorner *corners = wr_try_alloc(3 * (size_t)count, sizeof *corners, purpose, err);
     WrTriangle *triangles =
-        corners ? wr_try_alloc((size_t)count, sizeof *triangles, what, err) : NULL;
-    int32_t *next = triangles ? wr_try_alloc((size_t)faces + 1, sizeof *next, what, err) : NULL;
-    *base_of = next ? wr_try_alloc((size_t)count, sizeof **base_of, what, err) : NULL;
+        corners ? wr_try_alloc((size_t)count, sizeof *triangles, purpose, err) : NULL;
+    int32_t *next = triangles ? wr_try_alloc((size_t)faces + 1, sizeof *next, purpose, err) : NULL;
+    *base_of = next ? wr_try_alloc((size_t)count, sizeof **base_of, purpose, err) : NULL;
     if (!*base_of) {
         wr_free(next);
         wr_free(triangles);
