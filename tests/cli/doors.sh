@@ -22,7 +22,7 @@ complain() {
 # lock of the settings, and the pipe that a test asks the window by. src/system opens what it is told to, and what the
 # system tells about this process.
 allowed='WR_OPEN_NEW|base/file\.c:[0-9]+:    int fd = wr_fd_open\(group->list, how\)|(target|journal)->temporary, how\)|fdopen\(|base/file\.c:[0-9]+:    int fd = wr_fd_open\(path, (how|WR_OPEN_WRITE \| WR_OPEN_CREATE \| WR_OPEN_EMPTY) \| WR_OPEN_NO_WAIT\)'
-allowed+='|ui/app/idle_probe\.c:[0-9]+:    int fifo|ui/state/settings\.c:[0-9]+:    int fd = path \? wr_fd_open\(path, how\)'
+allowed+='|ui/app/idle_probe\.c:[0-9]+:    int fifo|ui/app/state/settings\.c:[0-9]+:    int fd = path \? wr_fd_open\(path, how\)'
 allowed+='|(base/file|document/recovery_journal)\.c:[0-9]+:    int fd = wr_fd_open\((path|folder), WR_OPEN_READ\);'
 passing=$(cd "$source" && grep -nE '(^|[^a-z_.>])(wr_fd_open|f?open(at)?(64)?|freopen|ifstream[^;]*)\(' -r src ui \
     --exclude-dir=system --include='*.c' --include='*.cpp' --include='*.h' --include='*.hpp' | grep -vE "$allowed" |

@@ -17,7 +17,7 @@ for file in *_command.c *_commands.c; do
         bad=1
     done < <(grep -ohE 'wr_call_[a-z0-9_]+\((call|line|[a-z]+->call), "[^"]+"' "$file" | sed -E 's/.*"([^"]+)"/\1/' | sort -u)
 done
-if grep -nE '[!=]= *&?wr_(run_|command_[a-z]+\b)|(command|call)->run *[!=]=|strcmp\([a-z>.-]*command->name,' ./*.c ../../ui/*/*.c; then
+if grep -nE '[!=]= *&?wr_(run_|command_[a-z]+\b)|(command|call)->run *[!=]=|strcmp\([a-z>.-]*command->name,' -r --include='*.c' . ../../ui; then
     printf 'a command is recognised by its handler, address or name: make it a column of WrCommand\n'
     bad=1
 fi

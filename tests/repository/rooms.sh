@@ -27,7 +27,7 @@ BEGIN {
     may["cli"] = may["command"] "command hardcases "
     # The rooms of the window, from the ground up: each knows those before it.
     ui = may["command"] "command hardcases "
-    count = split("toolkit input jobs canvas preview state views tools patch generate accuracy help panels app", floor)
+    count = split("toolkit input app/jobs canvas patch/preview app/state canvas/overlays canvas/tools patch panels/generate panels/accuracy panels/help panels app", floor)
     for (i = 1; i <= count; i++) {
         may["ui/" floor[i]] = ui below
         below = below "ui/" floor[i] " "
@@ -41,14 +41,22 @@ BEGIN {
     library["hb"] = library["fribidi"] = library["fontconfig/"] = library["zlib"] = "image"
     library["sleef"] = library["xxhash"] = library["sha2"] = "base"
     library["libmypaint"] = library["mypaint"] = "brush"
-    library["dbus/"] = "ui/jobs"
-    library["md4c"] = "ui/help"
+    library["dbus/"] = "ui/app/jobs"
+    library["md4c"] = "ui/panels/help"
     library["json-c/"] = "brush image" # presets; what a glTF names
 }
 FNR == 1 {
     count = split(FILENAME, part, "/")
-    room = part[1] == "ui" ? "ui/" part[2] : part[2]
+    room = room_of(FILENAME)
     if (!(room in may)) complain("is in a room that the table does not know")
+}
+# The room of a file as an #include names it; rooms of the window may stand in the folder of another.
+function room_of(path,    piece, inner) {
+    sub(/^src\//, "", path)
+    split(path, piece, "/")
+    if (piece[1] != "ui") return piece[1]
+    inner = "ui/" piece[2] "/" piece[3]
+    return inner in may ? inner : "ui/" piece[2]
 }
 # The room, or the whole of ui/.
 function is_in(list) {
@@ -66,9 +74,8 @@ function complain(what) {
         seen++
         if (name == "ui/app/app.h" && room == "cli") next
         if (name !~ /\//) { complain("\"" name "\" is not written from src/"); next }
-        split(name, to, "/")
-        if (to[1] == "ui") to[1] = "ui/" to[2]
-        if (to[1] != room && index(may[room], " " to[1] " ") == 0)
+        to = room_of(name)
+        if (to != room && index(may[room], " " to " ") == 0)
             complain("room " room " may not use " name)
     } else {
         for (start in library)

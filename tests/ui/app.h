@@ -10,12 +10,12 @@
 
 #include "ui/app/loop.h"
 #include "ui/app/input.h"
-#include "ui/state/action.h"
-#include "ui/state/app_options.h"
-#include "ui/state/app_state.h"
-#include "ui/state/background_command_internal.h"
-#include "ui/state/document.h"
-#include "ui/tools/stroke_input.h"
+#include "ui/app/state/action.h"
+#include "ui/app/state/app_options.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/background_command_internal.h"
+#include "ui/app/state/document.h"
+#include "ui/canvas/tools/stroke_input.h"
 
 #include <SDL.h>
 

@@ -9,7 +9,7 @@
 #include "system/clock.h"
 
 #include "ui/canvas/outline.h"
-#include "ui/jobs/edit_preview.h"
+#include "ui/app/jobs/edit_preview.h"
 
 #include <unistd.h>
 

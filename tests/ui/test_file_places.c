@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 
-#include "ui/jobs/files.h"
+#include "ui/app/jobs/files.h"
 
 #include <string.h>
 

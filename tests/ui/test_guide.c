@@ -5,7 +5,7 @@
 #include "base/file.h"
 #include "base/text.h"
 
-#include "ui/help/guide_page.h"
+#include "ui/panels/help/guide_page.h"
 
 #include <ctype.h>
 #include <dirent.h>

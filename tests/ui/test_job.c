@@ -5,7 +5,7 @@
 #include "base/pool.h"
 #include "base/progress.h"
 
-#include "ui/jobs/job.h"
+#include "ui/app/jobs/job.h"
 
 #include <dlfcn.h>
 #include <errno.h>

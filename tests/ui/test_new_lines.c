@@ -11,7 +11,7 @@
 #include "scene/scene.h"
 #include "surface/surface.h"
 
-#include "ui/state/line.h"
+#include "ui/app/state/line.h"
 
 #include <string.h>
 

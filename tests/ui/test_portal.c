@@ -4,7 +4,7 @@
 #include "portal_help.h"
 #include "test_folder.h"
 
-#include "ui/jobs/portal.h"
+#include "ui/app/jobs/portal.h"
 
 #include "base/error.h"
 #include "base/file.h"

@@ -4,7 +4,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "document/journal_help.h"
-#include "ui/state/settings.h"
+#include "ui/app/state/settings.h"
 
 #include <fcntl.h>
 #include <sys/file.h>

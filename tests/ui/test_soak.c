@@ -12,8 +12,8 @@
 #include "system/clock.h"
 
 #include "ui/canvas/outline.h"
-#include "ui/preview/preview.h"
-#include "ui/jobs/edit_preview.h"
+#include "ui/patch/preview/preview.h"
+#include "ui/app/jobs/edit_preview.h"
 
 #include <malloc.h>
 

@@ -3,7 +3,7 @@
 
 #include "base/text.h"
 
-#include "ui/state/step_label.h"
+#include "ui/app/state/step_label.h"
 
 #include <string.h>
 

@@ -6,11 +6,11 @@
 #include "base/vec.h"
 
 #include "ui/canvas/canvas_mips.h"
-#include "ui/state/keys.h"
-#include "ui/state/layout.h"
-#include "ui/state/line.h"
-#include "ui/preview/rotation.h"
-#include "ui/state/settings.h"
+#include "ui/app/state/keys.h"
+#include "ui/app/state/layout.h"
+#include "ui/app/state/line.h"
+#include "ui/patch/preview/rotation.h"
+#include "ui/app/state/settings.h"
 #include "ui/canvas/view.h"
 
 /* ---- view ---- */

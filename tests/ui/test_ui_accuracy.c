@@ -1,7 +1,7 @@
 /* Building blocks of the Accuracy panel: the schedule of measurements, and comparisons of two pictures. */
 #include "test.h"
 
-#include "ui/accuracy/accuracy_schedule.h"
+#include "ui/panels/accuracy/accuracy_schedule.h"
 
 /* ---- when ---- */
 

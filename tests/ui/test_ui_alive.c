@@ -10,14 +10,14 @@
 #include "command/session_internal.h"
 #include "system/clock.h"
 
-#include "ui/state/action.h"
-#include "ui/state/background_command_internal.h"
-#include "ui/state/dialog.h"
-#include "ui/state/pointer_state.h"
-#include "ui/state/layout.h"
-#include "ui/state/messages.h"
-#include "ui/state/settings.h"
-#include "ui/tools/stroke_input.h"
+#include "ui/app/state/action.h"
+#include "ui/app/state/background_command_internal.h"
+#include "ui/app/state/dialog.h"
+#include "ui/app/state/pointer_state.h"
+#include "ui/app/state/layout.h"
+#include "ui/app/state/messages.h"
+#include "ui/app/state/settings.h"
+#include "ui/canvas/tools/stroke_input.h"
 
 #include <string.h>
 #include <unistd.h>

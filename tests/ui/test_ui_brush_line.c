@@ -5,7 +5,7 @@
 #include "base/text.h"
 #include "command/session_internal.h"
 
-#include "ui/tools/brush_command_text.h"
+#include "ui/canvas/tools/brush_command_text.h"
 
 static char *line_of(const WrBrush *brush, const WrBrushNames *names)
 {

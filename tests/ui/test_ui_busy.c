@@ -17,16 +17,16 @@
 #include "system/clock.h"
 
 #include "ui/app/loop.h"
-#include "ui/state/app_options.h"
+#include "ui/app/state/app_options.h"
 #include "ui/canvas/view.h"
-#include "ui/state/background_command.h"
-#include "ui/state/document.h"
-#include "ui/state/pointer_state.h"
-#include "ui/state/layout.h"
-#include "ui/state/messages.h"
-#include "ui/state/session_view.h"
-#include "ui/state/settings.h"
-#include "ui/jobs/files.h"
+#include "ui/app/state/background_command.h"
+#include "ui/app/state/document.h"
+#include "ui/app/state/pointer_state.h"
+#include "ui/app/state/layout.h"
+#include "ui/app/state/messages.h"
+#include "ui/app/state/session_view.h"
+#include "ui/app/state/settings.h"
+#include "ui/app/jobs/files.h"
 
 #include <stdlib.h>
 #include <string.h>

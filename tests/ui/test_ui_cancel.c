@@ -10,10 +10,10 @@
 #include "system/clock.h"
 
 #include "ui/app/loop.h"
-#include "ui/state/messages.h"
-#include "ui/state/app_options.h"
-#include "ui/state/background_command.h"
-#include "ui/jobs/job.h"
+#include "ui/app/state/messages.h"
+#include "ui/app/state/app_options.h"
+#include "ui/app/state/background_command.h"
+#include "ui/app/jobs/job.h"
 
 #include <stdlib.h>
 #include <string.h>

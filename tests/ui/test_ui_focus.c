@@ -5,7 +5,7 @@
 
 #include "window_walk.h"
 
-#include "ui/state/action.h"
+#include "ui/app/state/action.h"
 #include "ui/toolkit/focus.h"
 
 #define STOPS_MAX 1500

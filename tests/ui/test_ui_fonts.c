@@ -8,7 +8,7 @@
 #include "base/pool.h"
 #include "base/progress.h"
 #include "image/font.h"
-#include "ui/generate/font_choice.h"
+#include "ui/panels/generate/font_choice.h"
 
 #define SIZE 62 /* size for the text generator: 0.62 of the height */
 #define HIGH 100

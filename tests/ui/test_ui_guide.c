@@ -9,8 +9,8 @@
 #include "document/document.h"
 #include "scene/scene.h"
 
-#include "ui/help/guide.h"
-#include "ui/state/dialog.h"
+#include "ui/panels/help/guide.h"
+#include "ui/app/state/dialog.h"
 #include "ui/toolkit/focus.h"
 
 #include <string.h>

@@ -8,11 +8,11 @@
 
 #include "base/hash.h"
 #include "base/text.h"
-#include "ui/state/action.h"
-#include "ui/state/background_command.h"
-#include "ui/state/dialog.h"
-#include "ui/state/layout.h"
-#include "ui/state/settings.h"
+#include "ui/app/state/action.h"
+#include "ui/app/state/background_command.h"
+#include "ui/app/state/dialog.h"
+#include "ui/app/state/layout.h"
+#include "ui/app/state/settings.h"
 
 #include <malloc.h>
 

@@ -4,8 +4,8 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "ui/state/action_list.h"
-#include "ui/state/keys.h"
+#include "ui/app/state/action_list.h"
+#include "ui/app/state/keys.h"
 
 #include <string.h>
 

@@ -6,8 +6,8 @@
 #include "system/clock.h"
 
 #include "ui/app/loop.h"
-#include "ui/state/messages.h"
-#include "ui/preview/preview.h"
+#include "ui/app/state/messages.h"
+#include "ui/patch/preview/preview.h"
 
 #include <math.h>
 #include <string.h>

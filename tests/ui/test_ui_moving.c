@@ -1,7 +1,7 @@
 /* Quality of the moving patch: finer if the time allows, and stable. */
 #include "test.h"
 
-#include "ui/preview/moving.h"
+#include "ui/patch/preview/moving.h"
 
 #define VIEW 400000.0 /* pixels */
 #define ALLOWED 0.016

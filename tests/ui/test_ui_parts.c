@@ -13,15 +13,15 @@
 #include "ui/canvas/marching_ants.h"
 #include "ui/canvas/canvas_colors.h"
 #include "ui/toolkit/theme.h"
-#include "ui/jobs/job.h"
-#include "ui/state/action_list.h"
-#include "ui/state/keys.h"
-#include "ui/state/layout.h"
-#include "ui/preview/rotation.h"
+#include "ui/app/jobs/job.h"
+#include "ui/app/state/action_list.h"
+#include "ui/app/state/keys.h"
+#include "ui/app/state/layout.h"
+#include "ui/patch/preview/rotation.h"
 #include "ui/toolkit/display.h"
-#include "ui/state/search.h"
-#include "ui/state/settings.h"
-#include "ui/tools/preset_overrides.h"
+#include "ui/app/state/search.h"
+#include "ui/app/state/settings.h"
+#include "ui/canvas/tools/preset_overrides.h"
 
 #include <unistd.h>
 

@@ -8,7 +8,7 @@
 #include "scene/scene.h"
 #include "base/vec.h"
 
-#include "ui/preview/patch_pick.h"
+#include "ui/patch/preview/patch_pick.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,9 +3,9 @@
 #include "command/session_help.h"
 
 #include "base/memory.h"
-#include "ui/preview/overexposure.h"
-#include "ui/preview/picture.h"
-#include "ui/preview/preview.h"
+#include "ui/patch/preview/overexposure.h"
+#include "ui/patch/preview/picture.h"
+#include "ui/patch/preview/preview.h"
 
 #define SIDE 96
 

@@ -10,8 +10,8 @@
 #include "scene/objects.h"
 #include "shade/reflection_models.h"
 
-#include "ui/preview/preview.h"
-#include "ui/accuracy/accuracy_work.h"
+#include "ui/patch/preview/preview.h"
+#include "ui/panels/accuracy/accuracy_work.h"
 
 #define SIZE 64
 

@@ -10,9 +10,9 @@
 #include "scene/scene.h"
 #include "shade/reflection.h"
 
-#include "ui/state/background_command.h"
-#include "ui/state/action.h"
-#include "ui/state/messages.h"
+#include "ui/app/state/background_command.h"
+#include "ui/app/state/action.h"
+#include "ui/app/state/messages.h"
 #include "ui/toolkit/focus.h"
 
 #include <time.h>

@@ -2,13 +2,13 @@
 #include "test.h"
 
 #include "ui/app/registry_list.h"
-#include "ui/state/action.h"
-#include "ui/state/dialog.h"
-#include "ui/state/registry.h"
-#include "ui/tools/tool.h"
-#include "ui/state/action_list.h"
-#include "ui/generate/generate_state.h"
-#include "ui/jobs/files.h"
+#include "ui/app/state/action.h"
+#include "ui/app/state/dialog.h"
+#include "ui/app/state/registry.h"
+#include "ui/canvas/tools/tool.h"
+#include "ui/app/state/action_list.h"
+#include "ui/panels/generate/generate_state.h"
+#include "ui/app/jobs/files.h"
 
 #include "field/ops.h"
 

@@ -3,8 +3,8 @@
 #include "test.h"
 #include "app.h"
 
-#include "ui/state/dialog.h"
-#include "ui/state/layout.h"
+#include "ui/app/state/dialog.h"
+#include "ui/app/state/layout.h"
 #include "ui/toolkit/gui.h"
 #include "ui/panels/panel_search.h"
 

@@ -7,8 +7,8 @@
 
 #include "shade/reflection.h"
 #include "ui/app/registry_list.h"
-#include "ui/state/action_list.h"
-#include "ui/state/keys.h"
+#include "ui/app/state/action_list.h"
+#include "ui/app/state/keys.h"
 #include "ui/panels/panel_search.h"
 
 #include <dirent.h>

@@ -3,7 +3,7 @@
 
 #include "base/vec.h"
 
-#include "ui/preview/rotation.h"
+#include "ui/patch/preview/rotation.h"
 
 static WrRotation random_rotation(TestRandom *r)
 {

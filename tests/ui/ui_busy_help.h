@@ -9,7 +9,7 @@
 #include "system/clock.h"
 
 #include "ui/app/input.h"
-#include "ui/state/background_command_internal.h"
+#include "ui/app/state/background_command_internal.h"
 
 #include <SDL.h>
 #include <unistd.h>

@@ -1,7 +1,7 @@
 /* One line of help for each action, used in menus, tips and the search; and the actions that are allowed while a
    command runs. */
 #include "ui/app/registry_list.h"
-#include "ui/state/action_list.h"
+#include "ui/app/state/action_list.h"
 
 #include "base/enum_rows.h"
 

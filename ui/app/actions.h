@@ -1,6 +1,6 @@
 /* actions.h - handlers of brush, layer and selection actions for the table in actions.c. Private to actions*.c. */
 #pragma once
-#include "ui/state/app_state.h"
+#include "ui/app/state/app_state.h"
 
 #include <stdbool.h>
 

@@ -1,10 +1,10 @@
 /* Actions of the Accuracy panel, for the table in actions.c. */
-#include "ui/accuracy/accuracy.h"
-#include "ui/accuracy/accuracy_work.h"
-#include "ui/state/app_state.h"
-#include "ui/state/layout.h"
-#include "ui/state/registry.h"
-#include "ui/state/settings.h"
+#include "ui/panels/accuracy/accuracy.h"
+#include "ui/panels/accuracy/accuracy_work.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/layout.h"
+#include "ui/app/state/registry.h"
+#include "ui/app/state/settings.h"
 
 #include "base/text.h"
 

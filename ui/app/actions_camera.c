@@ -1,11 +1,11 @@
 /* Actions of the patch's camera and of the floor: each is one command line. */
 #include "ui/app/actions.h"
-#include "ui/state/background_command.h"
-#include "ui/state/app_state.h"
-#include "ui/state/layout.h"
-#include "ui/state/line.h"
-#include "ui/state/session_view.h"
-#include "ui/state/settings.h"
+#include "ui/app/state/background_command.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/layout.h"
+#include "ui/app/state/line.h"
+#include "ui/app/state/session_view.h"
+#include "ui/app/state/settings.h"
 #include "ui/patch/patch.h"
 
 #include "base/text.h"

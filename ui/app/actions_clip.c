@@ -1,12 +1,12 @@
 /* Copy, cut and paste. A copy is a file that `picture paste` reads, so that the line in the history names it. */
 #include "ui/app/actions.h"
 #include "ui/canvas/view.h"
-#include "ui/state/background_command.h"
-#include "ui/state/app_state.h"
-#include "ui/state/line.h"
-#include "ui/state/messages.h"
-#include "ui/state/session_view.h"
-#include "ui/generate/generate_state.h"
+#include "ui/app/state/background_command.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/line.h"
+#include "ui/app/state/messages.h"
+#include "ui/app/state/session_view.h"
+#include "ui/panels/generate/generate_state.h"
 #include "ui/input/clip.h"
 
 #include "base/array.h"

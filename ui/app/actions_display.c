@@ -1,8 +1,8 @@
 #include "ui/app/actions_display.h"
 #include "ui/canvas/canvas.h"
 #include "ui/canvas/view.h"
-#include "ui/state/app_state.h"
-#include "ui/state/settings.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/settings.h"
 #include "ui/toolkit/focus.h"
 
 void wr_act_display_grey(WrApp *app)

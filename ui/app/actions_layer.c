@@ -1,9 +1,9 @@
 /* Actions of layers and selections: each is one command line. */
 #include "ui/app/actions.h"
 #include "ui/canvas/outline.h"
-#include "ui/state/background_command.h"
-#include "ui/state/app_state.h"
-#include "ui/state/session_view.h"
+#include "ui/app/state/background_command.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/session_view.h"
 #include "ui/panels/panel_adjust.h"
 #include "ui/panels/panel_layers.h"
 #include "ui/panels/panels.h"

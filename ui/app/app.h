@@ -1,7 +1,7 @@
 /* app.h - entry points of the window: a canvas with the table on the left, a rotating 3D preview on the right. The
    only header of ui/ for other modules. */
 #pragma once
-#include "ui/state/app_options.h"
+#include "ui/app/state/app_options.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,7 +1,7 @@
 /* canvas_view.h - canvas view: the table's picture and overlays. */
 #pragma once
-#include "ui/state/app_state.h"
-#include "ui/state/registry.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/registry.h"
 #include "ui/canvas/canvas.h"
 
 #include "field/maps.h"

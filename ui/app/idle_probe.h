@@ -2,8 +2,8 @@
    FIFO; each byte in it is a request. The answer is a line "at rest N" on standard error, N counting from 1, when
    every event that the X server had at the request is handled and no computation or drawing is left. */
 #pragma once
-#include "ui/state/app_state.h"
-#include "ui/state/registry.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/registry.h"
 
 #include <SDL.h>
 #include <stdbool.h>

@@ -1,7 +1,7 @@
 #include "ui/app/input.h"
-#include "ui/state/dialog.h"
-#include "ui/state/pointer_state.h"
-#include "ui/state/keys.h"
+#include "ui/app/state/dialog.h"
+#include "ui/app/state/pointer_state.h"
+#include "ui/app/state/keys.h"
 #include "ui/toolkit/gui.h"
 
 #include "base/array.h"

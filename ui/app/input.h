@@ -3,7 +3,7 @@
    keys never overtake clicks, however slow frames are. A press belongs to the widget that was on the screen at that
    time; if another one is there now, the press is dropped. */
 #pragma once
-#include "ui/state/app_state.h"
+#include "ui/app/state/app_state.h"
 
 #include <SDL.h>
 #include <stdbool.h>

@@ -1,7 +1,7 @@
 /* input_router.h - routing of pointer and key events to widgets, views and drags. */
 #pragma once
-#include "ui/state/app_state.h"
-#include "ui/state/registry.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/registry.h"
 #include "ui/input/pen.h"
 
 #include <SDL.h>

@@ -1,6 +1,6 @@
 /* latency.h - frame times of the window for WRINKLE_TIMING. */
 #pragma once
-#include "ui/state/app_state.h"
+#include "ui/app/state/app_state.h"
 
 typedef struct WrTiming { /* frame times */
     int pictures;

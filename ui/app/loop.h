@@ -1,6 +1,6 @@
 /* loop.h - life cycle and main loop of a window. */
 #pragma once
-#include "ui/state/app_state.h"
+#include "ui/app/state/app_state.h"
 
 #include <stdbool.h>
 

@@ -1,7 +1,7 @@
 /* registry_list.h - the complete registry and the table of actions. */
 #pragma once
-#include "ui/state/action.h"
-#include "ui/state/registry.h"
+#include "ui/app/state/action.h"
+#include "ui/app/state/registry.h"
 
 extern const WrRegistry wr_registry;
 extern const WrAction wr_actions[]; /* the last row has name NULL */

@@ -1,9 +1,9 @@
 /* Saving of settings while the window is open: after changes, at most once per second, between drags. */
 #include "ui/app/settings_autosave.h"
-#include "ui/state/app_state.h"
-#include "ui/state/pointer_state.h"
-#include "ui/state/settings.h"
-#include "ui/tools/preset_browser.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/pointer_state.h"
+#include "ui/app/state/settings.h"
+#include "ui/canvas/tools/preset_browser.h"
 
 #include "command/session.h"
 #include "system/clock.h"

@@ -1,6 +1,6 @@
 /* settings_autosave.h - loading of settings at the start and saving after changes. */
 #pragma once
-#include "ui/state/app_state.h"
+#include "ui/app/state/app_state.h"
 
 void wr_settings_begin(WrApp *app); /* loads them */
 /* Save them if changed, between drags and at most once per second; and the clock of the next save, 0: none. */

@@ -1,6 +1,6 @@
 /* window.h - system window: creation, scale and position. */
 #pragma once
-#include "ui/state/app_state.h"
+#include "ui/app/state/app_state.h"
 
 #include <SDL.h>
 #include <stdbool.h>

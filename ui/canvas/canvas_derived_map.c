@@ -1,5 +1,5 @@
 #include "ui/canvas/canvas_derived_map.h"
-#include "ui/jobs/job.h"
+#include "ui/app/jobs/job.h"
 
 #include "base/error.h"
 #include "base/memory.h"

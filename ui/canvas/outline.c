@@ -1,5 +1,5 @@
 #include "ui/canvas/outline.h"
-#include "ui/jobs/job.h"
+#include "ui/app/jobs/job.h"
 
 #include "base/array.h"
 #include "base/memory.h"

@@ -1,6 +1,6 @@
 /* Histogram of heights in the dialog of the operation `levels`, with draggable low and high limits. */
-#include "ui/state/app_state.h"
-#include "ui/state/session_view.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/session_view.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 #include "ui/panels/panel_adjust.h"

@@ -1,16 +1,16 @@
 /* Dialog of a table operation, built from its row: canvas and patch show a preview on a snapshot; only Apply runs the
    command. */
 #include "ui/panels/panel_adjust.h"
-#include "ui/state/background_command.h"
-#include "ui/state/app_state.h"
-#include "ui/state/dialog.h"
-#include "ui/state/line.h"
-#include "ui/state/messages.h"
-#include "ui/state/session_view.h"
+#include "ui/app/state/background_command.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/dialog.h"
+#include "ui/app/state/line.h"
+#include "ui/app/state/messages.h"
+#include "ui/app/state/session_view.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
-#include "ui/jobs/edit_preview.h"
+#include "ui/app/jobs/edit_preview.h"
 
 #include "base/error.h"
 #include "base/text.h"

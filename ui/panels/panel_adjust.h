@@ -1,8 +1,8 @@
 /* panel_adjust.h - dialog of a table operation. */
 #pragma once
 #include "ui/canvas/view.h"
-#include "ui/state/app_state.h"
-#include "ui/state/registry.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/registry.h"
 #include "ui/toolkit/gui.h"
 #include "ui/panels/points_pad.h"
 

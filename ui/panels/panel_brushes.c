@@ -1,15 +1,15 @@
 /* The Brushes tab: presets as pictures, by collection and group, with a search; below them the brush parameters.
    Without room for both, one of them at a time. */
-#include "ui/state/action.h"
-#include "ui/state/action_list.h"
-#include "ui/state/app_state.h"
-#include "ui/state/search.h"
-#include "ui/state/settings.h"
+#include "ui/app/state/action.h"
+#include "ui/app/state/action_list.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/search.h"
+#include "ui/app/state/settings.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 #include "ui/panels/panels.h"
-#include "ui/tools/preset_browser.h"
-#include "ui/tools/thumbs.h"
+#include "ui/canvas/tools/preset_browser.h"
+#include "ui/canvas/tools/thumbs.h"
 
 #include "base/array.h"
 #include "base/memory.h"

@@ -1,8 +1,8 @@
 /* Unit cell section of the scene panel: physical size for exports. */
-#include "ui/state/app_state.h"
-#include "ui/state/line.h"
-#include "ui/state/scene_line.h"
-#include "ui/state/session_view.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/line.h"
+#include "ui/app/state/scene_line.h"
+#include "ui/app/state/session_view.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/words.h"
 #include "ui/panels/panels.h"

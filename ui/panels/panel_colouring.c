@@ -1,7 +1,7 @@
 /* Height colormap section: a row for each stop, with its height and its colour. Every change is a command line. */
-#include "ui/state/app_state.h"
-#include "ui/state/scene_line.h"
-#include "ui/state/session_view.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/scene_line.h"
+#include "ui/app/state/session_view.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/words.h"
 #include "ui/panels/panels.h"

@@ -1,6 +1,6 @@
 /* panel_dynamics.h - curve editor of a preset: the effect of pressure, speed and other inputs on a setting. */
 #pragma once
-#include "ui/state/app_state.h"
+#include "ui/app/state/app_state.h"
 
 #include <SDL.h>
 #include <stdbool.h>

@@ -1,8 +1,8 @@
 /* panel_layers.h - layers panel. */
 #pragma once
 #include "ui/panels/thumb_list.h"
-#include "ui/state/app_state.h"
-#include "ui/state/registry.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/registry.h"
 
 #include "base/array.h"
 #include "document/document.h"

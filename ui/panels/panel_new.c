@@ -1,11 +1,11 @@
 /* Dialog for a new document: size, aspect ratio, surface and initial content. */
-#include "ui/state/app_state.h"
-#include "ui/state/dialog.h"
-#include "ui/state/document.h"
-#include "ui/state/action.h"
-#include "ui/state/line.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/dialog.h"
+#include "ui/app/state/document.h"
+#include "ui/app/state/action.h"
+#include "ui/app/state/line.h"
 #include "ui/toolkit/gui.h"
-#include "ui/jobs/files.h"
+#include "ui/app/jobs/files.h"
 #include "ui/panels/panels.h"
 
 #include "base/enum_rows.h"

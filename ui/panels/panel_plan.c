@@ -1,11 +1,11 @@
 /* Plan panel: decisions of the planner for the last picture, with reasons and costs. */
-#include "ui/state/app_state.h"
+#include "ui/app/state/app_state.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
 #include "ui/panels/panels.h"
 #include "ui/patch/patch.h"
-#include "ui/preview/preview.h"
+#include "ui/patch/preview/preview.h"
 
 #include "base/enum_rows.h"
 #include "render/plan/plan.h"

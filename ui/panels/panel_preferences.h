@@ -1,7 +1,7 @@
 /* panel_preferences.h - preferences dialog: window settings and keys. */
 #pragma once
-#include "ui/state/app_state.h"
-#include "ui/state/keys.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/keys.h"
 
 #include <stdbool.h>
 

@@ -1,7 +1,7 @@
 /* Material menu: a sphere for each material, rendered like the patch, one per frame of the window. */
 #include "ui/panels/panel_presets.h"
-#include "ui/state/scene_line.h"
-#include "ui/state/session_view.h"
+#include "ui/app/state/scene_line.h"
+#include "ui/app/state/session_view.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/gui_sdl_renderer.h"
 #include "ui/toolkit/theme.h"

@@ -1,8 +1,8 @@
 /* Profile editor of a surface of revolution: a curve with draggable points; each drag is one command. */
-#include "ui/state/app_state.h"
-#include "ui/state/pointer_state.h"
-#include "ui/state/keys.h"
-#include "ui/state/session_view.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/pointer_state.h"
+#include "ui/app/state/keys.h"
+#include "ui/app/state/session_view.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 #include "ui/panels/panel_scene.h"

@@ -1,8 +1,8 @@
 /* Texture coordinates and normals of an imported mesh: rows of the scene panel. */
-#include "ui/state/app_state.h"
-#include "ui/state/line.h"
-#include "ui/state/scene_line.h"
-#include "ui/state/session_view.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/line.h"
+#include "ui/app/state/scene_line.h"
+#include "ui/app/state/session_view.h"
 #include "ui/toolkit/gui.h"
 #include "ui/panels/panel_scene.h"
 #include "ui/panels/param_row.h"

@@ -1,17 +1,17 @@
 /* Right panel: one tab above, the layers below. Without room for both, the layers are a tab too. A long tab replaces
    the layers if they would leave it only a few rows. */
-#include "ui/accuracy/accuracy.h"
-#include "ui/state/background_command.h"
-#include "ui/state/app_state.h"
-#include "ui/state/layout.h"
-#include "ui/state/registry.h"
-#include "ui/state/settings.h"
+#include "ui/panels/accuracy/accuracy.h"
+#include "ui/app/state/background_command.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/layout.h"
+#include "ui/app/state/registry.h"
+#include "ui/app/state/settings.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 #include "ui/panels/panel_layers.h"
 #include "ui/panels/panels.h"
-#include "ui/state/action.h"
-#include "ui/tools/tool.h"
+#include "ui/app/state/action.h"
+#include "ui/canvas/tools/tool.h"
 
 #include <SDL.h>
 

@@ -1,12 +1,12 @@
 /* Scene panel: every field shows the document's value, changes the preview while it is dragged, and runs one command
    at the end. */
-#include "ui/state/app_state.h"
-#include "ui/state/dialog.h"
-#include "ui/state/scene_line.h"
-#include "ui/state/session_view.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/dialog.h"
+#include "ui/app/state/scene_line.h"
+#include "ui/app/state/session_view.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/words.h"
-#include "ui/jobs/files.h"
+#include "ui/app/jobs/files.h"
 #include "ui/panels/panel_scene.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/param_row.h"

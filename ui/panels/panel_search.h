@@ -1,6 +1,6 @@
 /* panel_search.h - state of the search for actions. */
 #pragma once
-#include "ui/state/app_state.h"
+#include "ui/app/state/app_state.h"
 
 typedef struct WrFinder { /* the search */
     char text[600];

@@ -1,9 +1,9 @@
 /* panel_sheet.h - export sheet: choice of a set of maps, their pictures and files; optionally live export after each
    pause in editing. */
 #pragma once
-#include "ui/state/app_state.h"
-#include "ui/state/registry.h"
-#include "ui/jobs/sheet_job.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/registry.h"
+#include "ui/app/jobs/sheet_job.h"
 
 typedef struct WrSheetState {
     WrSheetRequest ask;  /* settings of the sheet */

@@ -1,6 +1,6 @@
 /* Relief section of the scene panel: effects of the relief besides normals, and the solid texture. */
-#include "ui/state/scene_line.h"
-#include "ui/state/session_view.h"
+#include "ui/app/state/scene_line.h"
+#include "ui/app/state/session_view.h"
 #include "ui/toolkit/gui.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/param_row.h"

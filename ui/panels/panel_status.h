@@ -1,6 +1,6 @@
 /* panel_status.h - status line. */
 #pragma once
-#include "ui/state/app_state.h"
+#include "ui/app/state/app_state.h"
 
 typedef struct WrMeter {     /* memory use, measured at intervals */
     double at;               /* clock */

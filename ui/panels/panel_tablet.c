@@ -1,12 +1,12 @@
 /* Tablet tester: devices, their events and faults, and their pressure curves. */
 #include "ui/panels/panel_tablet.h"
-#include "ui/state/app_state.h"
+#include "ui/app/state/app_state.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 #include "ui/input/pen.h"
 #include "ui/input/pen_curve.h"
-#include "ui/state/dialog.h"
-#include "ui/state/settings.h"
+#include "ui/app/state/dialog.h"
+#include "ui/app/state/settings.h"
 
 #include "base/array.h"
 #include "base/memory.h"

@@ -1,6 +1,6 @@
 /* panel_tablet.h - tablet tester: its state, its dialog, and the stored pressure curves. */
 #pragma once
-#include "ui/state/app_state.h"
+#include "ui/app/state/app_state.h"
 #include "ui/toolkit/gui.h"
 #include "ui/panels/points_pad.h"
 #include "ui/input/pen_curve.h"

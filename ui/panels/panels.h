@@ -1,7 +1,7 @@
 /* panels.h - the panels and dialogs of the registry. */
 #pragma once
 #include "ui/canvas/outline.h"
-#include "ui/state/app_state.h"
+#include "ui/app/state/app_state.h"
 
 #include <SDL.h>
 

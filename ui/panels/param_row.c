@@ -1,6 +1,6 @@
 #include "ui/panels/param_row.h"
-#include "ui/state/scene_line.h"
-#include "ui/state/session_view.h"
+#include "ui/app/state/scene_line.h"
+#include "ui/app/state/session_view.h"
 
 #include "base/text.h"
 #include "scene/param.h"

@@ -1,6 +1,6 @@
 /* param_row.h - panel row of a scene number or colour, by its row in scene/param.h. */
 #pragma once
-#include "ui/state/app_state.h"
+#include "ui/app/state/app_state.h"
 #include "ui/toolkit/gui.h"
 
 typedef struct WrSceneParam WrSceneParam;

@@ -1,6 +1,6 @@
 #include "ui/panels/points_pad.h"
 #include "ui/toolkit/theme.h"
-#include "ui/state/app_state.h"
+#include "ui/app/state/app_state.h"
 #include "ui/toolkit/gui.h"
 #include "ui/panels/panel_adjust.h"
 

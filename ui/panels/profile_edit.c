@@ -1,5 +1,5 @@
 #include "ui/panels/profile_edit.h"
-#include "ui/state/line.h"
+#include "ui/app/state/line.h"
 
 #include "base/text.h"
 

@@ -1,6 +1,6 @@
 #include "ui/panels/thumb_list.h"
 #include "ui/canvas/canvas_colors.h"
-#include "ui/state/app_state.h"
+#include "ui/app/state/app_state.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/gui_sdl_renderer.h"
 

@@ -1,11 +1,11 @@
 /* patch.h - the patch view: requests to the preview and their timing, rotation, lights, camera. */
 #pragma once
-#include "ui/state/app_state.h"
-#include "ui/state/registry.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/registry.h"
 #include "ui/patch/patch_cube.h"
 #include "ui/patch/patch_objects.h"
-#include "ui/preview/preview.h"
-#include "ui/preview/rotation.h"
+#include "ui/patch/preview/preview.h"
+#include "ui/patch/preview/rotation.h"
 
 #include "document/object_tables.h"
 #include "scene/camera.h"

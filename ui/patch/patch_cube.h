@@ -1,7 +1,7 @@
 /* patch_cube.h - orientation cube in the patch's corner. A click on a face, an edge or a corner rotates it to the
    front; a drag rotates freely. */
 #pragma once
-#include "ui/preview/rotation.h"
+#include "ui/patch/preview/rotation.h"
 
 #include <stdbool.h>
 

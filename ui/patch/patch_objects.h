@@ -1,9 +1,9 @@
 /* patch_objects.h - objects of a scene on the patch: chosen by a click; moved, resized and rotated by the handles of
    the active one. */
 #pragma once
-#include "ui/state/app_state.h"
-#include "ui/state/pointer_state.h"
-#include "ui/preview/patch_pick.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/pointer_state.h"
+#include "ui/patch/preview/patch_pick.h"
 
 #include <stdbool.h>
 

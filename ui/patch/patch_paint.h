@@ -1,8 +1,8 @@
 /* patch_paint.h - painting on the patch. */
 #pragma once
-#include "ui/state/app_state.h"
-#include "ui/state/pointer_state.h"
-#include "ui/preview/patch_pick.h"
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/pointer_state.h"
+#include "ui/patch/preview/patch_pick.h"
 
 #include <SDL.h>
 #include <stdbool.h>

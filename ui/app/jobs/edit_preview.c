@@ -1,0 +1,443 @@
+#include "ui/app/jobs/edit_preview.h"
+#include "ui/app/jobs/job.h"
+
+#include "base/array.h"
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/pool.h"
+#include "base/progress.h"
+#include "base/text.h"
+#include "brush/brush.h"
+#include "brush/tip.h"
+#include "command/command_line.h"
+#include "command/commands.h"
+#include "document/document.h"
+#include "field/field.h"
+#include "field/ops.h"
+#include "generate/generator.h"
+#include "system/clock.h"
+
+#include <SDL.h>
+#include <math.h>
+#include <string.h>
+
+/* ---- the edited table ---- */
+
+#define ROUGH_TEXELS 262144.0 /* approximate size of a rough table */
+#define ROUGH_MIN 16          /* least texels along a side */
+
+static void note(void *ctx, const char *text)
+{
+    wr_text_addf(ctx, "%s\n", text);
+}
+
+/* Reduction factor of a rough table. Generators with a position, files or text keep the full size: their heights or
+   grain may depend on texels. */
+static int rough_step(const WrGenerator *generator, const WrField *like)
+{
+    double texels = (double)wr_field_width(like) * wr_field_height(like);
+    int least =
+        wr_field_width(like) < wr_field_height(like) ? wr_field_width(like) : wr_field_height(like);
+    for (const WrParam *p = generator->params; p->name; p++)
+        if (p->kind == WR_PARAM_FILE || p->kind == WR_PARAM_TEXT || strcmp(p->name, "at") == 0)
+            return 1;
+    /* Reduction by step on both axes divides the number of texels by its square. */
+    int step = (int)ceil(sqrt(texels / ROUGH_TEXELS));
+    return step < 1 || least / step < ROUGH_MIN ? 1 : step;
+}
+
+/* Convert lengths in texels to a table that is `step` times smaller. */
+static void shrink(const WrGenerator *generator, WrParamValue *values, int step)
+{
+    for (int i = 0; generator->params[i].name; i++) {
+        const WrParam *p = &generator->params[i];
+        bool length = p->unit && strcmp(p->unit, "texels") == 0;
+        if (!length || (p->kind != WR_PARAM_NUMBER && p->kind != WR_PARAM_TUPLE)) continue;
+        for (int k = 0; k < 3; k++) {
+            double small = values[i].number[k] / step;
+            if (small >= p->low && !(p->above && small == p->low)) values[i].number[k] = small;
+        }
+    }
+}
+
+static WrField *resized(const WrField *field, int width, int height, WrPool *pool,
+                        const WrProgress *progress, WrError *err)
+{
+    const double param[] = { width, height, WR_RESIZE_LINEAR };
+    const WrOpOptions options = { .pool = pool, .progress = progress };
+    return wr_op_run(wr_op_find("resize"), field, param, &options, err);
+}
+
+static bool enlarge(WrField **field, const WrField *like, const WrGenerateJob *job, WrError *err)
+{
+    if (!*field) return true;
+    WrField *large =
+        resized(*field, wr_field_width(like), wr_field_height(like), job->pool, job->progress, err);
+    if (!large) return false;
+    wr_field_free(*field);
+    *field = large;
+    return true;
+}
+
+static bool make_small(const WrGenerator *generator, WrParamValue *values, WrGenerateJob *job,
+                       int step, WrRelief *out, WrError *err)
+{
+    const WrField *like = job->like;
+    WrField *small =
+        resized(like, (wr_field_width(like) + step - 1) / step,
+                (wr_field_height(like) + step - 1) / step, job->pool, job->progress, err);
+    if (!small) return false;
+    shrink(generator, values, step);
+    job->like = small;
+    WrRelief made = { NULL, NULL };
+    bool good = wr_generator_make(generator, values, job, &made, err) &&
+                enlarge(&made.heights, like, job, err) && enlarge(&made.cover, like, job, err);
+    wr_field_free(small);
+    job->like = like;
+    if (good) *out = made;
+    else wr_relief_fini(&made);
+    return good;
+}
+
+static bool make(const WrCall *call, WrGenerateJob *job, WrRelief *out, WrError *err)
+{
+    const WrGenerator *generator = wr_call_generator(call);
+    WrParamValue values[WR_GENERATOR_PARAMS];
+    char *owned[WR_GENERATOR_PARAMS] = { NULL };
+    wr_call_values(call, generator, values);
+    for (int i = 0; generator->params[i].name; i++)
+        if (generator->params[i].kind == WR_PARAM_TEXT && values[i].text)
+            values[i].text = owned[i] = wr_generator_text(values[i].text);
+    int step = job->coarse ? rough_step(generator, job->like) : 1;
+    bool good = step > 1 ? make_small(generator, values, job, step, out, err)
+                         : wr_generator_make(generator, values, job, out, err);
+    for (int i = 0; i < WR_GENERATOR_PARAMS; i++) wr_free(owned[i]);
+    return good;
+}
+
+bool wr_edit_preview_generate(WrDocument *document, const char *line, bool rough, WrPool *pool,
+                              const WrProgress *progress, WrText *notes, WrError *err)
+{
+    WrCall *call = NULL;
+    if (!wr_call_parse(line, false, &call, err)) return false;
+    WrRelief relief = { NULL, NULL };
+    WrStandIn stand_in = { .index = 0 };
+    WrLayer *layer = wr_document_edit_begin(document, &stand_in);
+    WrGenerateJob job = { .like = layer->heights,
+                          .selection = document->selection,
+                          .mask = document->layers[document->active].mask,
+                          .pool = pool,
+                          .progress = progress,
+                          .coarse = rough,
+                          .note = note,
+                          .note_ctx = notes };
+    bool good = wr_call_generator(call) ? make(call, &job, &relief, err)
+                                        : wr_fail(err, "%s: must be a generator's line", line);
+    good = good && wr_call_join(call, &relief, document->selection, layer, pool, progress, err);
+    wr_document_edit_end(document, &stand_in);
+    wr_relief_fini(&relief);
+    wr_call_free(call);
+    return good;
+}
+
+/* Apply a `transform` line to the document. */
+static bool edit_preview_transform(WrDocument *document, const char *line, WrPool *pool,
+                                   const WrProgress *progress, WrError *err)
+{
+    WrCall *call = NULL;
+    WrStandIn stand_in = { .index = 0 };
+    if (!wr_call_parse(line, false, &call, err)) return false;
+    bool all = wr_call_choice(call, "layers") == 1;
+    WrLayer *layer = all ? NULL : wr_document_edit_begin(document, &stand_in);
+    bool good = wr_call_transform(call, document, layer, pool, progress, err);
+    wr_document_edit_end(document, &stand_in);
+    wr_call_free(call);
+    return good;
+}
+
+/* ---- requests ---- */
+
+typedef struct Work {
+    WrDocument *document; /* own snapshot, changed by the work */
+    WrEditPreviewRequest ask;
+    /* unchanged copy of the snapshot, for the exact result after a rough one; NULL: none */
+    WrDocument *again;
+    char *line; /* generator line; ask.line points to it */
+    WrText notes;
+    double seconds;
+    WrBrush brush;  /* brush of a dab; ask.dab points to it */
+    WrField *field; /* the result; NULL: none */
+    WrError err;
+    bool cancelled;
+} Work;
+
+struct WrEditPreview {
+    WrJob *job;
+    WrField *field; /* newest result; owned */
+    WrError err;
+    bool failed;
+    bool rough; /* the field is a rough result */
+    /* document whose composite the field is; owned; NULL: not exact, or another size */
+    WrDocument *made;
+    WrText notes;
+    double seconds;
+};
+
+static void drop(void *arg)
+{
+    Work *work = arg;
+    wr_document_free(work->document);
+    wr_document_free(work->again);
+    wr_free(work->line);
+    wr_text_fini(&work->notes);
+    wr_field_free(work->field);
+    if (work->ask.dab) wr_tip_free((WrTip *)work->brush.tip); /* a shared reference of its own */
+    wr_free(work);
+}
+
+/* ---- on the worker thread ---- */
+
+typedef WrField *Runner(const WrOpInfo *op, const WrField *in, const double *param,
+                        const WrOpOptions *options, WrError *err);
+
+static bool adjust_field(const Work *work, Runner *run, WrField **field, const WrOpOptions *options,
+                         WrError *err)
+{
+    if (!*field) return true;
+    WrField *made = run(work->ask.op, *field, work->ask.param, options, err);
+    if (!made) return false;
+    wr_field_free(*field);
+    *field = made;
+    return true;
+}
+
+/* Apply an operation as in the adjust command: if texels only move, the layer's coverage moves with them. */
+static bool adjust_layer(const Work *work, WrLayer *layer, const WrOpOptions *options, WrError *err)
+{
+    if (!layer->filter.op && !adjust_field(work, wr_op_run, &layer->heights, options, err))
+        return false;
+    return !work->ask.op->moves ||
+           (adjust_field(work, wr_op_run_unit, &layer->cover, options, err) &&
+            adjust_field(work, wr_op_run_unit, &layer->mask, options, err));
+}
+
+/* A filter layer's result is computed with the composite. */
+static bool filter(const Work *work, WrDocument *document, WrError *err)
+{
+    WrFilter made = { .op = work->ask.op };
+    memcpy(made.param, work->ask.param, sizeof made.param);
+    if (!wr_filter_check(&made, err)) return false;
+    if (work->ask.layer >= 0) document->layers[work->ask.layer].filter = made;
+    else wr_document_add_filter(document, "", &made);
+    return true;
+}
+
+static bool adjust(Work *work, WrPool *pool, const WrProgress *progress, WrError *err)
+{
+    WrDocument *document = work->document;
+    WrOpOptions options = { .pool = pool, .progress = progress };
+    if (work->ask.op->reshapes) {
+        work->field = wr_op_run(work->ask.op, wr_document_composite(document, pool),
+                                work->ask.param, &options, err);
+        return work->field != NULL;
+    }
+    if (work->ask.filters) return filter(work, document, err);
+    options.mask = document->selection;
+    const WrLayer *active = &document->layers[document->active];
+    if (!work->ask.all_layers && active->filter.op && !active->on_mask)
+        return wr_fail(err, "the active layer is a filter, without heights of its own");
+    if (!work->ask.all_layers) {
+        WrStandIn stand_in = { .index = 0 };
+        bool good = adjust_layer(work, wr_document_edit_begin(document, &stand_in), &options, err);
+        wr_document_edit_end(document, &stand_in);
+        return good;
+    }
+    for (int i = 0; i < document->layer_count; i++)
+        if (!adjust_layer(work, &document->layers[i], &options, err)) return false;
+    return true;
+}
+
+static void dab(Work *work, WrPool *pool)
+{
+    WrDocument *document = work->document;
+    WrStandIn stand_in = { .index = 0 };
+    const WrLayer *layer = wr_document_edit_begin(document, &stand_in);
+    WrBrushGround ground = { .field = layer->heights,
+                             .mark = layer->cover,
+                             .selection = document->selection,
+                             .pool = pool };
+    wr_brush_dab_on(&ground, &work->brush, work->ask.u, work->ask.v);
+    wr_document_edit_end(document, &stand_in);
+}
+
+static void run(void *arg, WrPool *pool, const WrProgress *progress)
+{
+    Work *work = arg;
+    const WrEditPreviewRequest *ask = &work->ask;
+    double began = wr_clock_seconds();
+    if (ask->line) {
+        bool moves = strncmp(ask->line, "transform", 9) == 0;
+        if (moves ? !edit_preview_transform(work->document, ask->line, pool, progress, &work->err)
+                  : !wr_edit_preview_generate(work->document, ask->line, ask->rough, pool, progress,
+                                              &work->notes, &work->err)) {
+            work->cancelled = wr_progress_cancelled(progress);
+            return;
+        }
+    } else if (ask->op) {
+        if (!adjust(work, pool, progress, &work->err)) {
+            work->cancelled = wr_progress_cancelled(progress);
+            return;
+        }
+    } else if (ask->dab) {
+        dab(work, pool);
+    } else {
+        WrLayer *layer = &work->document->layers[ask->layer];
+        layer->blend = ask->blend;
+        layer->opacity = ask->opacity;
+        layer->radius = ask->radius;
+    }
+    wr_filters_forget();
+    if (!work->field) work->field = wr_field_share(wr_document_composite(work->document, pool));
+    if (!wr_filters_carried(&work->err)) {
+        wr_field_free(work->field);
+        work->field = NULL;
+    }
+    work->seconds = wr_clock_seconds() - began;
+}
+
+/* ---- on the window's thread ---- */
+
+WrEditPreview *wr_edit_preview_new(int threads, Uint32 done_event)
+{
+    static const WrJobKind kind = { run, drop };
+    WrEditPreview *trial = wr_alloc(1, sizeof *trial);
+    trial->job = wr_job_new(&kind, threads, done_event);
+    return trial;
+}
+
+void wr_edit_preview_free(WrEditPreview *trial)
+{
+    if (!trial) return;
+    wr_job_free(trial->job);
+    wr_field_free(trial->field);
+    wr_document_free(trial->made);
+    wr_text_fini(&trial->notes);
+    wr_free(trial);
+}
+
+static void forget_made(WrEditPreview *trial)
+{
+    wr_document_free(trial->made);
+    trial->made = NULL;
+}
+
+void wr_edit_preview_request(WrEditPreview *trial, const WrDocument *document,
+                             const WrEditPreviewRequest *ask)
+{
+    Work *work = wr_alloc(1, sizeof *work);
+    work->document = wr_document_share(document);
+    work->ask = *ask;
+    work->ask.rough = ask->line && ask->rough;
+    if (work->ask.rough) work->again = wr_document_share(document);
+    if (ask->line) work->ask.line = work->line = wr_strdup(ask->line);
+    if (ask->dab) {
+        work->brush = *ask->dab;
+        work->brush.preset = NULL;
+        work->brush.tip = ask->dab->tip ? wr_tip_share(ask->dab->tip) : NULL;
+        work->ask.dab = &work->brush;
+    }
+    trial->failed = false;
+    forget_made(trial);
+    wr_job_start(trial->job, work);
+}
+
+void wr_edit_preview_end(WrEditPreview *trial)
+{
+    wr_job_cancel(trial->job);
+    wr_field_free(trial->field);
+    trial->field = NULL;
+    forget_made(trial);
+    trial->failed = trial->rough = false;
+    wr_text_clear(&trial->notes);
+}
+
+void wr_edit_preview_stop(WrEditPreview *trial)
+{
+    wr_job_interrupt(trial->job);
+}
+
+/* Start the exact computation after the rough result. */
+static void go_on(WrEditPreview *trial, const Work *rough)
+{
+    WrEditPreviewRequest ask = rough->ask;
+    ask.rough = false;
+    wr_edit_preview_request(trial, rough->again, &ask);
+}
+
+static void take(WrEditPreview *trial)
+{
+    Work *work = wr_job_take(trial->job);
+    if (!work) return;
+    if (work->field) {
+        wr_field_free(trial->field);
+        trial->field = work->field;
+        work->field = NULL;
+        WrText notes = trial->notes;
+        trial->notes = work->notes;
+        work->notes = notes;
+        trial->rough = work->ask.rough;
+        bool whole = !trial->rough && !(work->ask.op && work->ask.op->reshapes);
+        forget_made(trial);
+        if (whole) trial->made = wr_document_share(work->document);
+        if (trial->rough) go_on(trial, work);
+        else trial->seconds = work->seconds;
+    } else if (!work->cancelled) {
+        trial->failed = true;
+        trial->err = work->err;
+    }
+    drop(work);
+}
+
+const WrField *wr_edit_preview_field(WrEditPreview *trial)
+{
+    take(trial);
+    return trial->field;
+}
+
+const WrDocument *wr_edit_preview_made(WrEditPreview *trial)
+{
+    take(trial);
+    return trial->made;
+}
+
+bool wr_edit_preview_busy(WrEditPreview *trial, double *fraction, double *seconds)
+{
+    return wr_job_busy(trial->job, fraction, seconds);
+}
+
+bool wr_edit_preview_is_rough(WrEditPreview *trial)
+{
+    take(trial);
+    return trial->field && trial->rough;
+}
+
+const char *wr_edit_preview_notes(WrEditPreview *trial)
+{
+    take(trial);
+    return wr_text_get(&trial->notes);
+}
+
+double wr_edit_preview_seconds(WrEditPreview *trial)
+{
+    take(trial);
+    return trial->seconds;
+}
+
+bool wr_edit_preview_error(WrEditPreview *trial, WrError *err)
+{
+    take(trial);
+    bool failed = trial->failed;
+    if (failed) *err = trial->err;
+    trial->failed = false;
+    return failed;
+}

@@ -1,0 +1,32 @@
+/* tool_stamp.h - stamp tool: a picture, or the round brush, applied once. */
+#pragma once
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/registry.h"
+#include "ui/app/jobs/edit_preview.h"
+
+#include "base/array.h"
+#include "brush/brush.h"
+#include "brush/tip.h"
+
+#include <stdbool.h>
+
+/* Mode and values of settings.brush, with separate picture, size and rotation. */
+typedef struct WrStampState {
+    WrTip *tip;     /* owned; NULL: none chosen */
+    char *tip_path; /* owned */
+    double radius, angle_deg, first_radius, first_angle;
+    bool placed, dragged;       /* its position is set; rotation and size were dragged */
+    double u, v;                /* its position */
+    WrEditPreviewRequest tried; /* last requested preview */
+    WrBrush tried_brush;
+    bool trying;
+    WR_ARRAY(char *) stamps; /* available pictures, owned */
+    bool stamps_known;
+} WrStampState;
+
+void wr_stamp_file_chosen(WrApp *app, const char *path); /* handler of a chosen file */
+void wr_stamp_forget(WrApp *app);                        /* free it */
+
+extern const WrPart wr_part_stamp;
+
+/* ---- pictures for stamping, in the brush folders of the program, the user and GIMP ---- */

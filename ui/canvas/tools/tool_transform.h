@@ -1,0 +1,34 @@
+/* tool_transform.h - state of the transform tool until it is applied. */
+#pragma once
+#include "ui/app/state/app_state.h"
+
+#include "field/select.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef enum WrTransformPart {
+    WR_TRANSFORM_NONE,
+    WR_TRANSFORM_MOVE,
+    WR_TRANSFORM_TURN,
+    WR_TRANSFORM_SCALE /* by one of eight handles */
+} WrTransformPart;
+
+/* Arguments of `transform`. Lengths are texels, y pointing down. */
+typedef struct WrTransformValues {
+    double move[2]; /* right, up */
+    double scale[2];
+    double turn; /* degrees */
+} WrTransformValues;
+
+typedef struct WrTransformState {
+    bool measured; /* the box is up to date for the document's revision, */
+    uint64_t revision;
+    bool any; /* and is not empty */
+    WrSelectBox box;
+    WrTransformValues now, first; /* first: at the start of the drag */
+    bool leave, all;
+    WrTransformPart part;
+    int side[2];    /* of the handle: -1, 0, 1 along the piece's axes, right and down */
+    double from[2]; /* start of the drag, texels from the piece's centre at that time */
+} WrTransformState;

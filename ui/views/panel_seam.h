@@ -1,5 +1,0 @@
-/* panel_seam.h - seam meter: continuity of the table across the cell's edges. */
-#pragma once
-#include "ui/state/app_state.h"
-
-void wr_panel_seam_meter(WrApp *app); /* on the canvas */
