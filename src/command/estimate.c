@@ -6,6 +6,7 @@
 #include "command/session_internal.h"
 #include "document/blend.h"
 #include "document/document.h"
+#include "export/export.h"
 #include "field/field.h"
 #include "scene/scene.h"
 
@@ -165,7 +166,6 @@ static double drawing(const Job *job, const Need *need)
     {                                                                                              \
         verb, form, .unknown = why                                                                 \
     }
-#define BY_RELIEF "it goes by the relief, and by its error="
 #define BY_FILE "it goes by what is in the file"
 #define BY_AREA "it goes by how much of the table it covers"
 
@@ -230,9 +230,7 @@ static const Need needs[] = {
     { "export", "wear", texels, .bytes = 8.8 },
     { "export", "occlusion", texels, .bytes = 18 },
     UNKNOWN("export", "horizon", "it goes by the number of directions and threads"),
-    UNKNOWN("export", "stl", BY_RELIEF),
-    UNKNOWN("export", "ply", BY_RELIEF),
-    UNKNOWN("export", "obj", BY_RELIEF),
+    UNKNOWN("export", "solid", "it goes by the relief, and by its error="),
     { "export", "glb", texels, .bytes = 36 }, /* three maps in memory */
     { "maps", NULL, texels, .bytes = 34 },
     { "render", NULL, picture, .bytes = 17 },
@@ -243,6 +241,8 @@ static const Need needs[] = {
 static const Need *find(const char *verb, const char *form)
 {
     const Need *any = NULL;
+    const WrExportKind *kind = form && strcmp(verb, "export") == 0 ? wr_export_find(form) : NULL;
+    if (kind && kind->solid) form = "solid";
     if (strcmp(verb, "filter") == 0) verb = "adjust";
     for (size_t i = 0; i < sizeof needs / sizeof *needs; i++) {
         const Need *need = &needs[i];

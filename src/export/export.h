@@ -246,11 +246,12 @@ typedef struct WrExportJob WrExportJob; /* private to the module */
 typedef struct WrExportKind {
     const char *name, *label, *help;
     WrExportOptionInfo options[WR_EXPORT_OPTIONS + 1]; /* a NULL name ends the list */
-    int channels;                                      /* of a picture; 0 for a body */
-    bool floats;                                       /* requires floats instead of codes */
-    bool levels;                                       /* has mip levels (mip_files.h) */
-    const char *const *channel_names;                  /* [channels]; NULL: the default ones */
-    double green;                                      /* normals: sign of the second component */
+    int channels;                                      /* of a picture; 0 for a model */
+    bool solid;  /* the relief as triangles, with the options `size`, `error` and so on of solids */
+    bool floats; /* requires floats instead of codes */
+    bool levels; /* has mip levels (mip_files.h) */
+    const char *const *channel_names; /* [channels]; NULL: the default ones */
+    double green;                     /* normals: sign of the second component */
     bool on_surface;    /* it covers the scene's surface, in scene units, instead of the cell */
     const char *ending; /* required extension of its files; NULL: that of a picture or a drawing */
     /* Number of channels as a function of the options; NULL: `channels`, with default names. names: output
@@ -270,7 +271,7 @@ typedef struct WrExportKind {
     void (*describe)(WrExportJob *job);
 } WrExportKind;
 
-#define WR_EXPORT_KIND_COUNT 26
+#define WR_EXPORT_KIND_COUNT 27
 extern const WrExportKind wr_export_kinds[];
 const WrExportKind *wr_export_find(const char *name); /* NULL if unknown */
 

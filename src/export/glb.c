@@ -1,4 +1,5 @@
-/* The object at hand as a glTF 2.0 model in one binary file, with maps of its relief and its material.
+/* glTF 2.0 models in one binary file: the object at hand with maps of its relief and its material (glb), or with its relief
+   as geometry (gltf).
    Source: glTF 2.0 specification: 3.6 (buffers), 3.7 (meshes), 3.9 (materials), 4 (GLB); KHR_texture_transform. */
 #include "base/error.h"
 #include "base/file.h"
@@ -7,6 +8,7 @@
 #include "base/text.h"
 #include "export/job.h"
 #include "export/preview.h"
+#include "export/solid_body.h"
 #include "scene/scene.h"
 #include "surface/surface.h"
 #include "surface/triangles.h"
@@ -27,6 +29,7 @@ typedef struct WrModel {
     uint32_t (*triangles)[3]; /* [triangle_count], counter-clockwise from outside; owned */
     int32_t point_count, triangle_count;
     bool mapped; /* has (u,v) */
+    bool raised; /* the relief is in the points: no normal map; metres */
     double per_u,
         per_v; /* mean lengths of Pu and Pv over the surface, scene units; 1 for held triangles */
 } WrModel;
@@ -210,6 +213,117 @@ static bool model_make(const WrScene *scene, WrModel *model, WrError *err)
     return good;
 }
 
+/* ---- triangles of a solid ---- */
+
+/* Corners of a body by point: those of point i are corners[first[i]] to corners[first[i + 1] - 1], each 3 times its triangle
+   and its number there. */
+typedef struct Fans {
+    int32_t *first, *corners; /* [point_count + 1], [3 * triangle_count]; owned */
+    WrVec3 *areas;            /* [triangle_count] area vectors; owned */
+} Fans;
+
+static void fans_fini(Fans *fans)
+{
+    wr_free(fans->first);
+    wr_free(fans->corners);
+    wr_free(fans->areas);
+}
+
+static bool fans_make(const WrSolidBody *body, Fans *fans, WrError *err)
+{
+    const size_t points = (size_t)body->point_count, count = (size_t)body->triangle_count;
+    fans->first = wr_try_alloc(points + 1, sizeof *fans->first, "a model", err);
+    fans->corners =
+        fans->first ? wr_try_alloc_unset(3 * count, sizeof *fans->corners, "a model", err) : NULL;
+    fans->areas =
+        fans->corners ? wr_try_alloc_unset(count, sizeof *fans->areas, "a model", err) : NULL;
+    if (!fans->areas) return false;
+    for (size_t i = 0; i < count; i++) {
+        const int32_t *t = body->triangles[i];
+        fans->areas[i] = wr_solid_body_area(body, t[0], t[1], t[2]);
+        for (int k = 0; k < 3; k++) fans->first[t[k]]++;
+    }
+    int32_t sum = 0;
+    for (size_t i = 0; i <= points; i++) sum = fans->first[i] += sum;
+    for (size_t i = 3 * count; i-- > 0;)
+        fans->corners[--fans->first[body->triangles[i / 3][i % 3]]] = (int32_t)i;
+    return true;
+}
+
+/* Weight of a triangle's area vector in the normal at one of its corners, whose sides are a and b: 1 / (a.a b.b). The sum about
+   a point is exact for points on a sphere, however thin the triangles (N. Max, Weights for computing vertex normals from facet
+   normals, 1999). */
+static double corner_weight(const WrSolidBody *body, int32_t corner)
+{
+    const int32_t *t = body->triangles[corner / 3];
+    const WrVec3 p = wr_solid_body_point(body, t[corner % 3]);
+    const WrVec3 a = v3_sub(wr_solid_body_point(body, t[(corner + 1) % 3]), p);
+    const WrVec3 b = v3_sub(wr_solid_body_point(body, t[(corner + 2) % 3]), p);
+    const double sides = v3_dot(a, a) * v3_dot(b, b);
+    return sides > 0 ? 1 / sides : 0;
+}
+
+#define SMOOTH 0.587 /* cos^2 of 40 degrees */
+
+/* The sum about a corner's point over the triangles that are tilted against its own by at most 40 degrees: flatter
+   edges are shaded smooth, others hard. A thin triangle on a curved surface, as at a sphere's pole, can be tilted by as much: so
+   the sum takes its place, twice, and moves to the direction of most triangles. */
+static WrVec3 corner_normal(const WrSolidBody *body, const Fans *fans, int32_t point,
+                            int32_t corner)
+{
+    WrVec3 own = fans->areas[corner / 3];
+    for (int round = 0; round < 3; round++) {
+        WrVec3 sum = { 0, 0, 0 };
+        for (int32_t i = fans->first[point]; i < fans->first[point + 1]; i++) {
+            const WrVec3 other = fans->areas[fans->corners[i] / 3];
+            const double dot = v3_dot(own, other);
+            if (dot > 0 && dot * dot >= SMOOTH * v3_dot(own, own) * v3_dot(other, other))
+                sum = v3_add(sum, v3_scale(other, corner_weight(body, fans->corners[i])));
+        }
+        own = sum;
+    }
+    return v3_unit(own, (WrVec3){ 0, 0, 1 });
+}
+
+/* A vertex for each normal and (u,v) at a point. cells: (u,v) of the body are in cells, those of a model are not. */
+static void take_corner(const WrSolidBody *body, const Fans *fans, int32_t corner,
+                        const double cells[2], int32_t first, WrModel *m)
+{
+    const int32_t point = body->triangles[corner / 3][corner % 3];
+    float normal[3], uv[2];
+    put(normal, corner_normal(body, fans, point, corner));
+    for (int k = 0; k < 2; k++)
+        uv[k] = (float)((double)body->uv[corner / 3][corner % 3][k] / cells[k]);
+    int32_t at = first;
+    while (at < m->point_count && (memcmp(m->normals[at], normal, sizeof normal) != 0 ||
+                                   memcmp(m->uv[at], uv, sizeof uv) != 0))
+        at++;
+    if (at == m->point_count) {
+        put(m->points[at], v3_scale(wr_solid_body_point(body, point), 1e-3)); /* mm to metres */
+        memcpy(m->normals[at], normal, sizeof normal);
+        memcpy(m->uv[at], uv, sizeof uv);
+        m->point_count++;
+    }
+    m->triangles[corner / 3][corner % 3] = (uint32_t)at;
+}
+
+static bool take_body(const WrSolidBody *body, const WrScene *scene, WrModel *m, WrError *err)
+{
+    const double cells[2] = { scene->replicate_u, scene->replicate_v };
+    Fans fans = { 0 };
+    const bool good = reserve(m, 3 * body->triangle_count, body->triangle_count, err) &&
+                      fans_make(body, &fans, err);
+    for (int32_t i = 0; good && i < body->point_count; i++) {
+        const int32_t first = m->point_count;
+        for (int32_t k = fans.first[i]; k < fans.first[i + 1]; k++)
+            take_corner(body, &fans, fans.corners[k], cells, first, m);
+    }
+    m->triangle_count = body->triangle_count;
+    m->mapped = m->raised = true;
+    fans_fini(&fans);
+    return good;
+}
+
 static void model_fini(WrModel *model)
 {
     wr_free(model->points);
@@ -314,12 +428,13 @@ static bool add_maps(Glb *glb, WrError *err)
     const WrScene *scene = glb->job->scene;
     const double cells[2] = { scene->replicate_u, scene->replicate_v }, once[2] = { 1, 1 };
     const bool held = wr_surfaces[scene->shape.kind]->held;
-    const double *base = held ? once : cells;
+    const double *base = held && !glb->model.raised ? once : cells;
     WrProgressPart part;
     memcpy(glb->repeat, base, sizeof glb->repeat);
     if (!glb->model.mapped) return true;
     const WrProgress *whole = wr_progress_enter(&part, 0.1, 0.4);
-    bool good = add_map(glb, held ? "normal-baked" : "normal+y", NORMAL, base, err);
+    bool good =
+        glb->model.raised || add_map(glb, held ? "normal-baked" : "normal+y", NORMAL, base, err);
     wr_progress_set(whole);
     wr_progress_enter(&part, 0.4, 0.8);
     good = good && add_map(glb, "packed", PACKED, cells, err);
@@ -550,22 +665,50 @@ static bool write_file(Glb *glb, const char *path, WrError *err)
     return false;
 }
 
+/* Adds maps to the model and writes both. Frees the model. */
+static bool write_model(Glb *glb, const char *path, WrError *err)
+{
+    bool good = add_maps(glb, err);
+    if (good && glb->model.triangle_count == 0)
+        good = wr_fail(err, "%s: the surface has no area", path);
+    if (good) {
+        describe(glb);
+        good = write_file(glb, path, err);
+    }
+    for (int k = 0; k < MAPS; k++) wr_free(glb->maps[k].png);
+    model_fini(&glb->model);
+    wr_text_fini(&glb->json);
+    wr_text_fini(&glb->bin);
+    return good;
+}
+
 bool wr_export_glb_write(WrExportJob *job, const char *path, WrError *err)
 {
     Glb glb = { .job = job };
-    bool good = model_make(job->scene, &glb.model, err) && add_maps(&glb, err);
-    if (good && glb.model.triangle_count == 0)
-        good = wr_fail(err, "%s: the surface has no area", path);
-    if (good) {
-        describe(&glb);
-        job->report.triangles = glb.model.triangle_count;
-        job->report.pictures = glb.count;
-        job->report.model = true;
-        good = write_file(&glb, path, err);
+    if (!model_make(job->scene, &glb.model, err)) return false;
+    job->report.triangles = glb.model.triangle_count;
+    job->report.model = true;
+    const bool good = write_model(&glb, path, err);
+    job->report.pictures = glb.count;
+    return good;
+}
+
+bool wr_export_gltf_write(WrExportJob *job, const char *path, WrError *err)
+{
+    Glb glb = { .job = job };
+    WrSolidBody body = { 0 };
+    WrProgressPart part;
+    const WrProgress *whole = wr_progress_enter(&part, 0.0, 0.7);
+    bool good =
+        wr_export_solid_make(job, &body, err) && take_body(&body, job->scene, &glb.model, err);
+    wr_progress_set(whole);
+    wr_solid_body_fini(&body);
+    if (!good) {
+        model_fini(&glb.model);
+        return false;
     }
-    for (int k = 0; k < MAPS; k++) wr_free(glb.maps[k].png);
-    model_fini(&glb.model);
-    wr_text_fini(&glb.json);
-    wr_text_fini(&glb.bin);
+    wr_progress_enter(&part, 0.7, 1.0);
+    good = write_model(&glb, path, err);
+    wr_progress_set(whole);
     return good;
 }

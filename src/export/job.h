@@ -150,3 +150,7 @@ bool wr_export_line_drawing_write(WrExportJob *job, const char *path, WrError *e
 bool wr_export_profile_write(WrExportJob *job, const char *path, WrError *err);
 bool wr_export_solid_write(WrExportJob *job, const char *path, WrError *err);
 bool wr_export_glb_write(WrExportJob *job, const char *path, WrError *err);
+bool wr_export_gltf_write(WrExportJob *job, const char *path, WrError *err);
+/* The relief on the job's surface, with its facts in the job's report. body: zero-initialised. */
+typedef struct WrSolidBody WrSolidBody;
+bool wr_export_solid_make(WrExportJob *job, WrSolidBody *body, WrError *err);

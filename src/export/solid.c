@@ -1180,18 +1180,24 @@ static bool make_solid(WrExportJob *job, WrSolidBody *body, WrError *err)
     return good;
 }
 
+bool wr_export_solid_make(WrExportJob *job, WrSolidBody *body, WrError *err)
+{
+    if (!check(job, err)) return false;
+    const bool good = wr_surfaces[job->scene->shape.kind]->held ? wr_mesh_solid_make(job, body, err)
+                                                                : make_solid(job, body, err);
+    if (good) report_body(job, body);
+    return good;
+}
+
 bool wr_export_solid_write(WrExportJob *job, const char *path, WrError *err)
 {
     WrSolidBody body = { 0 };
     WrProgressPart part;
-    if (!check(job, err)) return false;
     const WrProgress *whole = wr_progress_enter(&part, 0.0, 0.7);
-    bool good = wr_surfaces[job->scene->shape.kind]->held ? wr_mesh_solid_make(job, &body, err)
-                                                          : make_solid(job, &body, err);
+    bool good = wr_export_solid_make(job, &body, err);
     wr_progress_set(whole);
     if (good) {
         wr_progress_enter(&part, 0.7, 1.0);
-        report_body(job, &body);
         good = wr_solid_body_write(&body, job->kind->ending, path, err);
         wr_progress_set(whole);
     }

@@ -146,6 +146,7 @@ static const char *const lines[] = {
     "export stl new8.stl",
     "export ply new9.ply error=0.3",
     "export 3mf new10.3mf error=0.3",
+    "export gltf new31.glb error=0.3",
     "export obj new10.obj error=0.3",
     "render new5.png size=700x700",
     "undo 5",

@@ -207,6 +207,8 @@ static void memory_stays_within_the_estimate(void **state)
         "export packed a.png",
         "export contact a.png",
         "export glb a.glb",
+        "export 3mf a.3mf error=1",
+        "export gltf a.glb error=1",
         "export lines a.svg",
         "export profile a.png",
         "export normal-object a.png",

@@ -914,6 +914,45 @@ static void relief_stays_within_its_wall(void **state)
     }
 }
 
+/* The same triangles as the STL file, in metres. Normals of points on a sphere are the sphere's, also about the thin triangles of
+   its poles; at an edge of a sheet each side has its own. */
+static void a_gltf_has_the_relief_as_geometry(void **state)
+{
+    (void)state;
+    WrExportReport report;
+    WrError err = { "" };
+    const char *settings = "size=37.9 error=0.021";
+    for (int k = 0; k < 3; k++) { /* a smooth sphere, a rough one, a sheet */
+        WrDocument *document =
+            document_of(k ? 26 : 131, k ? 17 : 97, k == 1 ? 0.31 : 0, WR_WRAP_PERIODIC);
+        if (k < 2) set_surface(document, WR_SURFACE_sphere);
+        document->scene->replicate_u = 3;
+        Body stl = export_body(document, "stl", settings, &report);
+        if (!try_export(document, "gltf", settings, "body.glb", &report, &err))
+            fail_msg("%s", err.text);
+        WrMesh mesh = read_whole("body.glb");
+        assert_int_equal(mesh.triangle_count, stl.mesh.triangle_count);
+        assert_near(1e9 * volume_of(&mesh), stl.volume, 1e-5 * stl.volume);
+        int edges = 0;
+        for (int32_t t = 0; t < mesh.triangle_count; t++)
+            for (int c = 0; c < 3; c++) {
+                const int32_t at = mesh.corners[t][c];
+                const WrVec3 p = point_of(&mesh, at);
+                const WrVec3 n = { mesh.normals[at][0], mesh.normals[at][1], mesh.normals[at][2] };
+                const WrVec3 q = v3_scale(point_of(&stl.mesh, stl.mesh.corners[t][c]), 1e-3);
+                assert_near(v3_len(v3_sub(p, q)), 0, 1e-8);
+                assert_near(v3_len(n), 1, 1e-6);
+                if (k == 0 && v3_dot(n, v3_unit(p, n)) < 0.99999)
+                    fail_msg("a normal is %g off", v3_dot(n, v3_unit(p, n)));
+                if (k == 2) edges += fabs(n.x) + fabs(n.y) + fabs(n.z) > 1 + 1e-6;
+            }
+        assert_int_equal(edges, 0);
+        wr_mesh_fini(&mesh);
+        wr_mesh_fini(&stl.mesh);
+        wr_document_free(document);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -926,6 +965,7 @@ int main(void)
         cmocka_unit_test(a_model_has_the_slopes_of_its_cells),
         cmocka_unit_test(every_surface_is_a_model),
         cmocka_unit_test(held_triangles_are_a_model),
+        cmocka_unit_test(a_gltf_has_the_relief_as_geometry),
         cmocka_unit_test(no_texel_is_farther_off_than_was_asked),
         cmocka_unit_test(what_cannot_be_made_is_told),
         cmocka_unit_test(an_stl_says_millimetres),

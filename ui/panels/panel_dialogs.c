@@ -167,12 +167,12 @@ static void add_export_line(const WrApp *app, const char *path, WrText *line)
     wr_text_addf(line, "export %s ", kind->name);
     wr_text_add_word(line, path);
     if (strcmp(kind->name, "height") == 0) wr_text_addf(line, " range=%s", ranges[f->range]);
-    if (kind->channels == 0 && has_mesh(app)) {
+    if (kind->solid && has_mesh(app)) {
         if (f->mesh_size > 0) wr_line_number(line, "size", f->mesh_size);
         wr_line_number(line, "error", f->solid_error);
         if (f->mesh_round) wr_text_add(line, " edges=round");
         if (f->mesh_limited) wr_text_add(line, " folds=limit");
-    } else if (kind->channels == 0) { /* a solid */
+    } else if (kind->solid) {
         wr_line_number(line, "size", f->solid_size);
         wr_line_number(line, "error", f->solid_error);
         if (f->solid_thickness > 0) wr_line_number(line, "thickness", f->solid_thickness);
@@ -242,9 +242,9 @@ void wr_dialog_export(WrApp *app)
         wr_gui_label("Black and white");
         wr_gui_choice("range", 0, ranges, WR_RANGES, &f->range);
     }
-    if (wr_export_kinds[f->kind].channels == 0 && has_mesh(app)) mesh_numbers(f);
-    else if (wr_export_kinds[f->kind].channels == 0) solid_numbers(f);
-    else
+    if (wr_export_kinds[f->kind].solid && has_mesh(app)) mesh_numbers(f);
+    else if (wr_export_kinds[f->kind].solid) solid_numbers(f);
+    else if (wr_export_kinds[f->kind].channels > 0)
         wr_gui_text_wrapped(
             WR_FONT_SMALL, WR_COLOUR_LABEL,
             "The format goes by the file's ending: png and tif with 16 bits, exr with "
