@@ -416,7 +416,7 @@ typedef struct Samples {
     bool mapped;
     double error; /* largest allowed distance */
     double worst; /* squared distance of the farthest */
-    int count;
+    int count, run;        /* collected; measured at once: more each time, as most errors show early */
     WrMeshReliefPlace *at; /* [WR_HEIGHTS_RUN] */
 } Samples;
 
@@ -433,6 +433,7 @@ static bool measure(Samples *s)
         if (!(d <= s->worst)) s->worst = d;
     }
     s->count = 0;
+    if (s->run < WR_HEIGHTS_RUN) s->run *= 2;
     return s->worst <= s->error * s->error && !wr_progress_stopped();
 }
 
@@ -445,7 +446,7 @@ static bool add_sample(Samples *s, double w1, double w2)
         wr_mesh_relief_place(s->relief->request.mesh, s->triangle->face,
                              w0 * (double)b[0][0] + w1 * (double)b[1][0] + w2 * (double)b[2][0],
                              w0 * (double)b[0][1] + w1 * (double)b[1][1] + w2 * (double)b[2][1]);
-    return s->count < WR_HEIGHTS_RUN || measure(s);
+    return s->count < s->run || measure(s);
 }
 
 /* Lattice points on one axis from low to high, at (i + 1/2) step: the first, and the step between. */
@@ -551,6 +552,7 @@ static double error_of(const WrMeshRelief *r, const WrMeshReliefTriangle *t)
     WrMeshReliefPlace at[WR_HEIGHTS_RUN];
     Samples s = { .relief = r,
                   .at = at,
+                  .run = 8,
                   .triangle = t,
                   .facet = wr_facet_of((const float(*)[3])r->at.data, t->point),
                   .mapped = is_mapped(r, t->face),
