@@ -414,9 +414,9 @@ typedef struct Samples {
     WrFacet facet;
     WrMeshReliefPlace corner[3];
     bool mapped;
-    double error; /* largest allowed distance */
-    double worst; /* squared distance of the farthest */
-    int count, run;        /* collected; measured at once: more each time, as most errors show early */
+    double error;   /* largest allowed distance */
+    double worst;   /* squared distance of the farthest */
+    int count, run; /* collected; measured at once: more each time, as most errors show early */
     WrMeshReliefPlace *at; /* [WR_HEIGHTS_RUN] */
 } Samples;
 
