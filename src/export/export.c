@@ -45,6 +45,7 @@ WrExportOptions wr_export_default(void)
                               .at = 0.5,
                               .grid = 8,
                               .solid_error = 0.05,
+                              .solid_most = 4000000,
                               .directions = 16,
                               .toward = 0,
                               .radius = 8,

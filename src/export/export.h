@@ -182,6 +182,7 @@ typedef struct WrExportOptions {
        millimetres, for a mesh its own unit, else 100 */
     double solid_size;
     double solid_error;     /* largest error of a sample, > 0 */
+    int32_t solid_most;     /* triangles of the relief at most, without its back */
     double solid_thickness; /* below the lowest sample; 0: 2 for a sheet, a tube is filled */
     bool solid_rounded; /* of a mesh: its hard edges become round under relief, else stay sharp */
     bool solid_limited; /* of a mesh: relief that folds over is lowered */

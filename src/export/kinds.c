@@ -234,6 +234,8 @@ static bool set_grid(WrExportOptions *options, const char *value, WrError *err)
             { "thickness", "MM",                                                                   \
               "under the lowest texel; left out: 2 for a sheet, a tube is filled",                 \
               wr_export_set_thickness },                                                           \
+            { "triangles", "COUNT", "at most, without a back; left out: 4000000",                  \
+              wr_export_set_triangles },                                                           \
             { "edges", "sharp or round",                                                           \
               "of a mesh: hard edges under relief stay sharp or become round; left out: sharp",    \
               wr_export_set_edges },                                                               \

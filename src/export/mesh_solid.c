@@ -206,7 +206,7 @@ bool wr_mesh_solid_make(WrExportJob *job, WrSolidBody *body, WrError *err)
                                 .rounded = job->options.solid_rounded,
                                 .error = job->options.solid_error,
                                 .fine = true,
-                                .most = WR_SOLID_MAX };
+                                .most = job->options.solid_most };
     if (!ask.mesh) return wr_fail(err, "the mesh has no file: `surface mesh file=FILE` reads one");
     if (!ask.mesh->mapped)
         return wr_fail(err, "the mesh has no texture coordinates, which relief needs: `surface "
@@ -230,7 +230,7 @@ bool wr_mesh_solid_make(WrExportJob *job, WrSolidBody *body, WrError *err)
         good =
             wr_fail(err,
                     "error=%.6g mm needs more than %d triangles: a larger error, a smaller size, "
-                    "or a coarser mesh",
+                    "a coarser mesh, or triangles=",
                     ask.error, ask.most);
     const bool limit = job->options.solid_limited;
     good = good && check_rooms(&relief, limit, &job->report, err);

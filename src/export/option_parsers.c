@@ -154,6 +154,21 @@ bool wr_export_set_margin(WrExportOptions *options, const char *value, WrError *
     return true;
 }
 
+/* An option's range; whole: integers only. */
+typedef struct Allowed {
+    const char *name, *what;
+    double low, high;
+    bool whole;
+} Allowed;
+
+static bool parse(const Allowed *a, const char *value, double *out, WrError *err)
+{
+    if (wr_number_parse(value, strlen(value), out) && *out >= a->low && *out <= a->high &&
+        (!a->whole || *out == floor(*out)))
+        return true;
+    return wr_fail(err, "%s '%.40s': must be %s", a->name, value, a->what);
+}
+
 /* ---- bodies ---- */
 
 /* Millimetres. */
@@ -188,6 +203,15 @@ static bool parse_either(const char *name, const char *value, const char *off, c
     *out = strcmp(value, on) == 0;
     return *out || strcmp(value, off) == 0 ||
            wr_fail(err, "%s '%.40s': must be %s or %s", name, value, off, on);
+}
+
+bool wr_export_set_triangles(WrExportOptions *options, const char *value, WrError *err)
+{
+    const Allowed allowed = { "triangles", "a whole number, 1..40000000", 1, 4e7, true };
+    double count;
+    if (!parse(&allowed, value, &count, err)) return false;
+    options->solid_most = (int32_t)count;
+    return true;
 }
 
 bool wr_export_set_edges(WrExportOptions *options, const char *value, WrError *err)
@@ -226,21 +250,6 @@ bool wr_export_option(const WrExportKind *kind, WrExportOptions *options, const 
 }
 
 /* ---- map options ---- */
-
-/* An option's range; whole: integers only. */
-typedef struct Allowed {
-    const char *name, *what;
-    double low, high;
-    bool whole;
-} Allowed;
-
-static bool parse(const Allowed *a, const char *value, double *out, WrError *err)
-{
-    if (wr_number_parse(value, strlen(value), out) && *out >= a->low && *out <= a->high &&
-        (!a->whole || *out == floor(*out)))
-        return true;
-    return wr_fail(err, "%s '%.40s': must be %s", a->name, value, a->what);
-}
 
 bool wr_set_directions(WrExportOptions *options, const char *value, WrError *err)
 {

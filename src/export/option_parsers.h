@@ -123,6 +123,7 @@ bool wr_export_set_margin(WrExportOptions *options, const char *value, WrError *
 bool wr_export_set_solid_size(WrExportOptions *options, const char *value, WrError *err);
 bool wr_export_set_solid_error(WrExportOptions *options, const char *value, WrError *err);
 bool wr_export_set_thickness(WrExportOptions *options, const char *value, WrError *err);
+bool wr_export_set_triangles(WrExportOptions *options, const char *value, WrError *err);
 bool wr_export_set_edges(WrExportOptions *options, const char *value, WrError *err);
 bool wr_export_set_folds(WrExportOptions *options, const char *value, WrError *err);
 

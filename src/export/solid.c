@@ -74,6 +74,7 @@ typedef struct WrSolid {
     double size;       /* mm: longest side of the smooth surface */
     double true_width; /* mm: its width instead; 0: use size */
     double error;      /* requested error, mm */
+    int32_t most;      /* triangles of the relief, without its back */
     double thickness;  /* mm below the lowest sample; 0: filled, open ends closed flat */
     WrVec3 stretch, cofactor, middle; /* a point is (stretch P - middle) scale */
     double scale;                     /* mm per object unit */
@@ -649,7 +650,7 @@ static int32_t halve_bad(WrSolid *s, const int32_t *fresh, int32_t count)
         if (!(t->error > s->error) || !can_halve(s, t)) continue;
         refine(s, fresh[i]);
         halved++;
-        if (s->relief.count > WR_SOLID_MAX) return -1;
+        if (s->relief.count > s->most) return -1;
         if (halved % 4096 == 0 && wr_progress_stopped()) return 0;
     }
     return halved;
@@ -693,8 +694,9 @@ static bool solid_refine(WrSolid *solid, WrError *err)
     }
     if (halved == 0) return settle(solid, err);
     return wr_fail(err,
-                   "error=%.6g mm needs more than %d triangles: a larger error, or a smaller size",
-                   solid->error, WR_SOLID_MAX);
+                   "error=%.6g mm needs more than %d triangles: a larger error, a smaller size, or "
+                   "triangles=",
+                   solid->error, solid->most);
 }
 
 /* ---- Back of a relief, walls around it, and caps over open ends: they close the mesh ---- */
@@ -1161,6 +1163,7 @@ static bool make_solid(WrExportJob *job, WrSolidBody *body, WrError *err)
                   .pool = job->pool,
                   .size = job->options.solid_size > 0 ? job->options.solid_size : 100,
                   .error = job->options.solid_error,
+                  .most = job->options.solid_most,
                   .thickness = thickness_of(job),
                   .faces = wr_surfaces[job->scene->shape.kind]->faces,
                   .low = INFINITY,

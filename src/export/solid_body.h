@@ -8,9 +8,6 @@
 
 typedef struct WrError WrError;
 
-#define WR_SOLID_MAX                                                                               \
-    4000000 /* maximum triangles of a relief; with its back no more than readers accept */
-
 /* Triangles share points by number, so a body is watertight by construction. Zero-initialise; fini frees. */
 typedef struct WrSolidBody {
     float (*points)[3];      /* mm */

@@ -383,9 +383,10 @@ static void what_cannot_be_made_is_told(void **state)
         { WR_SURFACE_plane, "", "a.png", "stl files end in .stl" },
         { WR_SURFACE_mesh, "", "a.stl", "has no file" },
         { WR_SURFACE_cone, "thickness=60", "a.stl", "leave room for" },
+        { WR_SURFACE_sphere, "triangles=317", "a.stl", "needs more than 317 triangles" },
         { WR_SURFACE_plane, "size=1000 error=1e-6", "a.stl", "needs more than" },
     };
-    const int count = 4 - (getenv("WR_FULL") == NULL); /* the last needs seconds */
+    const int count = 5 - (getenv("WR_FULL") == NULL); /* the last needs seconds */
     WrError err = { "" };
     assert_true(wr_file_write("a.stl", "old", 3, &err) && wr_file_write("a.png", "old", 3, &err));
     for (int i = 0; i < count; i++) {
