@@ -321,6 +321,41 @@ static void a_raised_ball_throws_its_own_shadow(void **state)
     }
 }
 
+/* With height c everywhere a square mesh casts the shadow of that square c higher; the first is the mesh without a file. */
+static void a_raised_mesh_throws_its_own_shadow(void **state)
+{
+    (void)state;
+    static const double rise[] = { 0.613, -0.517 };
+    for (int k = 0; k < 2; k++) {
+        const double size = 0.837;
+        const WrVec3 at = { 0.371, -0.913, 0.93 }, top = { at.x, at.y, at.z + size * rise[k] };
+        WrScene *scene = above_ground("mesh", at, size);
+        if (k) wr_scene_set_triangles(scene, wr_triangles_square(), "a.obj", NULL);
+        scene->rotate_deg = (WrVec3){ 0, 0, 0 };
+        WrField *field =
+            wr_field_new(5, 3, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, (float)rise[k], NULL);
+        scene->displaced = true, scene->height = 1;
+        scene->lights[0].where = (WrVec3){ 0.417, -0.293, 0.519 };
+        const WrVec3 l = v3_unit(scene->lights[0].where, (WrVec3){ 0, 0, 1 });
+        Shot shot = shot_on(scene, field, NULL);
+        int dark = 0;
+        for (int i = 0; i < SIDE * SIDE; i++) {
+            const WrVec3 g = ground_at(i), seen = v3_sub(g, at);
+            if (fmax(fabs(seen.x), fabs(seen.y)) < 0.55 * size) continue;
+            const WrVec3 hit = v3_sub(v3_mad(g, l, top.z / l.z), top);
+            const double inside = size / 2 - fmax(fabs(hit.x), fabs(hit.y));
+            if (fabs(inside) < 2e-3) continue;
+            if ((shot.frame.rgba[4 * i] == 0) != (inside > 0))
+                fail_msg("%g: %g inside the shadow", rise[k], inside);
+            dark += inside > 0;
+        }
+        assert_true(dark > 120);
+        put_away(&shot);
+        wr_scene_free(scene);
+        wr_field_free(field);
+    }
+}
+
 /* A sphere with a relief too low to be visible is as bright as one without displacement. */
 static void a_relief_too_low_to_be_seen_darkens_nothing(void **state)
 {
@@ -405,6 +440,7 @@ int main(void)
         cmocka_unit_test(what_cannot_reach_is_left_out),
         cmocka_unit_test(dark_lamps_change_no_other),
         cmocka_unit_test(a_raised_ball_throws_its_own_shadow),
+        cmocka_unit_test(a_raised_mesh_throws_its_own_shadow),
         cmocka_unit_test(a_relief_too_low_to_be_seen_darkens_nothing),
         cmocka_unit_test(what_is_shown_undisplaced_throws_its_bases_shadow),
         cmocka_unit_test(raised_objects_shadow_as_the_reference_has_it),

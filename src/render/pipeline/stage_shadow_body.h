@@ -94,7 +94,8 @@ static WrVec3 seen_normal(const WrTileJob *job, const Strip *s, int i, WrVec3 p)
     const WrRaysd *rays = &view->lit.rays_d;
     WrVec3 n = { (double)s->nx[i], (double)s->ny[i], (double)s->nz[i] };
     if (job->dice) n = (WrVec3){ (double)s->bx[i], (double)s->by[i], (double)s->bz[i] };
-    if (met_whole(job) && !job->scene->triangles->patches) {
+    const WrTriangles *mesh = job->scene->triangles; /* NULL: the square without a file */
+    if (met_whole(job) && !(mesh && mesh->patches)) {
         REAL facet[3];
         facet_of(&job->triangle_look, s->triangle[i], facet);
         n = (WrVec3){ (double)facet[0], (double)facet[1], (double)facet[2] };
