@@ -80,7 +80,7 @@ users=(src/shade/reflection.c src/shade/environment_brdf.c src/render/pipeline/p
 
 for loops in UNIFORM ROUGH METAL; do
     pristine "$models" "$formulas" "$reference"
-    edit "$models" 's/(in glTF"\))\n/$1 X(DUMMY, dummy, '$loops', SMITH, LAMBERT, false, "dummy", "Dummy", "no model")\n/'
+    edit "$models" 's|(    X\(GGX, )|    X(DUMMY, dummy, '$loops', SMITH, LAMBERT, false, "dummy", "Dummy", "no model") \\\n$1|'
     stops "model with its row alone, $loops" 'reflect_dummy' "${kernels[@]}"
     stops "model with its row alone, $loops" "‘dummy’|'dummy'" "$reference"
     edit "$formulas" '$_ .= "R_INLINE Reflected reflect_dummy(Incidence at, Form form, const MATTER *m)
