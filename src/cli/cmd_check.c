@@ -10,11 +10,44 @@
 #include "scene/objects.h"
 #include "scene/scene.h"
 #include "surface/projection.h"
+#include "surface/uv_tiles.h"
 
 #include <math.h>
 #include <string.h>
 
 /* ---- meshes of a document ---- */
+
+/* UDIM tiles of a mesh that has several, or that shows the table on one. */
+static void add_tiles(const WrScene *object, bool json, WrText *text)
+{
+    const int udim = object->projection.udim;
+    if (object->projection.kind != WR_PROJECTION_UV) return;
+    WrUvTiles tiles = wr_uv_tiles(object->mesh_source ? object->mesh_source : object->triangles);
+    const bool shown = udim || tiles.count > 1;
+    if (shown && json) {
+        const char *separator = "";
+        wr_text_add(text, ",\"tiles\":{");
+        for (int i = 0; i < WR_UDIM_COUNT; i++) {
+            if (tiles.triangles[i] == 0) continue;
+            wr_text_addf(text, "%s\"%d\":%d", separator, WR_UDIM_FIRST + i,
+                         (int)tiles.triangles[i]);
+            separator = ",";
+        }
+        wr_text_addf(text, "},\"crossing\":%d,\"outside\":%d,\"tile\":", (int)tiles.crossing,
+                     (int)tiles.outside);
+        if (udim) wr_text_addf(text, "%d", udim);
+        else wr_text_add(text, "null");
+    } else if (shown) {
+        wr_text_addf(text, "  tiles    %d of UDIM, with triangles: ", tiles.count);
+        wr_uv_tiles_print(&tiles, text);
+        if (tiles.crossing)
+            wr_text_addf(text, "; %d triangles cross their borders", (int)tiles.crossing);
+        if (tiles.outside) wr_text_addf(text, "; %d reach outside UDIM", (int)tiles.outside);
+        if (udim) wr_text_addf(text, "; the table is that of %d\n", udim);
+        else wr_text_add(text, "; the table repeats on all\n");
+    }
+    wr_uv_tiles_fini(&tiles);
+}
 
 /* One line, or JSON object, for each object with a mesh: edges at which the table does not run on. Every model
    with an atlas has some, so they are no problem of the file. */
@@ -32,7 +65,9 @@ static bool add_mesh(const WrScene *object, int number, bool json, WrText *text,
             wr_text_add(text, k ? "," : ",\"at\":[");
             wr_text_add_json_number(text, at[k]);
         }
-        wr_text_add(text, "]}");
+        wr_text_add(text, "]");
+        add_tiles(object, true, text);
+        wr_text_add(text, "}");
         return true;
     }
     wr_text_addf(text, "  mesh %-3d the table runs on across ", number);
@@ -41,6 +76,7 @@ static bool add_mesh(const WrScene *object, int number, bool json, WrText *text,
         wr_text_addf(text,
                      "all edges but %d; the longest run of them is %.4g long, at %.4g,%.4g,%.4g\n",
                      (int)seams.edges, seams.length, seams.at.x, seams.at.y, seams.at.z);
+    add_tiles(object, false, text);
     return true;
 }
 

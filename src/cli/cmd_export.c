@@ -109,13 +109,15 @@ static bool export_file(const WrCli *cli, const WrExportKind *kind, Last *last, 
     WrSession *session = load(cli, last, err);
     if (!session) return false;
     const bool same = is_last(session, last);
-    bool good = same || wr_export(kind, wr_session_document(session), &options, cli->pool, cli->out,
-                                  &written, err);
+    char *out = wr_session_output_name(session, cli->out, err);
+    bool good = out && (same || wr_export(kind, wr_session_document(session), &options, cli->pool,
+                                          out, &written, err));
     if (good && !same) {
-        wr_text_addf(report, "%s: ", cli->out);
+        wr_text_addf(report, "%s: ", out);
         wr_export_report_text(&written, report);
         wr_text_add(report, "\n");
     }
+    wr_free(out);
     wr_session_free(session);
     return good;
 }

@@ -1,5 +1,7 @@
-/* The command bake: quantities of a detailed mesh file, as a layer or a picture of the active object. */
+/* The commands bake and bake-tiles: quantities of a detailed mesh file, as a layer or a picture of the active object, or as
+   files of all UDIM tiles of its mesh. */
 #include "base/error.h"
+#include "base/file.h"
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/message.h"
@@ -9,12 +11,14 @@
 #include "command/commands.h"
 #include "command/session_internal.h"
 #include "document/document.h"
+#include "export/export.h"
 #include "field/field.h"
 #include "image/image.h"
 #include "scene/normal_map.h"
 #include "scene/scene.h"
 #include "surface/bake.h"
 #include "surface/triangles.h"
+#include "surface/uv_tiles.h"
 
 #include <math.h>
 #include <string.h>
@@ -38,21 +42,15 @@ static bool check_cage(const void *ctx, const char *name, const char *value, WrE
     return wr_fail(err, "%s=%.40s: must be auto, or a distance above 0, up to 1e9", name, value);
 }
 
-/* Checks before the file is read. */
-static bool check(const WrSession *session, const WrCall *call, WrBakeKind kind, WrError *err)
+/* Checks of the object. */
+static bool check_object(const WrScene *scene, WrBakeKind kind, WrError *err)
 {
-    const WrDocument *document = session->state.document;
-    const WrScene *scene = document->scene;
-    const WrField *like = document->layers[0].heights;
-    const double *size = wr_call_arg(call, "size")->numbers;
     if (scene->shape.kind != WR_SURFACE_mesh || !scene->triangles)
         return wr_fail(err,
                        "the object is a %s: a detailed mesh is baked onto a mesh (`surface mesh "
                        "file=FILE`)",
                        wr_surfaces[scene->shape.kind]->name);
     if (kind != WR_BAKE_HEIGHT) return true;
-    if (document->layer_count >= WR_LAYERS_MAX)
-        return wr_fail(err, "a document has up to %d layers", WR_LAYERS_MAX);
     if (!(fabs(scene->height) > 0))
         return wr_fail(err, "bump height=0: heights have no size on it; choose another height");
     if (scene->replicate_u != 1 || scene->replicate_v != 1)
@@ -60,6 +58,19 @@ static bool check(const WrSession *session, const WrCall *call, WrBakeKind kind,
                        "replicate %g,%g: the table repeats on the object; bake heights at "
                        "`replicate 1,1`",
                        scene->replicate_u, scene->replicate_v);
+    return true;
+}
+
+/* Checks before the file is read. */
+static bool check(const WrSession *session, const WrCall *call, WrBakeKind kind, WrError *err)
+{
+    const WrDocument *document = session->state.document;
+    const WrField *like = document->layers[0].heights;
+    const double *size = wr_call_arg(call, "size")->numbers;
+    if (!check_object(document->scene, kind, err)) return false;
+    if (kind != WR_BAKE_HEIGHT) return true;
+    if (document->layer_count >= WR_LAYERS_MAX)
+        return wr_fail(err, "a document has up to %d layers", WR_LAYERS_MAX);
     if (wr_call_given(call, "size") &&
         (size[0] != wr_field_width(like) || size[1] != wr_field_height(like)))
         return wr_fail(err,
@@ -152,12 +163,13 @@ static bool put_picture(WrSession *session, const char *path, const WrBakeOption
     return true;
 }
 
-static void note_bake(WrSession *session, const char *path, const WrBakeOptions *options,
+static void note_bake(WrSession *session, const char *path, const WrBakeOptions *options, int udim,
                       const WrBakeReport *report)
 {
     WrText text = { 0 };
     wr_message_addf(&text, "%s: %s baked into %dx%d, cage %.4g", path, wr_bakes[options->kind].name,
                     options->width, options->height, report->cage);
+    if (udim) wr_message_addf(&text, ", tile %d", udim);
     if (options->kind == WR_BAKE_HEIGHT && report->low <= report->high)
         wr_message_addf(&text, ", distances %.4g to %.4g", report->low, report->high);
     wr_message_addf(&text, "; %lld texels", (long long)report->texels);
@@ -176,7 +188,29 @@ static void note_bake(WrSession *session, const char *path, const WrBakeOptions 
     wr_text_fini(&text);
 }
 
-/* ---- the command ---- */
+/* Fails if no ray met the detailed mesh. */
+static bool check_hits(const char *name, const WrBakeReport *report, WrError *err)
+{
+    return report->missed < report->texels ||
+           wr_fail(err,
+                   "%s: none of %lld rays met its front within the cage distance %g (%lld met "
+                   "backs): do both meshes have one place and unit?",
+                   name, (long long)report->texels, report->cage, (long long)report->backs);
+}
+
+/* Note that all tiles of the object come into one picture. */
+static void note_mixed_tiles(WrSession *session, const WrTriangles *low)
+{
+    WrUvTiles tiles = wr_uv_tiles(low);
+    if (tiles.count > 1)
+        wr_session_note(session,
+                        "the mesh has %d UDIM tiles, and all are baked into one picture: `surface "
+                        "mesh udim=` chooses one, `bake-tiles` writes a file for each",
+                        tiles.count);
+    wr_uv_tiles_fini(&tiles);
+}
+
+/* ---- the command bake ---- */
 
 static WrTriangles *read_high(WrSession *session, WrCall *call, const char *path, WrError *err)
 {
@@ -201,6 +235,7 @@ static WrBakeOptions options_of(const WrSession *session, const WrCall *call)
                               .samples = (int)wr_call_number(call, "samples"),
                               .padding = (int)wr_call_number(call, "padding"),
                               .match = wr_call_choice(call, "match") == 1,
+                              .udim = session->state.document->scene->projection.udim,
                               .pool = session->options.pool };
     if (wr_call_given(call, "cage")) cage_parse(wr_call_arg(call, "cage")->text, &options.cage);
     return options;
@@ -211,16 +246,16 @@ static bool bake(WrSession *session, const char *name, const WrTriangles *high,
 {
     WrBakeReport report;
     WrProgressPart part;
+    WrTriangles *low = wr_scene_whole_mesh(session->state.document->scene, err);
+    if (!low) return false;
     const WrProgress *outer = wr_progress_enter(&part, READ, 1);
-    float *map = wr_bake(session->state.document->scene->triangles, high, options, &report, err);
+    float *map = wr_bake(low, high, options, &report, err);
     wr_progress_set(outer);
+    if (map && !options->udim) note_mixed_tiles(session, low);
+    wr_triangles_free(low);
     if (!map) return false;
-    bool good = report.missed < report.texels ||
-                wr_fail(err,
-                        "%s: none of %lld rays met its front within the cage distance %g (%lld met "
-                        "backs): do both meshes have one place and unit?",
-                        name, (long long)report.texels, report.cage, (long long)report.backs);
-    if (good) note_bake(session, name, options, &report);
+    bool good = check_hits(name, &report, err);
+    if (good) note_bake(session, name, options, options->udim, &report);
     good =
         good && (options->kind == WR_BAKE_HEIGHT ? put_layer(session, map, err)
                                                  : put_picture(session, name, options, map, err));
@@ -241,6 +276,180 @@ static bool run_bake(WrSession *session, WrCall *call, WrError *err)
     return good;
 }
 
+/* ---- the command bake-tiles ---- */
+
+typedef struct Tiles {
+    WrSession *session;
+    const char *name, *out; /* of the detailed mesh; of the files, with <UDIM> */
+    const WrBakeOptions *options;
+    WrPixelType type;
+    int numbers[WR_UDIM_COUNT], count;
+    float *heights[WR_UDIM_COUNT]; /* owned; kept until their common range is known */
+    int baked;
+    double low, high; /* of all heights */
+} Tiles;
+
+typedef struct Rows {
+    const float *map;
+    size_t row; /* numbers */
+    WrPixelType type;
+} Rows;
+
+static bool put_rows(void *ctx, int y, int rows, void *out, WrError *err)
+{
+    const Rows *from = ctx;
+    (void)err;
+    wr_image_codes(from->type, from->map + (size_t)y * from->row, (size_t)rows * from->row, out,
+                   NULL);
+    return true;
+}
+
+/* Normals are coded as n/2 + 1/2 and labelled, as exports of them are. */
+static bool write_picture(const Tiles *tiles, const char *path, float *map, WrError *err)
+{
+    const WrBakeOptions *options = tiles->options;
+    const WrBakeRow *kind = &wr_bakes[options->kind];
+    const bool object = options->kind == WR_BAKE_OBJECT_NORMAL;
+    const WrImageAttribute label[] = { { "wrinkle:kind",
+                                         object ? "normal-object" : "normal-baked" },
+                                       { "wrinkle:edges", "open,open" },
+                                       { "wrinkle:convention", "+Y" } };
+    Rows rows = { map, (size_t)options->width * (size_t)kind->channels, tiles->type };
+    const WrImageOut out = { .width = options->width,
+                             .height = options->height,
+                             .channels = kind->channels,
+                             .type = tiles->type,
+                             .data = true,
+                             .attributes = label,
+                             .attribute_count = kind->unit ? WR_LENGTH(label) : 0,
+                             .rows = put_rows,
+                             .ctx = &rows };
+    for (size_t i = 0; i < (size_t)options->height * rows.row && kind->unit; i++)
+        map[i] = 0.5f * map[i] + 0.5f;
+    return wr_image_write(path, &out, 1, err);
+}
+
+/* As `export height` of a document with these heights; codes of all tiles have one range. */
+static bool write_heights(const Tiles *tiles, const char *path, const float *map, WrError *err)
+{
+    const WrBakeOptions *ask = tiles->options;
+    WrExportOptions options = wr_export_default();
+    WrField *heights = wr_field_new(ask->width, ask->height, WR_WRAP_CLAMP, WR_WRAP_CLAMP, 0, err);
+    if (!heights) return false;
+    wr_field_write(heights, 0, 0, ask->width, ask->height, map, (size_t)ask->width);
+    WrDocument *document = wr_session_new_document(tiles->session);
+    wr_document_start_over(document, heights);
+    if (tiles->type != WR_PIXEL_F32) {
+        options.range = WR_EXPORT_RANGE_GIVEN;
+        options.low = tiles->low;
+        options.high = tiles->high > tiles->low ? tiles->high : tiles->low + 1;
+    }
+    const bool good =
+        wr_export(wr_export_find("height"), document, &options, ask->pool, path, NULL, err);
+    wr_document_free(document);
+    return good;
+}
+
+/* Files of the heights of all tiles, after the last of them. */
+static bool write_all_heights(Tiles *tiles, WrError *err)
+{
+    const double by = 1 / tiles->session->state.document->scene->height;
+    const size_t texels = (size_t)tiles->options->width * (size_t)tiles->options->height;
+    bool good = true;
+    tiles->low = INFINITY, tiles->high = -INFINITY;
+    for (int i = 0; i < tiles->baked; i++)
+        for (size_t k = 0; k < texels; k++) {
+            float *height = &tiles->heights[i][k];
+            *height = (float)((double)*height * by);
+            tiles->low = fmin(tiles->low, (double)*height);
+            tiles->high = fmax(tiles->high, (double)*height);
+        }
+    for (int i = 0; i < tiles->baked && good; i++) {
+        char *path = wr_udim_fill(tiles->out, tiles->numbers[i]);
+        good = write_heights(tiles, path, tiles->heights[i], err);
+        wr_free(path);
+    }
+    return good;
+}
+
+static bool take_tile(void *ctx, int udim, float *map, const WrBakeReport *report, WrError *err)
+{
+    Tiles *tiles = ctx;
+    bool good = check_hits(tiles->name, report, err);
+    if (good) note_bake(tiles->session, tiles->name, tiles->options, udim, report);
+    if (good && tiles->options->kind == WR_BAKE_HEIGHT) {
+        tiles->heights[tiles->baked++] = map;
+        return true;
+    }
+    char *path = wr_udim_fill(tiles->out, udim);
+    good = good && write_picture(tiles, path, map, err);
+    wr_free(path);
+    wr_free(map);
+    return good;
+}
+
+/* The tiles of the object's mesh, and whether the files' names tell them apart. */
+static bool find_tiles(Tiles *tiles, const WrTriangles *low, WrError *err)
+{
+    WrUvTiles found = wr_uv_tiles(low);
+    tiles->count = wr_uv_tiles_numbers(&found, tiles->numbers, WR_UDIM_COUNT);
+    wr_uv_tiles_fini(&found);
+    if (tiles->count == 0)
+        return wr_fail(err, "the mesh has no UDIM tile: its u must be 0 to 10, v 0 or more");
+    if (tiles->count == 1 || wr_udim_is_pattern(tiles->out)) return true;
+    return wr_fail(err, "%s: the mesh has %d tiles, and the name no <UDIM> for their numbers",
+                   tiles->out, tiles->count);
+}
+
+/* All files are replaced, or none. */
+static bool bake_tiles(Tiles *tiles, const WrTriangles *low, const WrTriangles *high, WrError *err)
+{
+    WrProgressPart part;
+    WrFileGroup *group = wr_file_group_begin();
+    const WrProgress *outer = wr_progress_enter(&part, READ, 1);
+    bool good = wr_bake_tiles(low, high, tiles->options, tiles->numbers, tiles->count, take_tile,
+                              tiles, err);
+    wr_progress_set(outer);
+    good = good && (tiles->options->kind != WR_BAKE_HEIGHT || write_all_heights(tiles, err)) &&
+           (!wr_progress_stopped() || wr_fail(err, "cancelled"));
+    for (int i = 0; i < tiles->baked; i++) wr_free(tiles->heights[i]);
+    if (good) return wr_file_group_commit(group, err);
+    wr_file_group_abort(group);
+    return false;
+}
+
+static bool check_out(Tiles *tiles, WrError *err)
+{
+    return wr_image_deepest(tiles->out, &tiles->type, err) &&
+           wr_image_can_write(tiles->out, tiles->type, wr_bakes[tiles->options->kind].channels,
+                              true, err);
+}
+
+static bool run_bake_tiles(WrSession *session, WrCall *call, WrError *err)
+{
+    const WrBakeOptions options = options_of(session, call);
+    const WrScene *scene = session->state.document->scene;
+    Tiles *tiles = wr_alloc(1, sizeof *tiles);
+    tiles->session = session;
+    tiles->name = wr_call_arg(call, "FILE")->text;
+    tiles->out = wr_call_arg(call, "OUT")->text;
+    tiles->options = &options;
+    WrTriangles *low = check_object(scene, options.kind, err) && check_out(tiles, err)
+                           ? wr_scene_whole_mesh(scene, err)
+                           : NULL;
+    char *path = wr_session_input_path(session, tiles->name);
+    WrTriangles *high =
+        low && find_tiles(tiles, low, err) ? read_high(session, call, path, err) : NULL;
+    const bool good = high && bake_tiles(tiles, low, high, err);
+    wr_free(path);
+    wr_triangles_free(high);
+    wr_triangles_free(low);
+    wr_free(tiles);
+    return good;
+}
+
+/* ---- arguments ---- */
+
 static const char *map_name(int i)
 {
     return i < WR_BAKE_KINDS ? wr_bakes[i].name : NULL;
@@ -251,9 +460,12 @@ static void map_explain(int i, WrText *text)
     wr_text_add(text, wr_bakes[i].help);
 }
 
+#define DETAILED                                                                                   \
+    PLACE("FILE"), .type = WR_ARG_PATH,                                                            \
+                   .help = "the detailed mesh, at the place and in the unit of the object's own"
+
 static const WrArgSpec args_bake[] = {
-    { PLACE("FILE"), .type = WR_ARG_PATH,
-      .help = "the detailed mesh, at the place and in the unit of the object's own" },
+    { DETAILED },
     { .name = "map",
       .type = WR_ARG_CHOICE,
       .choice = map_name,
@@ -313,4 +525,28 @@ const WrCommand wr_command_bake = {
         "normals add up: bake one of the two. A note reports the rays that missed or met only "
         "backs.",
     .example = "bake stone-high.ply map=normal size=2048x2048 samples=2"
+};
+
+static const WrArgSpec args_bake_tiles[] = {
+    { DETAILED },
+    { PLACE("OUT"), .type = WR_ARG_PATH,
+      .help = "the files: <UDIM> in it becomes each tile's number, the ending chooses the format" },
+    { 0 }
+};
+
+const WrCommand wr_command_bake_tiles = {
+    .name = "bake-tiles",
+    .kind = WR_CLASS_OUTPUT,
+    .args = args_bake_tiles,
+    .more = args_bake + 1,
+    .run = run_bake_tiles,
+    .help =
+        "relief and other maps of a detailed mesh, a file for each UDIM tile of the object's mesh",
+    .details =
+        "As `bake`, but the document stays as it is. All tiles of the mesh's own (u,v) are baked, "
+        "whichever shows the table. Heights are in the table's unit; in formats of integers the "
+        "codes "
+        "of all tiles have the same range, which is in the files' labels. Normals have green up. "
+        "All files are replaced, or none.",
+    .example = "bake-tiles stone-high.ply stone_normal.<UDIM>.png map=normal size=2048x2048"
 };

@@ -14,11 +14,11 @@ extern const WrCommand wr_command_table, wr_command_fill, wr_command_grid, wr_co
     wr_command_ground, wr_command_rotate, wr_command_analytic, wr_command_bump,
     wr_command_replicate, wr_command_material, wr_command_grain, wr_command_colour,
     wr_command_colouring, wr_command_normalmap, wr_command_roughness, wr_command_metalness,
-    wr_command_gltf, wr_command_bake, wr_command_light, wr_command_environment, wr_command_camera,
-    wr_command_background, wr_command_tone, wr_command_cell, wr_command_sheet, wr_command_dials,
-    wr_command_tolerance, wr_command_transform, wr_command_copy, wr_command_save, wr_command_export,
-    wr_command_maps, wr_command_render, wr_command_script, wr_command_undo, wr_command_redo,
-    wr_command_view, wr_command_history;
+    wr_command_gltf, wr_command_bake, wr_command_bake_tiles, wr_command_light,
+    wr_command_environment, wr_command_camera, wr_command_background, wr_command_tone,
+    wr_command_cell, wr_command_sheet, wr_command_dials, wr_command_tolerance, wr_command_transform,
+    wr_command_copy, wr_command_save, wr_command_export, wr_command_maps, wr_command_render,
+    wr_command_script, wr_command_undo, wr_command_redo, wr_command_view, wr_command_history;
 
 /* ---- generators ---- */
 

@@ -189,6 +189,7 @@ static const Need needs[] = {
     UNKNOWN("picture", "paste", BY_FILE),
     UNKNOWN("image", NULL, BY_FILE),
     UNKNOWN("bake", NULL, BY_FILE),
+    UNKNOWN("bake-tiles", NULL, BY_FILE),
     UNKNOWN("open", NULL, BY_FILE),
     { "adjust", NULL, filter, .bytes = 4.5 },
     { "adjust", "blur", filter, .bytes = 8.5 },

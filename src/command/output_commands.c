@@ -113,17 +113,17 @@ static bool run_export(WrSession *session, WrCall *call, WrError *err)
         if (call->args[i].given && !call->specs[i].positional &&
             !wr_export_option(kind, &options, call->specs[i].name, call->args[i].text, err))
             return false;
-    const char *path = wr_call_arg(call, "FILE")->text;
+    char *path = wr_session_output_name(session, wr_call_arg(call, "FILE")->text, err);
     WrExportReport report;
-    if (!make_composite(session, err)) return false;
-    if (!wr_export(kind, session->state.document, &options, session->options.pool, path, &report,
-                   err))
-        return false;
+    const bool good = path && make_composite(session, err) &&
+                      wr_export(kind, session->state.document, &options, session->options.pool,
+                                path, &report, err);
     WrText text = { 0 };
-    wr_export_report_text(&report, &text);
-    wr_session_note(session, "%s: %s", path, wr_text_get(&text));
+    if (good) wr_export_report_text(&report, &text);
+    if (good) wr_session_note(session, "%s: %s", path, wr_text_get(&text));
     wr_text_fini(&text);
-    return true;
+    wr_free(path);
+    return good;
 }
 
 static const WrArgSpec args_save[] = {
@@ -325,6 +325,12 @@ static const WrArgSpec args_maps[] = {
     { .name = "name",
       .type = WR_ARG_NAME,
       .help = "of the cell, in the files' names; left out: the document's" },
+    { .name = "udim",
+      .type = WR_ARG_NAME,
+      .shape = "NUMBER or none",
+      .help =
+          "tile, in the files' names before their endings, NAME_normal.1002.png; left out: that of "
+          "the object's mesh (`surface mesh udim=`)" },
     { 0 }
 };
 

@@ -123,6 +123,9 @@ uint64_t wr_session_revision(const WrSession *session);
 /* Revision at the last save or open; the document is unsaved if it differs from wr_session_revision. */
 uint64_t wr_session_saved_revision(const WrSession *session);
 const char *wr_session_path(const WrSession *session); /* path of the document file, "" if none */
+/* The name of a file to write: <UDIM> in it becomes the number of the object's tile (base/udim.h). The caller frees it.
+   NULL and an error: the object has no tile. */
+char *wr_session_output_name(const WrSession *session, const char *path, WrError *err);
 /* True if another program has changed the document file since it was opened or saved here. False if the file does not
    exist. */
 bool wr_session_file_changed(const WrSession *session);

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "base/udim.h"
 #include "command/session_internal.h"
 #include "document/document.h"
 #include "document/document_file.h"
@@ -117,6 +118,87 @@ void wr_session_note_read(WrSession *session, const char *path, const WrImage *i
     if (image->replaced)
         wr_session_note(session, "%s: %lld values were not finite and became 0", path,
                         (long long)image->replaced);
+}
+
+/* ---- tiles in file names ---- */
+
+static int object_tile(const WrSession *session)
+{
+    return session->state.document->scene->projection.udim;
+}
+
+char *wr_session_output_name(const WrSession *session, const char *path, WrError *err)
+{
+    const int tile = object_tile(session);
+    if (tile || !wr_udim_is_pattern(path)) return wr_udim_fill(path, tile);
+    wr_fail(err,
+            "%s: the object has no tile: `surface mesh udim=1002` says which, or give its number",
+            path);
+    return NULL;
+}
+
+/* The tile of a pattern: the object's, else the first. 0 and an error: it has no file. numbers: of all files. */
+static int choose_tile(const WrSession *session, const char *name, const int *numbers, int count,
+                       WrError *err)
+{
+    const int tile = object_tile(session);
+    for (int i = 0; i < count; i++)
+        if (numbers[i] == tile || tile == 0) return numbers[i];
+    WrText list = { 0 };
+    wr_udim_list(numbers, count, &list);
+    if (count == 0)
+        wr_fail(err, "%s: no file has such a name, with a tile's number, 1001 and on", name);
+    else
+        wr_fail(err, "%s: no file of the object's tile %d; there are %s", name, tile,
+                wr_text_get(&list));
+    wr_text_fini(&list);
+    return 0;
+}
+
+static void note_others(WrSession *session, const char *name, int tile, int *numbers, int count)
+{
+    int others = 0;
+    for (int i = 0; i < count; i++)
+        if (numbers[i] != tile) numbers[others++] = numbers[i];
+    if (others == 0) return;
+    WrText list = { 0 };
+    wr_udim_list(numbers, others, &list);
+    wr_session_note(session, "%s: tile %d; there are also %s", name, tile, wr_text_get(&list));
+    wr_text_fini(&list);
+}
+
+/* The tile of argument i. numbers: [WR_UDIM_COUNT], as space. */
+static bool take_tile(WrSession *session, WrCall *call, int i, int *numbers, WrError *err)
+{
+    const char *name = call->args[i].text;
+    char *path = wr_path_join(session->folder, name);
+    int tile;
+    const int count = wr_udim_files(path, &tile, numbers, WR_UDIM_COUNT);
+    wr_free(path);
+    if (wr_udim_is_pattern(name)) {
+        tile = choose_tile(session, name, numbers, count, err);
+        if (!tile) return false;
+        char *filled = wr_udim_fill(name, tile);
+        wr_call_set_text(call, call->specs[i].name, filled);
+        wr_free(filled);
+        name = call->args[i].text;
+    }
+    note_others(session, name, tile, numbers, count);
+    return true;
+}
+
+bool wr_session_take_tiles(WrSession *session, WrCall *call, WrError *err)
+{
+    bool good = true;
+    int *numbers = NULL;
+    if (session->loading || !call->command || wr_call_class(call) == WR_CLASS_OUTPUT) return true;
+    for (int i = 0; i < call->count && good; i++) {
+        if (call->specs[i].type != WR_ARG_PATH || !wr_call_names_file(call, i)) continue;
+        if (!numbers) numbers = wr_alloc(WR_UDIM_COUNT, sizeof *numbers);
+        good = take_tile(session, call, i, numbers, err);
+    }
+    wr_free(numbers);
+    return good;
 }
 
 /* ---- Session files: scripts, documents, pictures ---- */

@@ -94,6 +94,9 @@ struct WrSession {
 /* Send a note to options.note; not an error. */
 void wr_session_note(WrSession *session, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
+/* Replace <UDIM> in the names of files that a call reads by the number of the object's tile, or if it has none by the
+   lowest with a file; note the other tiles of a file that is one of several. */
+bool wr_session_take_tiles(WrSession *session, WrCall *call, WrError *err);
 /* Resolve a path for reading, relative to the folder of the running script. The caller frees it. */
 char *wr_session_input_path(WrSession *session, const char *path);
 /* Record a file that is about to be read, or was read, for wr_session_input. */

@@ -5,6 +5,7 @@
 #include "base/hash.h"
 #include "base/length_unit.h"
 #include "base/memory.h"
+#include "base/message.h"
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
@@ -23,6 +24,7 @@
 #include "surface/projection.h"
 #include "surface/terrain.h"
 #include "surface/triangles.h"
+#include "surface/uv_tiles.h"
 
 #include <float.h>
 #include <math.h>
@@ -315,14 +317,18 @@ static void add_parts(WrText *text, const WrTriangles *mesh)
     wr_text_add(text, mesh->part_count > 4 ? ", ...)" : ")");
 }
 
-static void add_map(WrText *text, const WrTriangles *mesh)
+/* udim: the tile that shows the table; 0: all. */
+static void add_map(WrText *text, const WrTriangles *mesh, int udim)
 {
     int32_t outside;
     if (!mesh->mapped) {
         wr_text_add(text, "; no texture coordinates: the table has no slope on it");
         return;
     }
-    const double share = wr_triangles_overlap(mesh, OVERLAP_CELLS, &outside);
+    WrTriangles *tile = udim ? wr_triangles_of_tile(mesh, udim, NULL) : NULL;
+    const double share = wr_triangles_overlap(tile ? tile : mesh, OVERLAP_CELLS, &outside);
+    if (udim) outside = 0;
+    wr_triangles_free(tile);
     if (share > OVERLAP_NOTED)
         wr_text_addf(text,
                      "; %.1f%% of its texture coordinates are met twice: paint there shows "
@@ -337,8 +343,9 @@ static void add_map(WrText *text, const WrTriangles *mesh)
               "corners differ from another by a rounding of u, v: tangent frames part there");
 }
 
-/* own: its own texture coordinates are used. */
-static void note_mesh(WrSession *session, const char *path, const WrTriangles *mesh, bool own)
+/* own: its own texture coordinates are used, of the tile `udim`, or of all, 0. */
+static void note_mesh(WrSession *session, const char *path, const WrTriangles *mesh, bool own,
+                      int udim)
 {
     WrText text = { 0 };
     const WrTrianglesReport *report = &mesh->report;
@@ -350,7 +357,7 @@ static void note_mesh(WrSession *session, const char *path, const WrTriangles *m
     add_count(&text, report->no_normal + report->bad_normal,
               "corners without a normal have the mean of their faces'");
     add_count(&text, report->face_normal, "corners have their face's normal");
-    if (own) add_map(&text, mesh);
+    if (own) add_map(&text, mesh, udim);
     char ending[16];
     wr_path_ending(path, ending);
     if (strcmp(ending, "gltf") == 0 || strcmp(ending, "glb") == 0)
@@ -419,21 +426,68 @@ static WrTriangles *read_held(WrSession *session, const WrCall *call, const WrSh
 }
 
 static void note_held(WrSession *session, WrSurfaceKind kind, const char *path,
-                      const WrTriangles *mesh, bool own)
+                      const WrTriangles *mesh, bool own, int udim)
 {
     if (kind == WR_SURFACE_terrain) terrain_note(session, path, mesh);
-    else if (kind == WR_SURFACE_mesh) note_mesh(session, path, mesh, own);
+    else if (kind == WR_SURFACE_mesh) note_mesh(session, path, mesh, own, udim);
     else note_patches(session, path, mesh);
 }
 
 /* ---- projection of a mesh ---- */
 
+/* Parses the value of udim=, 0: all. */
+static bool udim_parse(const char *text, int *udim)
+{
+    *udim = 0;
+    return strcmp(text, "all") == 0 || wr_udim_parse(text, udim);
+}
+
+static bool check_udim(const void *ctx, const char *name, const char *value, WrError *err)
+{
+    int udim;
+    (void)ctx;
+    if (udim_parse(value, &udim)) return true;
+    return wr_fail(err, "%s=%.40s: must be all, or a tile's number, %d..%d", name, value,
+                   WR_UDIM_FIRST, WR_UDIM_LAST);
+}
+
+static int udim_of(const WrCall *call)
+{
+    int udim = 0;
+    if (wr_call_given(call, "udim")) udim_parse(wr_call_arg(call, "udim")->text, &udim);
+    return udim;
+}
+
+/* Note the tiles of a mesh with several, and the one that shows the table. */
+static void note_tiles(WrSession *session, const WrScene *scene)
+{
+    const int udim = scene->projection.udim;
+    WrUvTiles tiles = wr_uv_tiles(scene->mesh_source ? scene->mesh_source : scene->triangles);
+    WrText text = { 0 };
+    if (tiles.count > 1 || udim) {
+        wr_message_addf(&text, "%d UDIM tiles, with triangles: ", tiles.count);
+        wr_uv_tiles_print(&tiles, &text);
+        if (tiles.crossing)
+            wr_message_addf(&text, "; %d triangles cross their borders", (int)tiles.crossing);
+        if (tiles.outside)
+            wr_message_addf(&text, "; %d reach outside UDIM, which has u of 0 to 10 and v from 0",
+                            (int)tiles.outside);
+        if (udim)
+            wr_message_addf(&text, "; the table is that of %d, the others have no relief", udim);
+        else wr_message_addf(&text, "; the table repeats on all: udim= shows it on one");
+        wr_session_note(session, "%s", wr_text_get(&text));
+    }
+    wr_text_fini(&text);
+    wr_uv_tiles_fini(&tiles);
+}
+
 /* True if the call has an argument of the projection. */
 static bool names_projection(const WrCall *call)
 {
-    return wr_call_given(call, "projection") || wr_call_given(call, "cell") ||
-           wr_call_given(call, "turn") || wr_call_given(call, "at") ||
-           wr_call_given(call, "unit") || wr_call_given(call, "crease");
+    return wr_call_given(call, "udim") || wr_call_given(call, "projection") ||
+           wr_call_given(call, "cell") || wr_call_given(call, "turn") ||
+           wr_call_given(call, "at") || wr_call_given(call, "unit") ||
+           wr_call_given(call, "crease");
 }
 
 static void take_projection(const WrCall *call, WrProjection *to)
@@ -450,11 +504,14 @@ static void take_projection(const WrCall *call, WrProjection *to)
     if (wr_call_given(call, "unit"))
         to->unit = (WrLengthUnit)(wr_call_choice(call, "unit") + WR_UNIT_MM);
     if (wr_call_given(call, "crease")) to->crease_deg = wr_call_number(call, "crease");
+    if (wr_call_given(call, "udim")) to->udim = udim_of(call);
+    else if (to->kind != WR_PROJECTION_UV) to->udim = 0;
     if (to->kind != WR_PROJECTION_UV) return;
     const WrProjection none =
         wr_projection_default; /* without a meaning for the file's own (u,v) */
     *to = (WrProjection){ .cell = { none.cell[0], none.cell[1] },
                           .unit = to->unit,
+                          .udim = to->udim,
                           .crease_deg = to->crease_deg };
 }
 
@@ -477,7 +534,10 @@ static bool note_projection(WrSession *session, const WrScene *scene, WrError *e
     WrTextureSeams seams;
     WrText text = { 0 };
     double radius;
-    if (is->kind == WR_PROJECTION_UV) return true;
+    if (is->kind == WR_PROJECTION_UV) {
+        note_tiles(session, scene);
+        return true;
+    }
     if (!wr_triangles_seams(scene->triangles, &seams, err)) return false;
     wr_text_addf(&text, "projection=%s: %d triangles", wr_projection_names[is->kind],
                  (int)scene->triangles->triangle_count);
@@ -505,6 +565,9 @@ static bool run_projection(WrSession *session, const WrCall *call, WrScene *scen
     WrProjection projection = scene->projection;
     if (scene->shape.kind != WR_SURFACE_mesh) return true;
     take_projection(call, &projection);
+    if (projection.udim && projection.kind != WR_PROJECTION_UV)
+        return wr_fail(err, "udim=%d: a projection makes no tiles; the file's own (u,v) have them",
+                       projection.udim);
     return wr_scene_project(scene, &projection, err) &&
            (session->loading || note_projection(session, scene, err));
 }
@@ -539,7 +602,7 @@ static WrTriangles *find_mesh(WrSession *session, WrCall *call, const WrShape *s
     }
     const bool own = shape->kind != WR_SURFACE_mesh || !wr_call_given(call, "projection") ||
                      wr_call_choice(call, "projection") == WR_PROJECTION_UV;
-    if (mesh) note_held(session, shape->kind, path, mesh, own);
+    if (mesh) note_held(session, shape->kind, path, mesh, own, udim_of(call));
     wr_free(path);
     return mesh;
 }
@@ -607,6 +670,7 @@ static void print_projection(const WrScene *scene, WrText *text)
             add_numbers(text, "turn", is->turn_deg, 3, "");
         if (is->placed) add_numbers(text, "at", is->at, 3, "");
     }
+    if (is->udim) wr_text_addf(text, " udim=%d", is->udim);
     if (is->unit != WR_UNIT_UNKNOWN)
         wr_text_addf(text, " unit=%s", wr_length_units[is->unit - WR_UNIT_MM]);
     if (is->crease_deg < WR_CREASE_NONE) add_numbers(text, "crease", &is->crease_deg, 1, "");
@@ -662,6 +726,14 @@ static const WrArgSpec projection_args[] = {
       .help = "of the projection about the mesh's x, then y, then z" },
     { TRIPLE("at", "X,Y,Z", -1e9, 1e9),
       .help = "origin of the projection, in the file's unit; left out, the middle of the mesh" },
+    { .name = "udim",
+      .also = "tile",
+      .type = WR_ARG_TEXT,
+      .shape = "all|NUMBER",
+      .check = check_udim,
+      .help =
+          "tile of the file's (u,v) that shows the table, from 1001; the others have no relief. "
+          "all, or left out: the table repeats on each" },
     { .name = "unit",
       .type = WR_ARG_CHOICE,
       .words = wr_length_units,

@@ -126,6 +126,7 @@ static bool bake_all(Bake *bake, WrError *err)
         wr_try_alloc(3 * (size_t)job->width * (size_t)job->height, sizeof(float), "a map", err);
     if (!job->map || !wr_uv_coverage_init(&bake->cover, bake->mesh, job->width, job->height, err))
         return false;
+    bake->cover.udim = job->scene->projection.udim;
     wr_uv_coverage_fill(&bake->cover, 0, 0);
     wr_export_run(job, 0, job->height, bake_piece, bake);
     wr_uv_coverage_pad(&bake->cover, job->map, 3, true, job->options.padding, job->pool);
@@ -163,10 +164,9 @@ bool wr_export_baked_make(WrExportJob *job, WrError *err)
                        wr_surfaces[scene->shape.kind]->name);
     if (scene->bump != WR_BUMP_NONE && scene->bump != WR_BUMP_BLINN)
         return wr_fail(err, "maps are baked for bump mode=blinn, or none: choose one of them");
-    if (scene->triangles) return bake_mesh(job, scene->triangles, err);
-    WrTriangles *square = wr_triangles_square();
-    const bool good = bake_mesh(job, square, err);
-    wr_triangles_free(square);
+    WrTriangles *mesh = scene->triangles ? wr_scene_whole_mesh(scene, err) : wr_triangles_square();
+    const bool good = mesh && bake_mesh(job, mesh, err);
+    wr_triangles_free(mesh);
     return good;
 }
 

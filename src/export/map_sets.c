@@ -7,10 +7,13 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "base/udim.h"
+#include "document/document.h"
 #include "export/contact_sheet.h"
 #include "export/export.h"
 #include "export/preview.h"
 #include "image/image.h"
+#include "scene/scene.h"
 #include "system/path.h"
 
 #include <errno.h>
@@ -378,6 +381,7 @@ void wr_map_set_names_free(WrMapSetNames *list)
 }
 
 #define CONTACT "contact="
+#define UDIM "udim="
 
 /* ---- options ---- */
 
@@ -423,20 +427,45 @@ bool wr_map_set_options(const WrMapSetRequest *order, int map, WrExportOptions *
     return settle_map(order, &order->set->maps.data[map], options, taken, err);
 }
 
-/* The contact sheet requested by the words; NULL: none. */
-static const char *contact_of(const WrMapSetRequest *order)
+/* Value of the word that begins with `name`, such as "contact="; NULL: none. */
+static const char *value_of(const WrMapSetRequest *order, const char *name)
 {
     for (int i = 0; i < order->word_count; i++)
-        if (strncmp(order->words[i], CONTACT, sizeof CONTACT - 1) == 0)
-            return order->words[i] + sizeof CONTACT - 1;
+        if (strncmp(order->words[i], name, strlen(name)) == 0)
+            return order->words[i] + strlen(name);
     return NULL;
 }
 
-static bool settle(const WrMapSetRequest *order, WrExportOptions options[WR_MAP_SET_ENTRIES_MAX],
-                   WrError *err)
+/* The contact sheet requested by the words; NULL: none. */
+static const char *contact_of(const WrMapSetRequest *order)
+{
+    return value_of(order, CONTACT);
+}
+
+/* Tile of the files' names; 0: none. False: an invalid word. */
+static bool udim_of(const WrMapSetRequest *order, const WrDocument *document, int *udim)
+{
+    const char *value = value_of(order, UDIM);
+    *udim = value ? 0 : document->scene->projection.udim;
+    return !value || strcmp(value, "none") == 0 || wr_udim_parse(value, udim);
+}
+
+/* True for words that are no option of a map. */
+static bool is_of_set(const char *word)
+{
+    return strncmp(word, CONTACT, sizeof CONTACT - 1) == 0 ||
+           strncmp(word, UDIM, sizeof UDIM - 1) == 0;
+}
+
+static bool settle(const WrMapSetRequest *order, const WrDocument *document,
+                   WrExportOptions options[WR_MAP_SET_ENTRIES_MAX], WrError *err)
 {
     bool taken[WR_MAP_SET_WORDS_MAX] = { false };
     const char *contact = contact_of(order);
+    int udim;
+    if (!udim_of(order, document, &udim))
+        return wr_fail(err, "udim=%.40s: must be none, or a tile's number, %d..%d",
+                       value_of(order, UDIM), WR_UDIM_FIRST, WR_UDIM_LAST);
     if (contact && (!*contact || *contact == '.' || strchr(contact, '/')))
         return wr_fail(
             err, CONTACT "%.80s: must be a picture's name, such as contact.png, without a folder",
@@ -447,7 +476,7 @@ static bool settle(const WrMapSetRequest *order, WrExportOptions options[WR_MAP_
     for (int i = 0; i < order->set->maps.count; i++)
         if (!settle_map(order, &order->set->maps.data[i], &options[i], taken, err)) return false;
     for (int i = 0; i < order->word_count; i++)
-        if (!taken[i] && strncmp(order->words[i], CONTACT, sizeof CONTACT - 1) != 0)
+        if (!taken[i] && !is_of_set(order->words[i]))
             return wr_fail(err, "%.60s: no map of the set %s has such an option", order->words[i],
                            order->set->name);
     return true;
@@ -455,13 +484,27 @@ static bool settle(const WrMapSetRequest *order, WrExportOptions options[WR_MAP_
 
 /* ---- files ---- */
 
-void wr_map_set_file(const WrMapSetRequest *order, int map, WrText *path)
+/* The name of one map's file without its folder; the caller frees it. */
+static char *name_of(const WrMapSetRequest *order, const WrDocument *document, int map)
 {
     const WrMapSetEntry *row = &order->set->maps.data[map];
+    int udim;
+    WrText name = { 0 };
+    wr_text_addf(&name, "%s%s%s", row->before, order->name, row->after);
+    if (!udim_of(order, document, &udim) || !udim) return name.data;
+    char *numbered = wr_udim_insert(name.data, udim);
+    wr_text_fini(&name);
+    return numbered;
+}
+
+void wr_map_set_file(const WrMapSetRequest *order, const WrDocument *document, int map,
+                     WrText *path)
+{
+    char *name = name_of(order, document, map);
     const size_t length = strlen(order->folder);
     const bool slash = length > 0 && order->folder[length - 1] == '/';
-    wr_text_addf(path, "%s%s%s%s%s", order->folder, slash ? "" : "/", row->before, order->name,
-                 row->after);
+    wr_text_addf(path, "%s%s%s", order->folder, slash ? "" : "/", name);
+    wr_free(name);
 }
 
 static bool check_names(const WrMapSetRequest *order, WrError *err)
@@ -486,12 +529,16 @@ static bool write_map(const WrMapSetRequest *order, int map, const WrExportOptio
 {
     WrText path = { 0 };
     WrExportReport report;
-    wr_map_set_file(order, map, &path);
+    int udim;
+    (void)udim_of(order, document, &udim); /* checked before */
+    wr_map_set_file(order, document, map, &path);
     bool good = wr_export(order->set->maps.data[map].kind, document, options, pool,
                           wr_text_get(&path), &report, err);
     if (good) {
         wr_text_addf(list, "%s: ", wr_text_get(&path));
         wr_export_report_text(&report, list);
+        if (udim && report.ranged && !report.quantity && options->range != WR_EXPORT_RANGE_GIVEN)
+            wr_text_add(list, "; the range is this tile's: range=LOW,HIGH gives all tiles one");
         wr_text_add(list, "\n");
     }
     wr_text_fini(&path);
@@ -528,27 +575,23 @@ static bool add_map(WrContact *contact, const WrMapSetRequest *order, int map,
                     WrError *err)
 {
     const WrMapSetEntry *row = &order->set->maps.data[map];
-    WrText name = { 0 };
+    char *name = name_of(order, document, map);
     WrExportPreview picture;
     const bool good = wr_export_preview(row->kind, document, options, pool, &picture, err);
-    wr_text_addf(&name, "%s%s%s", row->before, order->name, row->after);
-    if (good) wr_contact_add(contact, wr_text_get(&name), &picture);
+    if (good) wr_contact_add(contact, name, &picture);
     wr_export_preview_fini(&picture);
-    wr_text_fini(&name);
+    wr_free(name);
     return good;
 }
 
-static bool is_map(const WrMapSetRequest *order, const char *name)
+static bool is_map(const WrMapSetRequest *order, const WrDocument *document, const char *name)
 {
-    WrText own = { 0 };
     bool same = false;
     for (int i = 0; i < order->set->maps.count && !same; i++) {
-        const WrMapSetEntry *row = &order->set->maps.data[i];
-        wr_text_clear(&own);
-        wr_text_addf(&own, "%s%s%s", row->before, order->name, row->after);
-        same = strcmp(wr_text_get(&own), name) == 0;
+        char *own = name_of(order, document, i);
+        same = strcmp(own, name) == 0;
+        wr_free(own);
     }
-    wr_text_fini(&own);
     return same;
 }
 
@@ -560,7 +603,7 @@ static bool write_contact(const WrMapSetRequest *order, const WrExportOptions *o
     if (count == 0)
         return wr_fail(err, CONTACT "%.80s: no map of the set %s is a picture of the table",
                        contact_of(order), order->set->name);
-    if (is_map(order, contact_of(order)))
+    if (is_map(order, document, contact_of(order)))
         return wr_fail(err, CONTACT "%.80s: is the name of one of the maps", contact_of(order));
     char *path = wr_path_join(order->folder, contact_of(order));
     WrContact *contact = wr_contact_new(path, count, WR_CONTACT_TILE, err);
@@ -580,7 +623,7 @@ bool wr_export_map_set(const WrMapSetRequest *order, const WrDocument *document,
 {
     WrExportOptions options[WR_MAP_SET_ENTRIES_MAX];
     const size_t before = list->length;
-    if (!check_names(order, err) || !settle(order, options, err)) return false;
+    if (!check_names(order, err) || !settle(order, document, options, err)) return false;
     /* All files of a set are renamed together at the end: after an error or a crash no mixture of old and new maps remains. */
     WrFileGroup *group = wr_file_group_begin();
     bool good = write_maps(order, options, document, pool, list, err) &&

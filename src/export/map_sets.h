@@ -70,7 +70,7 @@ typedef struct WrMapSetRequest {
     const char *name;   /* of the cell, used in the files' names: without a folder */
     const char *const *
         words; /* [word_count] "cell=2,1": applied to the maps that have the option; at least one must.
-                  "contact=FILE": a contact sheet beside them */
+                  "contact=FILE": a contact sheet beside them. "udim=1002" or "udim=none": tile before the endings of the files' names, instead of the object's */
     int word_count;
 } WrMapSetRequest;
 
@@ -78,8 +78,9 @@ typedef struct WrMapSetRequest {
    refuses. */
 bool wr_map_set_options(const WrMapSetRequest *order, int map, WrExportOptions *options,
                         WrError *err);
-/* Path of one map: FOLDER/T_clay_N.png */
-void wr_map_set_file(const WrMapSetRequest *order, int map, WrText *path);
+/* Path of one map: FOLDER/T_clay_N.png, of a tile FOLDER/T_clay_N.1002.png */
+void wr_map_set_file(const WrMapSetRequest *order, const WrDocument *document, int map,
+                     WrText *path);
 
 /* Writes all files of a set, or replaces none (base/file.h, wr_file_group_begin): each is written and verified,
    then all are renamed.

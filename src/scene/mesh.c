@@ -6,6 +6,7 @@
 #include "scene/objects.h"
 #include "scene/scene.h"
 #include "surface/triangles.h"
+#include "surface/uv_tiles.h"
 
 #include <math.h>
 #include <string.h>
@@ -56,9 +57,24 @@ static const WrTriangles *source_of(const WrScene *scene)
     return scene->mesh_source ? scene->mesh_source : scene->triangles;
 }
 
+static WrTriangles *tile_of(WrTriangles *mesh, int udim, WrError *err)
+{
+    if (!mesh || udim == 0) return mesh;
+    WrTriangles *made = wr_triangles_of_tile(mesh, udim, err);
+    wr_triangles_free(mesh);
+    return made;
+}
+
+WrTriangles *wr_scene_whole_mesh(const WrScene *scene, WrError *err)
+{
+    if (scene->projection.udim == 0) return wr_triangles_share(scene->triangles);
+    return wr_triangles_project(source_of(scene), &scene->projection, err);
+}
+
 bool wr_scene_project(WrScene *scene, const WrProjection *projection, WrError *err)
 {
-    WrTriangles *made = wr_triangles_project(source_of(scene), projection, err);
+    WrTriangles *made =
+        tile_of(wr_triangles_project(source_of(scene), projection, err), projection->udim, err);
     if (!made) return false;
     if (!scene->mesh_source) scene->mesh_source = wr_triangles_share(scene->triangles);
     hold(scene, made);
@@ -74,7 +90,7 @@ bool wr_scene_projected(const WrScene *scene)
 {
     const WrProjection *p = &scene->projection;
     return scene->triangles && (p->kind != WR_PROJECTION_UV || p->crease_deg < WR_CREASE_NONE ||
-                                p->unit != unit_of(scene->triangles_path));
+                                p->udim != 0 || p->unit != unit_of(scene->triangles_path));
 }
 
 size_t wr_scene_mesh_bytes(const WrTriangles *triangles)

@@ -411,11 +411,11 @@ static bool grow_trees(Bake *bake, WrError *err)
 
 /* ---- all ---- */
 
+/* The parts of the work that all tiles share. */
 static bool prepare(Bake *bake, WrError *err)
 {
     const WrBakeOptions *options = bake->options;
     const WrTriangles *low = bake->low;
-    const size_t all = (size_t)options->width * (size_t)options->height;
     const size_t corners = 3 * (size_t)low->triangle_count;
     if (!low->mapped) return wr_fail(err, "the object has no texture coordinates to bake into");
     bake->report->cage = options->cage;
@@ -425,12 +425,7 @@ static bool prepare(Bake *bake, WrError *err)
             !wr_tangents_mikk(low->corners, low->triangles, low->triangle_count, bake->frames, err))
             return false;
     }
-    bake->map =
-        wr_try_alloc(all, (size_t)wr_bakes[options->kind].channels * sizeof(float), "a map", err);
-    bake->texels = wr_try_alloc(all, sizeof *bake->texels, "a map", err);
-    return bake->map && bake->texels &&
-           wr_uv_coverage_init(&bake->cover, low, options->width, options->height, err) &&
-           grow_trees(bake, err) && (options->cage > 0 || make_cage(bake, err));
+    return grow_trees(bake, err) && (options->cage > 0 || make_cage(bake, err));
 }
 
 /* One pass for each of the samples of all texels. */
@@ -443,7 +438,7 @@ static bool run(Bake *bake, WrError *err)
     for (int i = 0; i < n * n && good; i++) {
         WrProgressPart part;
         const WrProgress *outer =
-            wr_progress_enter(&part, 0.1 + 0.9 * i / (n * n), 0.1 + 0.9 * (i + 1) / (n * n));
+            wr_progress_enter(&part, (double)i / (n * n), (i + 1.0) / (n * n));
         bake->pass = i;
         wr_uv_coverage_fill(&bake->cover, (i % n + 0.5) / n - 0.5, (i / n + 0.5) / n - 0.5);
         good = wr_pool_run_with_progress(options->pool, pieces, bake_piece, bake);
@@ -456,19 +451,72 @@ static bool run(Bake *bake, WrError *err)
     return (good && !wr_progress_stopped()) || wr_fail(err, "cancelled");
 }
 
+/* The map of one tile, or of all (u,v) modulo 1; the caller frees it. */
+static float *bake_map(Bake *bake, int udim, WrError *err)
+{
+    const WrBakeOptions *options = bake->options;
+    const size_t all = (size_t)options->width * (size_t)options->height;
+    bake->map =
+        wr_try_alloc(all, (size_t)wr_bakes[options->kind].channels * sizeof(float), "a map", err);
+    bake->texels = bake->map ? wr_try_alloc(all, sizeof *bake->texels, "a map", err) : NULL;
+    bool good = bake->texels &&
+                wr_uv_coverage_init(&bake->cover, bake->low, options->width, options->height, err);
+    bake->cover.udim = udim;
+    good = good && run(bake, err);
+    wr_free(bake->texels);
+    wr_uv_coverage_fini(&bake->cover);
+    if (good) return bake->map;
+    wr_free(bake->map);
+    return NULL;
+}
+
+static void bake_fini(Bake *bake)
+{
+    for (int i = 0; i < bake->tree_count; i++) wr_ray_tree_free(bake->trees[i]);
+    wr_free(bake->trees);
+    wr_free(bake->pairs);
+    wr_free(bake->frames);
+}
+
+bool wr_bake_tiles(const WrTriangles *simple, const WrTriangles *detailed,
+                   const WrBakeOptions *options, const int *udims, int count, WrBakeTake *take,
+                   void *ctx, WrError *err)
+{
+    WrBakeReport common = { 0 };
+    Bake bake = { .low = simple, .high = detailed, .options = options, .report = &common };
+    bool good = prepare(&bake, err);
+    for (int i = 0; i < count && good; i++) {
+        WrBakeReport report = { .cage = common.cage, .alone = common.alone };
+        WrProgressPart part;
+        const WrProgress *outer =
+            wr_progress_enter(&part, 0.1 + 0.9 * i / count, 0.1 + 0.9 * (i + 1) / count);
+        bake.report = &report;
+        float *map = bake_map(&bake, udims[i], err);
+        wr_progress_set(outer);
+        good = map && take(ctx, udims[i], map, &report, err);
+    }
+    bake_fini(&bake);
+    return good;
+}
+
+typedef struct Single {
+    float *map;
+    WrBakeReport *report;
+} Single;
+
+static bool take_single(void *ctx, int udim, float *map, const WrBakeReport *report, WrError *err)
+{
+    Single *single = ctx;
+    (void)udim, (void)err;
+    single->map = map;
+    *single->report = *report;
+    return true;
+}
+
 float *wr_bake(const WrTriangles *simple, const WrTriangles *detailed, const WrBakeOptions *options,
                WrBakeReport *report, WrError *err)
 {
-    *report = (WrBakeReport){ 0 };
-    Bake bake = { .low = simple, .high = detailed, .options = options, .report = report };
-    const bool good = prepare(&bake, err) && run(&bake, err);
-    for (int i = 0; i < bake.tree_count; i++) wr_ray_tree_free(bake.trees[i]);
-    wr_free(bake.trees);
-    wr_free(bake.pairs);
-    wr_free(bake.frames);
-    wr_free(bake.texels);
-    wr_uv_coverage_fini(&bake.cover);
-    if (good) return bake.map;
-    wr_free(bake.map);
-    return NULL;
+    Single single = { NULL, report };
+    wr_bake_tiles(simple, detailed, options, &options->udim, 1, take_single, &single, err);
+    return single.map;
 }

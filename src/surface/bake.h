@@ -43,6 +43,7 @@ typedef struct WrBakeOptions {
     int width, height;
     int samples; /* rays per side of a texel, 1..WR_BAKE_SAMPLES_MAX; their mean is taken */
     int padding; /* rings of texels about the islands */
+    int udim;    /* tile of the simple mesh (base/udim.h); 0: all of its (u,v), modulo 1 */
     double cage; /* distance; 0: just enough for every corner of the detailed mesh */
     bool match;  /* parts see only parts of equal name, not counting an ending _low or _high */
     WrPool *pool;
@@ -62,3 +63,11 @@ typedef struct WrBakeReport {
  * (0,0,1). NULL and an error: no (u,v), no memory, cancelled. Reports to the thread's progress. */
 float *wr_bake(const WrTriangles *simple, const WrTriangles *detailed, const WrBakeOptions *options,
                WrBakeReport *report, WrError *err);
+
+/* Receives the map of one tile, which it owns (wr_free). False and an error: no more are baked. */
+typedef bool WrBakeTake(void *ctx, int udim, float *map, const WrBakeReport *report, WrError *err);
+/* Bakes several tiles, one after the other, with one tree of the detailed mesh and one cage. options->udim is not
+ * used. udims: [count]. */
+bool wr_bake_tiles(const WrTriangles *simple, const WrTriangles *detailed,
+                   const WrBakeOptions *options, const int *udims, int count, WrBakeTake *take,
+                   void *ctx, WrError *err);

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"
+#include "base/udim.h"
 #include "base/vec.h"
 #include "surface/triangles.h"
 
@@ -47,11 +48,13 @@ static bool lay_flat(const WrUvCoverage *cover, int32_t triangle, Flat *flat)
 {
     const double w = cover->width, h = cover->height;
     const int32_t *corner = cover->mesh->triangles[triangle].corner;
+    const int column = cover->udim ? wr_udim_column(cover->udim) : 0;
+    const int row = cover->udim ? wr_udim_row(cover->udim) : 0;
     double low[2] = { INFINITY, INFINITY }, high[2] = { -INFINITY, -INFINITY };
     for (int k = 0; k < 3; k++) {
         const WrTriangleCorner *c = &cover->mesh->corners[corner[k]];
-        flat->x[k] = w * (double)c->u - 0.5 - cover->dx;
-        flat->y[k] = h * (1.0 - (double)c->v) - 0.5 - cover->dy;
+        flat->x[k] = w * ((double)c->u - column) - 0.5 - cover->dx;
+        flat->y[k] = h * (1.0 + row - (double)c->v) - 0.5 - cover->dy;
         low[0] = fmin(low[0], flat->x[k]), high[0] = fmax(high[0], flat->x[k]);
         low[1] = fmin(low[1], flat->y[k]), high[1] = fmax(high[1], flat->y[k]);
     }
@@ -59,6 +62,12 @@ static bool lay_flat(const WrUvCoverage *cover, int32_t triangle, Flat *flat)
                   (flat->x[2] - flat->x[0]) * (flat->y[1] - flat->y[0]);
     flat->x0 = whole(ceil(low[0] - 1e-9)), flat->x1 = whole(floor(high[0] + 1e-9));
     flat->y0 = whole(ceil(low[1] - 1e-9)), flat->y1 = whole(floor(high[1] + 1e-9));
+    if (cover->udim) {
+        if (flat->x0 < 0) flat->x0 = 0;
+        if (flat->y0 < 0) flat->y0 = 0;
+        if (flat->x1 >= cover->width) flat->x1 = cover->width - 1;
+        if (flat->y1 >= cover->height) flat->y1 = cover->height - 1;
+    }
     /* A triangle larger than the map overlaps itself: one period is enough. */
     if (flat->x1 - flat->x0 >= cover->width) flat->x1 = flat->x0 + cover->width - 1;
     if (flat->y1 - flat->y0 >= cover->height) flat->y1 = flat->y0 + cover->height - 1;
@@ -148,6 +157,9 @@ static bool pad_texel(const Pad *pad, int x, int y)
     int count = 0;
     for (int dy = -1; dy <= 1; dy++)
         for (int dx = -1; dx <= 1; dx++) {
+            if (pad->cover->udim &&
+                (x + dx < 0 || x + dx >= width || y + dy < 0 || y + dy >= height))
+                continue;
             const size_t at =
                 (size_t)wrapped(y + dy, height) * (size_t)width + (size_t)wrapped(x + dx, width);
             const int32_t owner = __atomic_load_n(&pad->cover->owner[at], __ATOMIC_RELAXED);

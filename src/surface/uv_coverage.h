@@ -1,8 +1,8 @@
 /* uv_coverage.h - coverage of a map's texels by the (u,v) of a mesh, and padding about its islands, for baking.
 
    Texel (x, y) of a map of width x height, row 0 on top, has its centre at u = (x + 1/2) / width and
-   v = 1 - (y + 1/2) / height. Texture coordinates are taken modulo 1, as the table repeats. Of several
-   triangles at one point the last one counts. Triangles whose corners are almost on a line, as at a sphere's
+   v = 1 - (y + 1/2) / height. Texture coordinates are taken modulo 1, as the table repeats, or those of one tile
+   (base/udim.h) less its column and row. Of several triangles at one point the last one counts. Triangles whose corners are almost on a line, as at a sphere's
    pole, cover nothing: they are invisible, but their slopes are unbounded. */
 #pragma once
 #include <stdbool.h>
@@ -17,6 +17,7 @@ typedef struct WrTriangles WrTriangles;
 typedef struct WrUvCoverage {
     const WrTriangles *mesh; /* borrowed */
     int width, height;
+    int udim;      /* tile; 0: all, modulo 1. Set by the caller after init */
     double dx, dy; /* the sample of a texel, from its centre to the right and down, texels */
     int32_t *
         owner; /* [height][width] index of a triangle, WR_UV_UNCOVERED, or private values below; owned */

@@ -571,7 +571,21 @@ expect 0 check cube.exr
 has out 'mesh 1   the table runs on across all edges but 12; the longest run of them is 360 long, at '
 "$program" check --json cube.exr >out 2>err
 is 'a mesh as JSON' "$(jq -c '[.meshes[0].object, .meshes[0].seams, .meshes[0].longest]' out)" '[1,12,360]'
-rm -rf good.png cut.png 'a "ramp".png' cube.obj cube.wrinkle cube.exr state
+# its UDIM tiles: 1002 has two triangles, 1024 one; and files with the tile's number
+printf 'v %s\n' '0 0 0' '1 0 0' '1 1 0' '0 1 0' '2 0 0' '3 0 0' '3 1 0' >tiles.obj
+printf 'vt %s\n' '1.1 0.1' '1.9 0.1' '1.9 0.9' '1.1 0.9' '3.1 2.1' '3.9 2.1' '3.9 2.9' >>tiles.obj
+printf 'f %s\n' '1/1 2/2 3/3 4/4' '5/5 6/6 7/7' >>tiles.obj
+printf '%s\n' 'grid cells=2x2' 'surface mesh file=tiles.obj udim=1002' 'save tiles.exr' >tiles.wrinkle
+expect 0 run tiles.wrinkle
+expect 0 check tiles.exr
+has out '2 of UDIM, with triangles: 1002 (2), 1024 (1); the table is that of 1002'
+"$program" check --json tiles.exr >out 2>err
+is 'tiles as JSON' "$(jq -c '[.meshes[0].tiles["1002"], .meshes[0].tiles["1024"], .meshes[0].tile]' out)" '[2,1,1002]'
+expect 0 export tiles.exr --as height -o 'h.<UDIM>.png'
+has out 'h.1002.png: 512x512'
+expect 0 export tiles.exr --as povray -o . name=t udim=1024
+has out 't_hf.1024.png: 512x512'
+rm -rf good.png cut.png 'a "ramp".png' cube.obj cube.wrinkle cube.exr tiles.* h.1002.png t_hf.1024.png state
 empty 'a check'
 
 if [[ $failures != 0 ]]; then

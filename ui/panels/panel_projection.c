@@ -4,6 +4,7 @@
 #include "ui/app/state/scene_line.h"
 #include "ui/app/state/session_view.h"
 #include "ui/toolkit/gui.h"
+#include "ui/toolkit/words.h"
 #include "ui/panels/panel_scene.h"
 #include "ui/panels/param_row.h"
 
@@ -11,8 +12,10 @@
 #include "scene/scene.h"
 #include "surface/projection.h"
 #include "surface/triangles.h"
+#include "surface/uv_tiles.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #define LIVE_MOST 20000 /* triangles that are projected anew during a drag */
@@ -124,6 +127,37 @@ static void normals_row(WrApp *app)
     take(app, edit, &is, "crease", &is.crease_deg, 1);
 }
 
+/* Choice of the UDIM tile that shows the table, for a mesh with several. */
+static void tile_row(WrApp *app)
+{
+    const WrScene *scene = wr_app_scene(app);
+    const WrTriangles *mesh = scene->mesh_source ? scene->mesh_source : scene->triangles;
+    WrSurfaceState *hand = app->surface;
+    if (hand->tiles_key != mesh->key) {
+        WrUvTiles tiles = wr_uv_tiles(mesh);
+        hand->tile_count = wr_uv_tiles_numbers(&tiles, hand->tiles, WR_SURFACE_TILES_MAX);
+        wr_uv_tiles_fini(&tiles);
+        hand->tiles_key = mesh->key;
+    }
+    if (hand->tile_count < 2 && !scene->projection.udim) return;
+    char words[WR_SURFACE_TILES_MAX][8];
+    const char *labels[1 + WR_SURFACE_TILES_MAX] = { wr_words("All") };
+    int which = 0;
+    for (int i = 0; i < hand->tile_count; i++) {
+        snprintf(words[i], sizeof words[i], "%d", hand->tiles[i]);
+        labels[1 + i] = words[i];
+        if (hand->tiles[i] == scene->projection.udim) which = 1 + i;
+    }
+    wr_gui_label("UDIM tile");
+    wr_gui_as_it_is(true); /* numbers are not translated */
+    const bool chosen = wr_gui_choice("udim", 0, labels, 1 + hand->tile_count, &which);
+    wr_gui_as_it_is(false);
+    if (chosen) run_word(app, "udim", which > 0 ? labels[which] : "all");
+    wr_gui_tip(
+        "The tile of the mesh that shows the table; the others have no relief. A document has "
+        "one table: paint each tile in a document of its own");
+}
+
 void wr_projection_rows(WrApp *app)
 {
     static const char *const labels[WR_PROJECTIONS] = { "Of the file", "Planar", "Box",
@@ -144,6 +178,8 @@ void wr_projection_rows(WrApp *app)
         if (wr_gui_choice("mesh unit", 0, units, WR_UNIT_COUNT, &unit) && unit > 0)
             run_word(app, "unit", wr_length_units[unit - WR_UNIT_MM]);
         wr_gui_tip("Unit of the mesh's coordinates");
+    } else {
+        tile_row(app);
     }
     normals_row(app);
 }

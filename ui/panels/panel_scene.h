@@ -13,6 +13,8 @@ typedef struct WrProfileState {
     double scale, middle; /* pixels per scene unit; z at the pad's middle */
 } WrProfileState;
 
+#define WR_SURFACE_TILES_MAX 200
+
 /* Text parameters of a surface while they are typed. */
 typedef struct WrSurfaceState {
     char text[WR_SURFACE_TEXTS][WR_SURFACE_TEXT_MAX + 1];
@@ -20,6 +22,9 @@ typedef struct WrSurfaceState {
     char file[4096];
     double file_key; /* key of the mesh that the file name was read from */
     WrProfileState profile;
+    uint64_t tiles_key;              /* key of the mesh that the tiles were read from */
+    int tiles[WR_SURFACE_TILES_MAX]; /* UDIM numbers of the mesh, the first ones */
+    int tile_count;
 } WrSurfaceState;
 
 typedef struct WrApp WrApp;

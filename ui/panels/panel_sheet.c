@@ -481,7 +481,7 @@ static void map_row(const WrSheetState *sheet, int i)
                  most = p->width > p->height ? p->width : p->height;
     char facts[200];
     WrText file = { 0 };
-    wr_map_set_file(&order, i, &file);
+    wr_map_set_file(&order, look->document, i, &file);
     if (p->rgb && sheet->pictures[i])
         wr_gui_image(sheet->pictures[i], side * p->width / most, side * p->height / most);
     else wr_gui_image(NULL, side, side);
