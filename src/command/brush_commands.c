@@ -31,7 +31,12 @@ static WrSample sample_of(const void *ctx, int i)
 {
     const WrArg *points = ctx;
     const double *row = points->numbers + (size_t)6 * (size_t)i;
-    return (WrSample){ row[0], row[1], points->counts[i] > 2 ? row[2] : 1, row[3], row[4], row[5] };
+    return (WrSample){ .u = row[0],
+                       .v = row[1],
+                       .pressure = points->counts[i] > 2 ? row[2] : 1,
+                       .tilt_x = row[3],
+                       .tilt_y = row[4],
+                       .seconds = row[5] };
 }
 
 static bool run_stroke(WrSession *session, WrCall *call, WrError *err)
@@ -69,6 +74,62 @@ static const WrArgSpec args_stroke[] = {
     { 0 }
 };
 
+/* ---- strokes on a mesh ---- */
+
+static WrSample mesh_sample_of(const void *ctx, int i)
+{
+    const WrArg *points = ctx;
+    const double *row = points->numbers + (size_t)7 * (size_t)i;
+    return (WrSample){ .p = { row[0], row[1], row[2] },
+                       .pressure = points->counts[i] > 3 ? row[3] : 1,
+                       .tilt_x = row[4],
+                       .tilt_y = row[5],
+                       .seconds = row[6] };
+}
+
+static bool run_sculpt(WrSession *session, WrCall *call, WrError *err)
+{
+    WrPainting painting;
+    if (!wr_painting_begin(session, call, &painting, err)) return false;
+    const WrArg *points = wr_call_arg(call, "points");
+    bool good = wr_session_draw(&painting, mesh_sample_of, points, points->rows, err);
+    wr_painting_end(session, &painting);
+    return good;
+}
+
+static const WrComponent mesh_sample_parts[] = {
+    { "x", -WR_LENGTH_MAX, WR_LENGTH_MAX, false },
+    { "y", -WR_LENGTH_MAX, WR_LENGTH_MAX, false },
+    { "z", -WR_LENGTH_MAX, WR_LENGTH_MAX, false },
+    { "pressure", -1e9, 1e9, false },
+    { "tilt_x", -1e9, 1e9, false },
+    { "tilt_y", -1e9, 1e9, false },
+    { "seconds", -1e9, 1e9, false },
+};
+
+static const WrArgSpec args_sculpt[] = {
+    { .name = "points",
+      .type = WR_ARG_LIST,
+      .required = true,
+      .components = 7,
+      .parts = mesh_sample_parts,
+      .counts = TUPLE_OF(3) | TUPLE_OF(4) | TUPLE_OF(6) | TUPLE_OF(7),
+      .rows_low = 1,
+      .rows_high = WR_POINTS_MAX,
+      .shape = "x,y,z[,pressure[,tilt_x,tilt_y[,seconds]]];...",
+      .help = "the pen's samples in order, in the mesh's own coordinates: of each, the nearest "
+              "point of the surface counts" },
+    { .name = "eye",
+      .type = WR_ARG_TUPLE,
+      .components = 3,
+      .low = -WR_LENGTH_MAX,
+      .high = WR_LENGTH_MAX,
+      .shape = "x,y,z",
+      .help = "a place in the mesh's coordinates: faces turned away from it are not painted. Left "
+              "out, all are" },
+    { 0 }
+};
+
 /* ---- the rows ---- */
 
 const WrCommand wr_command_dab = {
@@ -100,6 +161,25 @@ const WrCommand wr_command_stroke = {
         "round. Given arguments replace the preset's own. Symmetry draws the whole "
         "stroke again: mirrors, turns, and a lattice over the cell.",
     .example = "stroke points=0.1,0.5;0.9,0.5,0.4 radius=12 mode=lower"
+};
+
+const WrCommand wr_command_sculpt = {
+    .name = "sculpt",
+    .kind = WR_CLASS_EDIT,
+    .args = args_sculpt,
+    .more = wr_args_brush,
+    .run = run_sculpt,
+    .streams = true,
+    .on_mesh = true,
+    .help = "draw a brush along a path on the object's mesh",
+    .details =
+        "As `stroke`, but on the surface: a dab reaches the texels within the radius by the way "
+        "over the faces, so it goes on across the seams of (u,v) and does not come through a "
+        "wall. The brush's texels have the mean size that texels have on the mesh. With tip= it "
+        "lays a stamp on the surface. A texel that several places of the mesh share changes at "
+        "all of them; a note says so. clone, sharpen, dilate and erode look around in the table, "
+        "not across seams. No mirror=, radial= or repeat=.",
+    .example = "sculpt points=0,0,1;0.3,0,0.95,0.6 radius=12 eye=0,0,5"
 };
 
 /* ---- Shapes drawn with the brush: rectangles, ellipses, polygons, paths ---- */
