@@ -1,13 +1,16 @@
 /* Painting on the patch: the pen moves over the object, and the table below is painted by the same strokes as on the
    canvas. The path between two events is divided into steps of a few pixels, each located exactly (patch_pick.h). If
    the next step is elsewhere in the table than the surface derivatives predict, the path has crossed a silhouette, a
-   cube edge, a border, or a seam of a replication that does not close. The stroke ends there and a new one begins. */
+   cube edge, a border, or a seam of a replication that does not close. The stroke ends there and a new one begins.
+   On a mesh the points in space are the stroke's samples (`sculpt`), so it continues across seams of (u,v) and ends
+   only at silhouettes. */
 #include "ui/app/state/action_list.h"
 #include "ui/patch/patch_paint.h"
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/pointer_state.h"
 #include "ui/app/state/keys.h"
 #include "ui/app/state/layout.h"
+#include "ui/app/state/line.h"
 #include "ui/app/state/session_view.h"
 #include "ui/app/state/settings.h"
 #include "ui/toolkit/gui.h"
@@ -24,9 +27,11 @@
 #include "field/field.h"
 #include "scene/scene.h"
 #include "surface/surface.h"
+#include "surface/triangles.h"
 
 #include <SDL.h>
 #include <math.h>
+#include <string.h>
 
 #define STEP_PIXELS 4.0
 #define STEPS_MAX 256
@@ -74,16 +79,27 @@ static void lift(WrApp *app)
     wr_strokes_end(app);
 }
 
+/* Faces that turn away are not painted; but where the back of an open sheet is seen, all are. */
+static bool begin_on_mesh(WrApp *app, WrBrush brush, const WrPointer *at, const WrPatchSpot *spot)
+{
+    const WrVec3 eye = wr_line_round_vec(wr_patch_pick_eye(picker(app)), 4);
+    brush.symmetry = wr_brush_default().symmetry; /* of the table */
+    return wr_strokes_begin_on_mesh(app, &brush, at, spot->back ? NULL : &eye);
+}
+
 static void put_down(WrApp *app, const WrPointer *at, const WrPatchSpot *spot)
 {
     const WrScene *scene = wr_app_scene(app);
+    const bool mesh = wr_patch_pick_is_mesh(picker(app));
     if (!app->brush->drawing) {
-        WrBrush brush = wr_strokes_brush(app, at);
-        if (!wr_strokes_begin(app, &brush, at)) return;
+        const WrBrush brush = wr_strokes_brush(app, at);
+        if (!(mesh ? begin_on_mesh(app, brush, at, spot) : wr_strokes_begin(app, &brush, at)))
+            return;
     }
     app->paint->inside = true;
     app->paint->last = *spot;
-    wr_strokes_sample(app, at, scene->replicate_u * spot->u, scene->replicate_v * spot->v);
+    if (mesh) wr_strokes_sample_on_mesh(app, at, spot->p);
+    else wr_strokes_sample(app, at, scene->replicate_u * spot->u, scene->replicate_v * spot->v);
 }
 
 /* Distance in texels between two table positions, the shortest way round on periodic axes. */
@@ -94,10 +110,27 @@ static double texels(double from, double to, int size, WrWrap wrap)
     return d * size;
 }
 
+/* The step predicted by the more slanted of the two triangles, at least 1 in 10. */
+static bool leads_on_mesh(WrApp *app, const WrPatchSpot *spot)
+{
+    const WrPatchSpot *last = &app->paint->last;
+    const double pixels = hypot(spot->x - last->x, spot->y - last->y);
+    const WrVec3 eye = wr_patch_pick_eye(picker(app));
+    double least = 1.0;
+    for (int i = 0; i < 2; i++) {
+        const WrPatchSpot *at = i ? spot : last;
+        least = fmin(least, v3_dot(at->n, v3_unit(v3_sub(eye, at->p), at->n)));
+    }
+    return spot->back == last->back &&
+           v3_len(v3_sub(spot->p, last->p)) <=
+               JUMP_FACTOR * pixels * fmax(spot->pixel, last->pixel) / fmax(0.1, least);
+}
+
 /* True if the surface is continuous from the last point to this one. */
 static bool leads(WrApp *app, const WrPatchSpot *spot)
 {
     const WrPatchSpot *last = &app->paint->last;
+    if (wr_patch_pick_is_mesh(picker(app))) return leads_on_mesh(app, spot);
     const WrScene *scene = wr_app_scene(app);
     const WrField *field = wr_app_field(app);
     double ru = scene->replicate_u, rv = scene->replicate_v, most = 0.0;
@@ -223,6 +256,41 @@ static void make_ring(const WrApp *app, const WrPatchPick *pick, const WrBrushMa
     }
 }
 
+static double texel_side(WrApp *app)
+{
+    WrPatchPaint *p = app->paint;
+    const WrScene *scene = wr_app_scene(app);
+    const WrField *field = wr_app_field(app);
+    WrMeshTexelsTable table;
+    memset(&table, 0, sizeof table); /* compared by its bytes */
+    table.width = wr_field_width(field), table.height = wr_field_height(field);
+    table.ru = scene->replicate_u, table.rv = scene->replicate_v;
+    if (p->side_key != scene->triangles->key || memcmp(&p->side_table, &table, sizeof table) != 0) {
+        p->side = wr_mesh_texel_side_of(scene->triangles, &table);
+        p->side_key = scene->triangles->key;
+        p->side_table = table;
+    }
+    return p->side;
+}
+
+/* The outline lies in the plane of the triangle. */
+static void make_mesh_ring(WrApp *app, const WrPatchPick *pick, const WrBrushMark *mark,
+                           const WrPatchSpot *middle, Ring *ring)
+{
+    const SDL_Rect *room = &app->layout->patch;
+    const double side = texel_side(app);
+    const WrVec3 up = v3_cross(middle->n, middle->along);
+    double points[WR_BRUSH_MARK_POINTS][2];
+    ring->count = wr_brush_mark_points(mark, points) + 1;
+    for (int i = 0; i < ring->count; i++) {
+        const double *at = points[i % (ring->count - 1)];
+        const WrVec3 p = v3_mad(v3_mad(middle->p, middle->along, side * at[0]), up, -side * at[1]);
+        ring->seen[i] = wr_patch_pick_project_point(pick, p, &ring->x[i], &ring->y[i]) ? 2 : 0;
+        ring->x[i] += room->x;
+        ring->y[i] += room->y;
+    }
+}
+
 static void draw_ring(const Ring *ring, bool erases)
 {
     for (int pass = 0; pass < 2; pass++) {
@@ -285,7 +353,8 @@ static void overlay_clipped(WrApp *app)
     WrBrushMark mark = wr_brush_mark(app);
     Ring ring;
     if (!spot_under(app, x, y, &spot)) return;
-    make_ring(app, pick, &mark, &spot, &ring);
+    if (wr_patch_pick_is_mesh(pick)) make_mesh_ring(app, pick, &mark, &spot, &ring);
+    else make_ring(app, pick, &mark, &spot, &ring);
     draw_ring(&ring, mark.erases);
 }
 

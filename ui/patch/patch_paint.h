@@ -4,6 +4,8 @@
 #include "ui/app/state/pointer_state.h"
 #include "ui/patch/preview/patch_pick.h"
 
+#include "surface/mesh_texels.h"
+
 #include <SDL.h>
 #include <stdbool.h>
 
@@ -16,6 +18,9 @@ typedef struct WrPatchPaint {
     SDL_Rect room;
     bool inside; /* the last step was on the object */
     WrPatchSpot last;
+    double side; /* object units of a texel, for the outline on a mesh; of this mesh and table: */
+    uint64_t side_key;
+    WrMeshTexelsTable side_table;
     WrPointer at; /* end of the last step */
 } WrPatchPaint;
 
