@@ -3,6 +3,7 @@
 #include "base/array.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "surface/ray_tree.h"
 #include "surface/triangles_internal.h"
 
@@ -13,8 +14,10 @@
 #define FOLDED                                                                                     \
     1.6 /* a way longer than this times the straight one leads round a fold; half a circle: 1.57 */
 #define FADE 0.17 /* cosine of the angle to the eye's direction where clipping begins: 80 degrees */
-#define INSIDE 1e-6 /* texels */
-#define FAR 1e9     /* texels */
+#define INSIDE 1e-6  /* texels */
+#define FAR 1e9      /* texels */
+#define SURFACE 1e-6 /* of the radius: distance from the surface at which rays to the eye begin */
+#define LOOK 256     /* triangles between two reports of progress */
 
 /* Bits of a texel. */
 enum { COVERED = 1, ONCE = 2, SHARED = 4, COUNTED = 8 };
@@ -410,10 +413,17 @@ static void flood(WrMeshTexels *t, const WrMeshDisc *disc)
 
 /* ---- the texels of a disc ---- */
 
-static double visible(const WrMeshDisc *disc, WrVec3 p, WrVec3 n)
+static void count_shared(WrMeshTexels *t, int32_t index)
 {
-    if (!disc->clips) return 1;
-    const double x = clamped(v3_dot(v3_unit(v3_sub(disc->eye, p), n), n) / FADE, 0, 1);
+    if ((t->covered[index] & (SHARED | COUNTED)) != SHARED) return;
+    t->covered[index] |= COUNTED;
+    t->shared++;
+}
+
+/* 1 towards the eye, 0 where the normal is across the direction to it or turned away. */
+static double fade(WrVec3 n, WrVec3 to_eye)
+{
+    const double x = clamped(v3_dot(v3_unit(to_eye, n), n) / FADE, 0, 1);
     return x * x * (3 - 2 * x);
 }
 
@@ -453,7 +463,8 @@ static WrVec3 collect(WrMeshTexels *t, const WrMeshDisc *disc, const Reached *r)
             if (index < 0 || (out > INSIDE && (t->covered[index] & COVERED))) continue;
             const double d = straight + fmax(0, way_to(r, p) - FOLDED * straight);
             if (!(d < disc->radius)) continue;
-            const Place place = { index, out > INSIDE ? out : 0, d, visible(disc, p, n), away };
+            const double weight = disc->clips ? fade(n, v3_sub(disc->eye, p)) : 1;
+            const Place place = { index, out > INSIDE ? out : 0, d, weight, away };
             wr_array_push(&t->places, place);
             if (place.beyond == 0) sum = v3_mad(sum, n, area * (1 - d / disc->radius));
         }
@@ -492,10 +503,87 @@ const WrMeshTexel *wr_mesh_texels_disc(WrMeshTexels *t, const WrMeshDisc *disc, 
                                     .dy = l > 0 ? -by * (y / l) : 0,
                                     .weight = p->weight };
         wr_array_push(&t->texels, texel);
-        if ((t->covered[p->index] & (SHARED | COUNTED)) != SHARED || p->weight == 0) continue;
-        t->covered[p->index] |= COUNTED;
-        t->shared++;
+        if (p->weight > 0) count_shared(t, p->index);
     }
     *count = t->texels.count;
     return t->texels.data;
+}
+
+/* ---- projection of a picture ---- */
+
+/* Where the ray through p meets the picture; false: p is behind the eye. */
+static bool on_slide(const WrMeshSlide *slide, WrVec3 p, double *s, double *t)
+{
+    const WrVec3 line = v3_sub(slide->middle, slide->eye), from = v3_sub(p, slide->eye);
+    const double depth = v3_dot(from, line);
+    if (!(depth > 0)) return false;
+    const double by = slide->parallel ? 1 : v3_dot(line, line) / depth;
+    const WrVec3 at = v3_sub(v3_scale(from, by), line);
+    *s = 0.5 + 0.5 * v3_dot(at, slide->right) / v3_dot(slide->right, slide->right);
+    *t = 0.5 + 0.5 * v3_dot(at, slide->up) / v3_dot(slide->up, slide->up);
+    return true;
+}
+
+static WrVec3 to_eye(const WrMeshSlide *slide, WrVec3 p)
+{
+    return v3_sub(slide->eye, slide->parallel ? slide->middle : p);
+}
+
+/* True if the whole triangle is beside the picture. */
+static bool is_beside(const WrMeshSlide *slide, const Flat *flat)
+{
+    int sides[4] = { 0, 0, 0, 0 };
+    for (int k = 0; k < 3; k++) {
+        double s, t;
+        if (!on_slide(slide, flat->p[k], &s, &t)) return false;
+        sides[0] += s<-0.1, sides[1] += s> 1.1, sides[2] += t<-0.1, sides[3] += t> 1.1;
+    }
+    return sides[0] == 3 || sides[1] == 3 || sides[2] == 3 || sides[3] == 3;
+}
+
+/* The mean of four values within the texel. */
+static double slide_value(const WrMeshSlide *slide, WrVec3 p, WrVec3 px, WrVec3 py)
+{
+    double sum = 0, s, t;
+    for (int k = 0; k < 4; k++) {
+        const WrVec3 q = v3_mad(v3_mad(p, px, k % 2 ? 0.25 : -0.25), py, k / 2 ? 0.25 : -0.25);
+        if (!on_slide(slide, q, &s, &t) || !(s >= 0 && s <= 1 && t >= 0 && t <= 1)) continue;
+        sum += 0.25 * slide->value(slide->ctx, s, t);
+    }
+    return sum;
+}
+
+static void lay_slide(WrMeshTexels *t, const WrMeshSlide *slide, const Flat *flat, float *cover)
+{
+    const WrVec3 n = normal_of(flat->p);
+    WrVec3 px, py;
+    int x0, x1, y0, y1;
+    slopes_of(flat, &px, &py);
+    range_of(flat->x, flat->x[0], FAR, &x0, &x1);
+    range_of(flat->y, flat->y[0], FAR, &y0, &y1);
+    for (int j = y0; j <= y1 && !wr_progress_stopped(); j++)
+        for (int i = x0; i <= x1; i++) {
+            const double out = beyond(flat, i, j);
+            const int32_t index = out <= GUTTER ? index_of(t, i, j) : -1;
+            if (index < 0 || (out > INSIDE && (t->covered[index] & COVERED))) continue;
+            const WrVec3 p = v3_mad(v3_mad(flat->p[0], px, i - flat->x[0]), py, j - flat->y[0]);
+            const float value = (float)(fade(n, to_eye(slide, p)) * slide_value(slide, p, px, py));
+            if (!(value > cover[index])) continue;
+            /* Beyond an island's edge the point may be within the body: the nearest one of the face is seen or not. */
+            const WrVec3 from = v3_mad(nearest_in(flat->p, n, p), n, SURFACE * t->mesh->radius);
+            if (wr_ray_tree_any(t->tree, from, to_eye(slide, from), 1)) continue;
+            cover[index] = value;
+            count_shared(t, index);
+        }
+}
+
+bool wr_mesh_texels_slide(WrMeshTexels *t, const WrMeshSlide *slide, float *cover)
+{
+    for (int32_t i = 0; i < t->mesh->triangle_count; i++) {
+        Flat flat;
+        if (i % LOOK == 0 && !wr_progress_report((double)i / t->mesh->triangle_count)) return false;
+        if (!lay_flat(t, i, &flat) || is_beside(slide, &flat)) continue;
+        lay_slide(t, slide, &flat, cover);
+    }
+    return !wr_progress_stopped();
 }

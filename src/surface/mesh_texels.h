@@ -73,3 +73,16 @@ int64_t wr_mesh_texels_shared(const WrMeshTexels *texels);
 /* The texels of a disc, each once, in the table's order; of a texel's several places in it the nearest counts.
  * Borrowed until the next call. */
 const WrMeshTexel *wr_mesh_texels_disc(WrMeshTexels *texels, const WrMeshDisc *disc, int *count);
+
+/* A picture that is projected onto the mesh, as by a slide projector at the eye. */
+typedef struct WrMeshSlide {
+    WrVec3 eye, middle; /* of the picture; it stands across the line between them */
+    WrVec3 right, up;   /* from the middle to those of its sides */
+    bool parallel;      /* the rays are parallel to that line; else they leave the eye */
+    double (*value)(const void *ctx, double s, double t); /* 0..1, at 0..1 to the right and up */
+    const void *ctx;
+} WrMeshSlide;
+
+/* Sets cover, [height][width] and 0 before, to the picture's values where faces turn to the eye and no face is in
+ * the way, fading as for discs; of a texel's several places the largest value counts. False: cancelled. */
+bool wr_mesh_texels_slide(WrMeshTexels *texels, const WrMeshSlide *slide, float *cover);

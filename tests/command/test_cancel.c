@@ -76,8 +76,8 @@ static const char *const instant[] = {
     "redo",         "cell",
     "sheet",        "export normal-baked",
     "gltf",         "filter",
-    "bake",   /* test_bake_command.c */
-    "sculpt", /* test_sculpt.c */
+    "bake",                    /* test_bake_command.c */
+    "sculpt",       "project", /* test_sculpt.c */
 };
 
 /* Arguments that generators need besides their defaults; generators that read files are tested elsewhere. */

@@ -1,4 +1,4 @@
-/* The command `sculpt`: a dab by its distance over the faces of a mesh, alike on both sides of a seam of (u,v), not
+/* The commands `sculpt` and `project`: a dab by its distance over the faces of a mesh, alike on both sides of a seam of (u,v), not
    through walls, not on faces turned away; against strokes on the table where the mesh is flat; replay and errors. */
 #include "test.h"
 #include "test_folder.h"
@@ -240,6 +240,98 @@ static void smoothing_exchanges_heights_across_a_seam(void **state)
     wr_session_free(s);
 }
 
+/* ---- projection of a layer ---- */
+
+/* A square of 2 x 2 in the plane z = 0, and one of 0.6 x 0.6 before it at z = 1; islands of 80 and 60 texels. */
+static const char screens[] =
+    "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv -0.3 -0.3 1\nv 0.3 -0.3 1\nv 0.3 0.3 1\nv -0.3 0.3 "
+    "1\n"
+    "vt 0.1 0.15\nvt 0.36666667 0.15\nvt 0.36666667 0.55\nvt 0.1 0.55\n"
+    "vt 0.6 0.2\nvt 0.8 0.2\nvt 0.8 0.5\nvt 0.6 0.5\nf 1/1 2/2 3/3 4/4\nf 5/5 6/6 7/7 8/8\n";
+
+/* Heights (s - 0.1) / 0.8 between s = 0.1 and 0.9. */
+static WrSession *with_screens(Said *said)
+{
+    write_text("screens.obj", screens);
+    WrSession *s = with_mesh(said, "table 300x200", "surface mesh file=screens.obj");
+    must_run(s, "ramp linear from=0.1,0.5 to=0.9,0.5");
+    return s;
+}
+
+static double slope(double s)
+{
+    return fmin(1, fmax(0, (s - 0.1) / 0.8));
+}
+
+static float relief(const WrSession *s, int i, int j)
+{
+    return wr_field_get(doc(s)->layers[1].heights, i, j);
+}
+
+static void a_layer_is_projected_onto_what_the_eye_sees(void **state)
+{
+    (void)state;
+    for (int parallel = 0; parallel < 2; parallel++) {
+        Said said;
+        WrSession *s = with_screens(&said);
+        /* 3 wide and 2 high at z = 0, 3 from the eye: there as large as it is, at z = 1 two thirds of it, but */
+        const double near = parallel ? 1 : 1.5; /* all of it by parallel rays */
+        must_run(s, parallel
+                        ? "project 1 eye=0,0,3 at=0,0,0 width=3 strength=0.5 parallel=on into=new"
+                        : "project 1 eye=0,0,3 at=0,0,0 width=3 strength=0.5 into=new");
+        assert_true(doc(s)->layer_count == 2 && doc(s)->active == 1);
+        assert_true(!doc(s)->layers[0].visible && doc(s)->layers[1].visible);
+        for (int j = 2; j < 78; j++)
+            for (int i = 2; i < 78; i++) {
+                const double x = (i + 0.5) / 40 - 1, y = 1 - (j + 0.5) / 40;
+                const double edge = fmax(fabs(x), fabs(y)) - 0.3 * near;
+                const double f = (double)relief(s, 30 + i, 90 + j);
+                if (edge > 0.03) assert_near(f, 0.5 * slope((x + 1.5) / 3), 2e-3);
+                if (edge < -0.03) assert_true(f == 0); /* in the shadow of the other */
+            }
+        for (int j = 0; j < 60; j++)
+            for (int i = 0; i < 60; i++) {
+                const double x = 0.3 * ((i + 0.5) / 30 - 1);
+                assert_near((double)relief(s, 180 + i, 100 + j), 0.5 * slope((x * near + 1.5) / 3),
+                            2e-3);
+            }
+        assert_true(relief(s, 5, 5) == 0);
+        wr_session_free(s);
+    }
+}
+
+/* The right side is seen at 86 degrees: asin(0.5 / 7). */
+static void a_projection_fades_where_faces_turn_away(void **state)
+{
+    (void)state;
+    Said said;
+    WrSession *s = with_box(&said, 1, 2);
+    must_run(s, "fill 1");
+    must_run(s, "layer add relief");
+    must_run(s, "layer set 1 visible=off");
+    must_run(s, "project 1 eye=1.5,0,7 at=0,0,0 width=40 strength=0.5");
+    const double x = 0.5 / 7 / 0.17; /* of 10 degrees */
+    assert_near(island(s, FRONT, 40, 40), 0.5, 1e-6);
+    assert_near(island(s, RIGHT, 40, 40), 0.5 * x * x * (3 - 2 * x), 0.01);
+    assert_true(island(s, BACK, 40, 40) == 0);
+    wr_session_free(s);
+}
+
+static void a_projection_that_meets_nothing_is_an_error(void **state)
+{
+    (void)state;
+    Said said;
+    WrSession *s = with_screens(&said);
+    must_fail(s, "project 1 eye=0,0,-3 at=0,0,0 width=3", "nothing of the layer is seen");
+    must_fail(s, "project 1 eye=0,0,3 at=0,0,3 width=3", "give no direction");
+    must_fail(s, "project 1 eye=0,0,3 at=0,0,0 up=0,0,2 width=3", "give no direction");
+    must_fail(s, "project none eye=0,0,3 at=0,0,0 width=3", "none");
+    must_fail(s, "project 1 eye=0,0,3 at=0,0,0 width=3 mode=smooth", "moves heights along a path");
+    must_run(s, "surface plane");
+    must_fail(s, "project 1 eye=0,0,3 at=0,0,0 width=3", "without triangles");
+    wr_session_free(s);
+}
+
 /* ---- the command ---- */
 
 static void shared_texels_are_noted_once(void **state)
@@ -332,6 +424,12 @@ int main(void)
                                         enter_own_folder, leave_own_folder),
         cmocka_unit_test_setup_teardown(smoothing_exchanges_heights_across_a_seam, enter_own_folder,
                                         leave_own_folder),
+        cmocka_unit_test_setup_teardown(a_layer_is_projected_onto_what_the_eye_sees,
+                                        enter_own_folder, leave_own_folder),
+        cmocka_unit_test_setup_teardown(a_projection_fades_where_faces_turn_away, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(a_projection_that_meets_nothing_is_an_error,
+                                        enter_own_folder, leave_own_folder),
         cmocka_unit_test_setup_teardown(shared_texels_are_noted_once, enter_own_folder,
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(a_stroke_by_samples_is_repeated_by_its_line,

@@ -39,6 +39,11 @@ shot painted
 changed=$(differs before painted 380x500+510+200)
 [[ ${changed%.*} -gt 3000 ]] || complain "the stroke changed only $changed pixels of the patch"
 [[ $(grep -c 'sculpt ' state/wrinkle/journals/*.wj) == 1 ]] || complain "the stroke ended at the seam"
+search 'project layer onto'
+becomes 'project 1 eye=*into=new*' "the layer as a slide on the mesh"
+home
+shot projected
+key ctrl+z
 answer_file painted.exr ctrl+shift+s
 "$program" export painted.exr -o heights.png --as height >/dev/null || complain "the saved file is no document"
 # parts of the table that were painted: the front's island above, the right side's below on the left

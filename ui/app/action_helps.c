@@ -98,6 +98,8 @@ const char *const wr_action_helps[] = {
     ROW(layer_rename, "Give the active layer another name"),
     ROW(filter_edit, "Change the values of the active filter layer"),
     ROW(layer_merge, "Join the active layer with the one below it"),
+    ROW(layer_project,
+        "Lay the active layer onto the mesh as if it hung before the patch: a new layer gets it"),
     ROW(layer_flatten, "Join all layers to one"),
     ROW(layer_clear, "Set the selected heights of the layer to zero"),
     ROW(layer_show, "Show the active layer, or leave it out"),

@@ -20,6 +20,7 @@
 #include "ui/panels/generate/generate_state.h"
 #include "ui/panels/panel_tablet.h"
 #include "ui/patch/patch.h"
+#include "ui/patch/patch_paint.h"
 #include "ui/canvas/tools/preset_browser.h"
 #include "ui/canvas/tools/stroke_input.h"
 #include "ui/canvas/tools/tool.h"
@@ -362,6 +363,8 @@ const WrAction wr_actions[] = {
     EDIT(filter_edit, "Edit filter...", wr_act_filter_edit, wr_is_filter, NULL),
     LAYER(layer_merge, "Merge layer down", wr_act_layer_merge, wr_can_merge_down, NULL),
     EDIT(layer_flatten, "Flatten all layers", wr_act_layer_flatten, wr_can_flatten, NULL),
+    EDIT(layer_project, "Project layer onto the mesh", wr_patch_project_layer, wr_app_can_bake,
+         NULL),
     LAYER(layer_clear, "Clear layer", wr_act_layer_clear, wr_has_heights, NULL),
     ROW(layer_show, "Layer is shown", wr_act_layer_show, NULL, wr_is_layer_shown),
     ROW(layer_lock, "Layer is locked", wr_act_layer_lock, NULL, wr_is_layer_locked),

@@ -137,6 +137,7 @@ static const char *const layer_menu[] = { WR_ACT(layer_add),
                                           WR_ACT(mask_alone),
                                           "-",
                                           WR_ACT(layer_merge),
+                                          WR_ACT(layer_project),
                                           WR_ACT(layer_flatten),
                                           WR_ACT(layer_clear),
                                           NULL };

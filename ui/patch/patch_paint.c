@@ -7,6 +7,7 @@
 #include "ui/app/state/action_list.h"
 #include "ui/patch/patch_paint.h"
 #include "ui/app/state/app_state.h"
+#include "ui/app/state/background_command.h"
 #include "ui/app/state/pointer_state.h"
 #include "ui/app/state/keys.h"
 #include "ui/app/state/layout.h"
@@ -23,7 +24,9 @@
 #include "ui/canvas/tools/stroke_input.h"
 #include "ui/canvas/tools/tool_brush.h"
 
+#include "base/text.h"
 #include "brush/brush.h"
+#include "document/document.h"
 #include "field/field.h"
 #include "scene/scene.h"
 #include "surface/surface.h"
@@ -79,10 +82,16 @@ static void lift(WrApp *app)
     wr_strokes_end(app);
 }
 
+/* Digits after the point of lengths on the active mesh: a 10 000th of its radius or less. */
+static int mesh_digits(const WrApp *app)
+{
+    return (int)fmin(9.0, fmax(0.0, ceil(4.0 - log10(wr_app_scene(app)->triangles->radius))));
+}
+
 /* Faces that turn away are not painted; but where the back of an open sheet is seen, all are. */
 static bool begin_on_mesh(WrApp *app, WrBrush brush, const WrPointer *at, const WrPatchSpot *spot)
 {
-    const WrVec3 eye = wr_line_round_vec(wr_patch_pick_eye(picker(app)), 4);
+    const WrVec3 eye = wr_line_round_vec(wr_patch_pick_eye(picker(app)), mesh_digits(app));
     brush.symmetry = wr_brush_default().symmetry; /* of the table */
     return wr_strokes_begin_on_mesh(app, &brush, at, spot->back ? NULL : &eye);
 }
@@ -209,6 +218,35 @@ void wr_patch_paint_release(WrApp *app, const WrPointer *at)
 {
     wr_brush_steady_end(app, at, draw_to);
     lift(app);
+}
+
+/* ---- projection of a layer ---- */
+
+/* The slide stands at the depth of the object's middle, as large as the patch allows. */
+void wr_patch_project_layer(WrApp *app)
+{
+    WrPlacement at;
+    const WrField *field = wr_app_field(app);
+    const SDL_Rect *room = &app->layout->patch;
+    const WrPatchPick *pick = picker(app);
+    if (!pick || !wr_patch_pick_is_mesh(pick) || !wr_patch_place(app, &at)) return;
+    const double depth = v3_dot(v3_sub(at.position, at.eye), at.forward);
+    const double half = at.orthographic ? at.half_height : at.half_height * depth;
+    const double table = (double)wr_field_width(field) / wr_field_height(field);
+    const double width = 2.0 * half * fmin(table, (double)room->w / room->h) / at.size;
+    const WrVec3 middle = wr_world_to_object(&at, v3_mad(at.eye, at.forward, depth));
+    const int digits = mesh_digits(app);
+    WrText line = { 0 };
+    wr_text_addf(&line, "project %d", wr_app_document(app)->active + 1);
+    wr_line_vec(&line, "eye", wr_line_round_vec(wr_patch_pick_eye(pick), digits));
+    wr_line_vec(&line, "at", wr_line_round_vec(middle, digits));
+    wr_line_vec(&line, "up", wr_line_round_vec(wr_place_turn_back(&at, at.up), 4));
+    wr_line_number(&line, "width", wr_line_round(width, digits));
+    if (at.orthographic) wr_text_add(&line, " parallel=on");
+    wr_line_number(&line, "strength", fabs(wr_brush_now(app).strength));
+    wr_text_add(&line, " into=new");
+    wr_app_run_line(app, wr_text_get(&line));
+    wr_text_fini(&line);
 }
 
 /* ---- brush outline on the object ---- */

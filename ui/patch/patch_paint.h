@@ -29,5 +29,7 @@ bool wr_patch_paint_uv(WrApp *app, const WrPointer *at, double *u, double *v);
 void wr_patch_paint_press(WrApp *app, const WrPointer *at);
 void wr_patch_paint_drag(WrApp *app, const WrPointer *at);
 void wr_patch_paint_release(WrApp *app, const WrPointer *at);
+/* Project the active layer onto the mesh as a slide that fills the patch. */
+void wr_patch_project_layer(WrApp *app);
 void wr_patch_paint_overlay(WrApp *app); /* draw the brush's outline on the object */
 void wr_patch_paint_free(WrApp *app);

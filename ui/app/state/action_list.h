@@ -95,6 +95,7 @@
     X(filter_edit, "")                                                                             \
     X(layer_merge, "Ctrl+Alt+E")                                                                   \
     X(layer_flatten, "Ctrl+Shift+F")                                                               \
+    X(layer_project, "")                                                                           \
     X(layer_clear, "Delete")                                                                       \
     X(layer_show, "")                                                                              \
     X(layer_lock, "")                                                                              \

@@ -121,6 +121,7 @@ static const struct {
     { "image", "Heights of a picture" },
     { "shape", "Shape" },
     { "flood", "Fill connected texels" },
+    { "project", "Projection onto the mesh" },
     { "ramp", "Ramp" },
     { "rim", "Edge" },
     { "open", "Opened" },
