@@ -28,17 +28,30 @@ printf '%s\n' 'width 1200' 'height 800' 'turning 0' 'ants 0' 'range_follows 0' '
     >config/wrinkle/window.conf
 
 start cube.wrinkle
+# The patch's middle lies about here.
+mx=726 my=422
 key a
 shot before
+# A click, and a click with Shift: a straight line from the one to the other, over the upper edge.
+click $((mx - 90)) $((my + 110))
+xdotool keydown shift
+click $((mx - 40)) $((my - 110))
+xdotool keyup shift
+rest
+home
+shot line
+changed=$(differs before line 380x500+510+200)
+[[ ${changed%.*} -gt 3000 ]] || complain "a straight line changed only $changed pixels of the patch"
+key ctrl+z
+key ctrl+z
 # From the front over the edge to the right side, whose islands lie apart.
-mx=726 my=422
 drag $((mx - 60)) $((my + 20)) 8 0 20
 becomes 'sculpt eye=*' "a stroke on the mesh"
 home
 shot painted
 changed=$(differs before painted 380x500+510+200)
 [[ ${changed%.*} -gt 3000 ]] || complain "the stroke changed only $changed pixels of the patch"
-[[ $(grep -c 'sculpt ' state/wrinkle/journals/*.wj) == 1 ]] || complain "the stroke ended at the seam"
+[[ $(grep -c 'sculpt ' state/wrinkle/journals/*.wj) == 3 ]] || complain "the stroke ended at the seam"
 search 'project layer onto'
 becomes 'project 1 eye=*into=new*' "the layer as a slide on the mesh"
 home

@@ -78,7 +78,13 @@ bool wr_patch_paint_uv(WrApp *app, const WrPointer *at, double *u, double *v)
 
 static void lift(WrApp *app)
 {
-    app->paint->inside = false;
+    WrPatchPaint *p = app->paint;
+    const WrPatchPick *pick = p->inside ? picker(app) : NULL;
+    if (pick && wr_patch_pick_is_mesh(pick)) {
+        p->end = p->last.p;
+        p->end_key = wr_app_scene(app)->triangles->key;
+    }
+    p->inside = false;
     wr_strokes_end(app);
 }
 
@@ -190,6 +196,22 @@ static void draw_to(WrApp *app, const WrPointer *at)
     p->at = *at;
 }
 
+/* The pixel of the last stroke's end on the mesh, if that is seen. */
+static bool line_start(WrApp *app, WrPointer *from)
+{
+    const WrPatchPaint *p = app->paint;
+    const WrScene *scene = wr_app_scene(app);
+    const WrPatchPick *pick = picker(app);
+    WrPatchSpot spot;
+    if (!pick || !wr_patch_pick_is_mesh(pick) || scene->triangles->key != p->end_key ||
+        !wr_patch_pick_project_point(pick, p->end, &from->x, &from->y))
+        return false;
+    from->x += app->layout->patch.x;
+    from->y += app->layout->patch.y;
+    return spot_under(app, from->x, from->y, &spot) &&
+           v3_len(v3_sub(spot.p, p->end)) < 4.0 * spot.pixel;
+}
+
 void wr_patch_paint_press(WrApp *app, const WrPointer *at)
 {
     double u, v;
@@ -203,10 +225,14 @@ void wr_patch_paint_press(WrApp *app, const WrPointer *at)
         app->hand->grab = WR_GRAB_PICK;
         return;
     }
+    WrPointer from = *at;
+    const bool joins =
+        wr_keys_hold(app->keys, WR_ACT(hold_size), at->mods) && line_start(app, &from);
     app->paint->inside = false;
-    app->paint->at = *at;
+    app->paint->at = from;
     wr_brush_steady_begin(app, at);
-    step_to(app, at);
+    step_to(app, &from);
+    if (joins) draw_to(app, at); /* straight as seen, laid onto the surface */
 }
 
 void wr_patch_paint_drag(WrApp *app, const WrPointer *at)

@@ -22,6 +22,8 @@ typedef struct WrPatchPaint {
     uint64_t side_key;
     WrMeshTexelsTable side_table;
     WrPointer at; /* end of the last step */
+    WrVec3 end;   /* of the last stroke on the mesh with this key, for straight lines; 0: none */
+    uint64_t end_key;
 } WrPatchPaint;
 
 /* Table position under a pointer on the patch; false beside the object. */
