@@ -148,6 +148,30 @@ static void fill(Grid *grid, int rings)
         }
 }
 
+/* What is still unknown, as beyond open edges, takes the nearest known value of its row, or the row beside: modes
+   read it, but it is not moved. */
+static void extend(Grid *grid)
+{
+    const int side = grid->side, pitch = grid->box.pitch;
+    for (int y = 0; y < side; y++)
+        for (int pass = 0; pass < 2; pass++) {
+            float *row = grid->before + (size_t)y * (size_t)pitch;
+            float *known = grid->known + (size_t)y * (size_t)pitch;
+            for (int k = 1; k < side; k++) {
+                const int x = pass ? side - 1 - k : k, from = pass ? x + 1 : x - 1;
+                if (known[x] == 0 && known[from] != 0) row[x] = row[from], known[x] = -1;
+            }
+        }
+    for (int pass = 0; pass < 2; pass++)
+        for (int k = 1; k < side; k++) {
+            const int y = pass ? side - 1 - k : k, from = pass ? y + 1 : y - 1;
+            const size_t to = (size_t)y * (size_t)pitch, at = (size_t)from * (size_t)pitch;
+            if (grid->known[to] != 0 || grid->known[at] == 0) continue;
+            memcpy(grid->before + to, grid->before + at, (size_t)side * sizeof(float));
+            grid->known[to] = -1;
+        }
+}
+
 static double sample(const Grid *grid, const float *from, double x, double y)
 {
     const double gx = fmin(fmax(grid->half + x, 0), grid->side - 1.001);
@@ -195,7 +219,7 @@ static bool move_grid(WrDraw *draw, const WrDab *dab, const WrDabShape *shape,
         const double w = cover_at(shape, i % grid->side - half, i / grid->side - half);
         if (grid->known[at] != 0) weights[at] = (float)(w * maker->brush.opacity);
     }
-    fill(grid, half); /* beyond open edges: read, but not moved */
+    extend(grid);
     memcpy(grid->box.heights, grid->before,
            (size_t)grid->box.pitch * (size_t)grid->side * sizeof(float));
     maker->work->move(&grid->box);
@@ -276,7 +300,10 @@ void wr_mesh_dab(WrDraw *draw, const WrDab *dab)
     disc.radius = (reach + beside) * wr_mesh_texel_side(mesh);
     const WrMeshTexel *texels = wr_mesh_texels_disc(mesh, &disc, &count);
     if (draw->moves) {
-        move(draw, &local, &shape, texels, count, (int)ceil(reach + beside) + 1);
+        double most = 0; /* the mesh may be smaller than the dab */
+        for (int i = 0; i < count; i++)
+            most = fmax(most, fmax(fabs(texels[i].dx), fabs(texels[i].dy)));
+        move(draw, &local, &shape, texels, count, (int)ceil(most) + 2);
         return;
     }
     for (int i = 0; i < count; i++) {

@@ -52,6 +52,10 @@ shot painted
 changed=$(differs before painted 380x500+510+200)
 [[ ${changed%.*} -gt 3000 ]] || complain "the stroke changed only $changed pixels of the patch"
 [[ $(grep -c 'sculpt ' state/wrinkle/journals/*.wj) == 3 ]] || complain "the stroke ended at the seam"
+search 'faces turned away'
+drag $((mx - 60)) $((my + 60)) 4 0 5
+becomes 'sculpt radius=*' "a stroke for all faces"
+key ctrl+z
 search 'project layer onto'
 becomes 'project 1 eye=*into=new*' "the layer as a slide on the mesh"
 home

@@ -76,6 +76,7 @@ const char *const wr_action_helps[] = {
         "Strokes are straight lines from where they begin; held, only as long as the key is down"),
     ROW(paint_patch,
         "The brush works on the surface itself; held, only as long as the key is down"),
+    ROW(paint_round, "On a mesh the brush reaches faces that are turned away from you too"),
     ROW(pressure_up, "Strokes of the mouse count as pressed harder"),
     ROW(pressure_down, "Strokes of the mouse count as pressed less"),
     ROW(pressure_speed, "The faster the mouse moves, the less it presses"),

@@ -337,6 +337,7 @@ const WrAction wr_actions[] = {
         wr_is_keys_sculpt),
     ROW(straight_line, "Straight lines", wr_act_straight_line, NULL, wr_is_straight_line),
     ROW(paint_patch, "Paint on the patch", wr_act_paint_patch, NULL, wr_is_painting_patch),
+    ROW(paint_round, "Paint faces turned away too", wr_act_paint_round, NULL, wr_is_painting_round),
     ROW(pressure_up, "Press the mouse harder", wr_act_pressure_up, NULL, NULL),
     ROW(pressure_down, "Press the mouse less", wr_act_pressure_down, NULL, NULL),
     ROW(pressure_speed, "Mouse presses by its speed", wr_act_pressure_speed, NULL,

@@ -94,12 +94,12 @@ static int mesh_digits(const WrApp *app)
     return (int)fmin(9.0, fmax(0.0, ceil(4.0 - log10(wr_app_scene(app)->triangles->radius))));
 }
 
-/* Faces that turn away are not painted; but where the back of an open sheet is seen, all are. */
+/* Faces that turn away are not painted, unless that was chosen; where the back of an open sheet is seen, all are. */
 static bool begin_on_mesh(WrApp *app, WrBrush brush, const WrPointer *at, const WrPatchSpot *spot)
 {
     const WrVec3 eye = wr_line_round_vec(wr_patch_pick_eye(picker(app)), mesh_digits(app));
     brush.symmetry = wr_brush_default().symmetry; /* of the table */
-    return wr_strokes_begin_on_mesh(app, &brush, at, spot->back ? NULL : &eye);
+    return wr_strokes_begin_on_mesh(app, &brush, at, spot->back || app->paint->round ? NULL : &eye);
 }
 
 static void put_down(WrApp *app, const WrPointer *at, const WrPatchSpot *spot)

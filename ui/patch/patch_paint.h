@@ -12,6 +12,7 @@
 /* State of painting on the patch (patch_paint.c). */
 typedef struct WrPatchPaint {
     bool on;              /* dragging over the patch paints instead of rotating it */
+    bool round;           /* on a mesh: faces turned away are painted too */
     WrObjectPicks *picks; /* owned */
     WrScene *scene;       /* scene for which they were made; shared, owned */
     double turn_deg;

@@ -72,6 +72,7 @@
     X(keys_sculpt, "")                                                                             \
     X(straight_line, "V")                                                                          \
     X(paint_patch, "A")                                                                            \
+    X(paint_round, "")                                                                             \
     X(pressure_up, "Alt+Shift+S")                                                                  \
     X(pressure_down, "Alt+Shift+A")                                                                \
     X(pressure_speed, "")                                                                          \
