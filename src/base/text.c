@@ -287,7 +287,7 @@ static const struct {
     { "normal", { "normal+y", "normal-y" } },
     { "normal-map", { "normal+y", "normal-y", "normalmap" } },
     { "opengl", { "normal+y" } },
-    { "paint", { "stroke" } },
+    { "paint", { "stroke", "sculpt" } },
     { "pixels", { "size" } },
     { "pos", { "at" } },
     { "position", { "at" } },

@@ -29,6 +29,7 @@
    axes: each texel is changed once for any R (HC69, HC70, HC73). Nothing is painted beyond the ends of
    a clamped axis, but a dab may be centred there. */
 #pragma once
+#include "base/vec.h"
 #include "brush/symmetry.h"
 
 #include <stdbool.h>
@@ -36,6 +37,7 @@
 
 typedef struct WrError WrError;
 typedef struct WrField WrField;
+typedef struct WrMeshTexels WrMeshTexels;
 typedef struct WrModeWork WrModeWork;
 typedef struct WrPool WrPool;
 typedef struct WrProgress WrProgress;
@@ -124,6 +126,7 @@ typedef struct WrSample {
         tilt_y;     /* -1..1, to the right and towards the user; the round brush ignores them */
     double seconds; /* since the stroke's start; a motion without times is assumed to have 400
                        texels/s */
+    WrVec3 p; /* on a mesh: the point, instead of u and v; the nearest of the surface counts */
 } WrSample;
 
 /* The distance in texels up to which coverage is 1, and coverage 0..1 at distance d >= 0 from the path
@@ -149,6 +152,12 @@ typedef struct WrBrushGround {
     float neutral;
     WrPool *pool; /* for large dabs; the bits do not depend on it; NULL: this thread */
     const WrProgress *progress; /* only for wr_brush_fill; NULL: not cancellable */
+    /* Strokes are on this mesh (mesh_texels.h), of a table of that size; its texels are radius' and the other
+       lengths' unit. They are dabs, without symmetry; targets (clone, sharpen, dilate, erode) are those of the
+       table. NULL: strokes are on the table. */
+    WrMeshTexels *mesh;
+    bool clips; /* on a mesh: what turns away from `eye`, in the object's space, is not painted */
+    WrVec3 eye;
 } WrBrushGround;
 
 /* wr_brush_dab on a table with mark and selection. */

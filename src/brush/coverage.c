@@ -435,6 +435,25 @@ void wr_coverage_add(WrCoverage *cover, const WrDabShape *shape)
     wr_scan(cover->maker.ground.field, shape, cover->maker.ground.pool, prepare, visit, cover);
 }
 
+void wr_coverage_add_texel(WrCoverage *cover, int x, int y, float c)
+{
+    if (!prepare(cover, x / WR_TILE, y / WR_TILE)) return;
+    WrPage *page = page_of(cover, x / WR_TILE, y / WR_TILE);
+    const int at = y % WR_TILE * WR_TILE + x % WR_TILE, block = at & -WR_BRUSH_BLOCK;
+    float *to = &page->cover[at];
+    switch (cover->rule) {
+    case WR_COVERAGE_MAX: *to = *to < c ? c : *to; break;
+    case WR_COVERAGE_OVER: *to += (1.0f - *to) * c; break;
+    case WR_COVERAGE_SUM: {
+        const double sum = (double)*to + page->rest[at] + c;
+        *to = (float)sum;
+        page->rest[at] = (float)(sum - *to);
+        break;
+    }
+    }
+    note(page, &(WrRun){ .at = block, .count = WR_BRUSH_BLOCK });
+}
+
 static void make_target(WrCoverage *cover, WrPage *page)
 {
     page->target = wr_alloc(WR_TILE * WR_TILE, sizeof(float));

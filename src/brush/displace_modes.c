@@ -40,9 +40,9 @@ static double short_way(double d, int n, WrWrap wrap)
     return wrap == WR_WRAP_PERIODIC ? d - n * rint(d / n) : d > 0.0 ? n : -n;
 }
 
-static bool reserve(WrMover *mover, size_t floats)
+float *wr_mover_reserve(WrMover *mover, size_t floats)
 {
-    if (mover->size >= floats) return true;
+    if (mover->size >= floats) return mover->memory;
     wr_free(mover->memory);
     mover->size = floats + floats / 2;
     mover->memory = wr_try_alloc(mover->size, sizeof(float), "a dab", NULL);
@@ -180,7 +180,7 @@ static bool lay_out(WrMover *mover, WrMoveBox *box, float **weights, float **bef
 {
     size_t texels = (size_t)box->pitch * (size_t)box->height;
     size_t spare = 6 * ((size_t)box->pitch + 2 * WR_REACH_MAX);
-    if (!reserve(mover, 4 * texels + spare)) return false;
+    if (!wr_mover_reserve(mover, 4 * texels + spare)) return false;
     *weights = mover->memory;
     box->weights = *weights;
     box->heights = *weights + texels;

@@ -37,6 +37,8 @@ typedef struct WrMover {
 } WrMover;
 
 void wr_mover_fini(WrMover *mover);
+/* Its memory, at least so many floats, not cleared; NULL: there is none. */
+float *wr_mover_reserve(WrMover *mover, size_t floats);
 
 /* Applies one dab's shape; the maker in `cover` contains ground, mode and arguments. way_x, way_y: from
  * the previous dab. drag, dragged: as in WrDab. */

@@ -115,6 +115,10 @@ void wr_draw_dab(WrDraw *draw, const WrDab *dab)
 {
     if (does_nothing(draw)) return;
     const WrStrokeResolver *maker = &draw->cover.maker;
+    if (maker->ground.mesh) {
+        wr_mesh_dab(draw, dab);
+        return;
+    }
     WrDab fine = *dab;
     fine.x = on_grid(dab->x);
     fine.y = on_grid(dab->y);
@@ -136,6 +140,7 @@ void wr_draw_dab(WrDraw *draw, const WrDab *dab)
 double wr_draw_height(WrDraw *draw, double x, double y, double radius)
 {
     wr_draw_finish(draw, HUGE_VAL);
+    if (draw->cover.maker.ground.mesh) return wr_mesh_height(draw, x, y, radius);
     return wr_move_height(draw->cover.maker.ground.field, x, y, radius);
 }
 

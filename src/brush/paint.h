@@ -3,19 +3,21 @@
 #pragma once
 #include "brush/coverage.h"
 #include "brush/displace_modes.h"
+#include "brush/mesh_dab.h"
 #include "brush/shape.h"
 
 #include <stdbool.h>
 
 /* ---- dabs ---- */
 
-typedef struct WrDraw {
+struct WrDraw {
     WrCoverage cover; /* its maker contains ground and brush */
     WrMover mover;
     bool moves;     /* moving dabs; else coverage */
     WrCopy *copies; /* owned */
     int copy_count;
-} WrDraw;
+    WrMeshPiece piece; /* on a mesh: the piece of the path that dabs are on */
+};
 
 /* brush: sane. */
 void wr_draw_init(WrDraw *draw, const WrBrushGround *ground, const WrBrush *brush);

@@ -4,6 +4,7 @@
 #include "brush/dab.h"
 #include "brush/paint.h"
 #include "brush/engine.h"
+#include "brush/mesh_dab.h"
 #include "brush/tip.h"
 #include "field/field.h"
 #include "system/clock.h"
@@ -14,7 +15,7 @@
 
 typedef struct WrSpaced {
     const WrBrush *brush; /* sane; borrowed */
-    const WrField *field; /* for its size; borrowed */
+    const WrField *field; /* for its size; borrowed; NULL: on a mesh, without ends */
     bool begun;           /* `from` is valid */
     WrDab from, to; /* the ends of the present piece of the path: x, y, and pressure as alpha */
     double length, done; /* of the piece; position of the last dab along it, negative: before it */
@@ -139,6 +140,7 @@ static void meets(double from, double way, double margin, int n, double *low, do
 /* Steps over positions far outside a clamped table are skipped at once. */
 static void skip(WrSpaced *s)
 {
+    if (!s->field) return;
     double margin = s->brush->radius * (2.0 + s->brush->jitter_place) + 2.0;
     double low = 0.0, high = 1.0;
     if (wr_field_wrap_u(s->field) == WR_WRAP_CLAMP)
@@ -211,11 +213,13 @@ static bool spaced_last(WrSpaced *s, WrDab *dab)
 }
 
 #define ON_THE_WAY 0.25             /* texels */
+#define PIECES_MAX 65536.0          /* of the way between two samples on a mesh */
 #define SAME_PRESSURE (1.0 / 128.0) /* smaller pressure differences are ignored */
 
 typedef struct Spot {
     double x, y; /* texels, from wr_paint_place */
     double pressure, tilt_x, tilt_y, seconds;
+    WrMeshStep step; /* on a mesh: x and y are developed */
 } Spot;
 
 struct WrStroke {
@@ -224,6 +228,8 @@ struct WrStroke {
     WrTip *tip;
     WR_ARRAY(Spot) queue;
     int taken;  /* from the queue */
+    bool steps; /* on a mesh: `pushed` is valid, the last spot that was queued */
+    Spot pushed;
     bool begun; /* `last` is valid */
 
     /* by motions */
@@ -254,9 +260,9 @@ WrStroke *wr_stroke_new_on(const WrBrushGround *ground, const WrBrush *brush)
     if (sane.preset) sane.preset = stroke->preset = wr_preset_share(sane.preset);
     if (sane.tip) sane.tip = stroke->tip = wr_tip_share(sane.tip);
     wr_draw_init(&stroke->draw, ground, &sane);
-    stroke->motions = wr_draw_by_motions(&sane);
+    stroke->motions = !ground->mesh && wr_draw_by_motions(&sane);
     stroke->spaced.brush = &stroke->draw.cover.maker.brush;
-    stroke->spaced.field = ground->field;
+    stroke->spaced.field = ground->mesh ? NULL : ground->field;
     WrDabSink sink = { .ctx = &stroke->draw, .dab = sink_dab, .height = sink_height };
     if (sane.preset) stroke->engine = wr_engine_new(&stroke->draw.cover.maker.brush, &sink);
     return stroke;
@@ -280,6 +286,7 @@ static void way(const WrStroke *stroke, const Spot *a, const Spot *b, double *dx
     int width = wr_field_width(field), height = wr_field_height(field);
     *dx = b->x - a->x;
     *dy = b->y - a->y;
+    if (stroke->draw.cover.maker.ground.mesh) return;
     if (wr_field_wrap_u(field) == WR_WRAP_PERIODIC) *dx -= width * rint(*dx / width);
     if (wr_field_wrap_v(field) == WR_WRAP_PERIODIC) *dy -= height * rint(*dy / height);
 }
@@ -351,6 +358,8 @@ static void take_point(WrStroke *stroke, const Spot *spot)
         stroke->x = spot->x;
         stroke->y = spot->y;
     }
+    stroke->draw.piece =
+        (WrMeshPiece){ stroke->begun ? stroke->last.step : spot->step, spot->step };
     stroke->begun = true;
     stroke->last = *spot;
     if (!stroke->engine) {
@@ -368,6 +377,51 @@ static void take_point(WrStroke *stroke, const Spot *spot)
 
 /* ---- the queue ---- */
 
+static double between(double a, double b, double t)
+{
+    return a + t * (b - a);
+}
+
+static void flatten_to(WrStroke *stroke, const WrMeshStep *step)
+{
+    double x, y;
+    WrStrokeResolver *maker = &stroke->draw.cover.maker;
+    wr_mesh_texels_place(maker->ground.mesh, &step->spot, &x, &y);
+    wr_stroke_resolver_set_flatten_height(maker, x, y);
+}
+
+/* Samples are joined along the surface: points of the chord, a quarter of the radius apart, are moved to it. */
+static void push_on_mesh(WrStroke *stroke, Spot spot, WrVec3 p)
+{
+    const WrMeshTexels *mesh = stroke->draw.cover.maker.ground.mesh;
+    const Spot from = stroke->pushed;
+    if (!isfinite(p.x) || !isfinite(p.y) || !isfinite(p.z)) return;
+    const bool first = !stroke->steps;
+    if (first) {
+        spot.step = wr_mesh_step_first(mesh, p);
+        flatten_to(stroke, &spot.step);
+    }
+    const double stride = fmax(1.0, brush_of(stroke)->radius / 4.0) * wr_mesh_texel_side(mesh);
+    const WrVec3 way = v3_sub(p, from.step.spot.p);
+    const int steps = first ? 1 : (int)fmin(PIECES_MAX, fmax(1.0, ceil(v3_len(way) / stride)));
+    for (int i = 1; i <= steps; i++) {
+        const double t = (double)i / steps;
+        Spot next = spot;
+        if (!first) {
+            next.step =
+                wr_mesh_step_next(mesh, &stroke->pushed.step, v3_mad(from.step.spot.p, way, t));
+            next.pressure = between(from.pressure, spot.pressure, t);
+            next.tilt_x = between(from.tilt_x, spot.tilt_x, t);
+            next.tilt_y = between(from.tilt_y, spot.tilt_y, t);
+            next.seconds = between(from.seconds, spot.seconds, t);
+        }
+        next.x = next.step.x, next.y = next.step.y;
+        wr_array_push(&stroke->queue, next);
+        stroke->pushed = next;
+    }
+    stroke->steps = true;
+}
+
 void wr_stroke_push(WrStroke *stroke, WrSample sample)
 {
     Spot spot = { .pressure = sample.pressure > 0.0 ? sample.pressure : 0.0, /* NaN: 0 */
@@ -377,6 +431,10 @@ void wr_stroke_push(WrStroke *stroke, WrSample sample)
     if (spot.pressure > 1.0) spot.pressure = 1.0;
     if (brush_of(stroke)->pressure == WR_PRESSURE_NONE && !stroke->engine) spot.pressure = 1.0;
     WrStrokeResolver *maker = &stroke->draw.cover.maker;
+    if (maker->ground.mesh) {
+        push_on_mesh(stroke, spot, sample.p);
+        return;
+    }
     if (!wr_paint_place(maker->ground.field, sample.u, sample.v, &spot.x, &spot.y)) return;
     if (!stroke->begun && stroke->queue.count == 0)
         wr_stroke_resolver_set_flatten_height(maker, spot.x, spot.y);
@@ -426,6 +484,14 @@ void wr_stroke_add(WrStroke *stroke, WrSample sample)
     wr_stroke_work(stroke, HUGE_VAL);
 }
 
+/* A stroke of the round brush, which is a motion on the table, ends where the pen did on a mesh too. */
+static void draw_end(WrStroke *stroke)
+{
+    WrSpaced *s = &stroke->spaced;
+    const WrDab dab = dab_at(s, s->to.x, s->to.y, s->to.alpha, 0.0, 0.0);
+    wr_draw_dab(&stroke->draw, &dab);
+}
+
 static void finish(WrStroke *stroke)
 {
     wr_stroke_work(stroke, HUGE_VAL);
@@ -433,6 +499,7 @@ static void finish(WrStroke *stroke)
     if (stroke->waiting) draw(stroke, &stroke->held);
     if (stroke->engine) wr_engine_pen_up(stroke->engine);
     if (!stroke->engine && spaced_last(&stroke->spaced, &dab)) wr_draw_dab(&stroke->draw, &dab);
+    if (stroke->steps && wr_draw_by_motions(brush_of(stroke))) draw_end(stroke);
     wr_stroke_work(stroke, HUGE_VAL);
 }
 

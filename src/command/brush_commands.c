@@ -1,4 +1,4 @@
-/* Commands that paint: dab, stroke, shape, flood, ramp. */
+/* Commands that paint: dab, stroke, sculpt, project, shape, flood, ramp. */
 #include "base/enum_rows.h"
 #include "base/error.h"
 #include "base/memory.h"
@@ -11,7 +11,10 @@
 #include "field/field.h"
 #include "field/ramp.h"
 #include "field/select.h"
+#include "field/scheme.h"
+#include "field/scheme_list.h"
 #include "field/shape_outline.h"
+#include "surface/mesh_texels.h"
 
 #include <math.h>
 
@@ -31,7 +34,12 @@ static WrSample sample_of(const void *ctx, int i)
 {
     const WrArg *points = ctx;
     const double *row = points->numbers + (size_t)6 * (size_t)i;
-    return (WrSample){ row[0], row[1], points->counts[i] > 2 ? row[2] : 1, row[3], row[4], row[5] };
+    return (WrSample){ .u = row[0],
+                       .v = row[1],
+                       .pressure = points->counts[i] > 2 ? row[2] : 1,
+                       .tilt_x = row[3],
+                       .tilt_y = row[4],
+                       .seconds = row[5] };
 }
 
 static bool run_stroke(WrSession *session, WrCall *call, WrError *err)
@@ -69,6 +77,193 @@ static const WrArgSpec args_stroke[] = {
     { 0 }
 };
 
+/* ---- strokes on a mesh ---- */
+
+static WrSample mesh_sample_of(const void *ctx, int i)
+{
+    const WrArg *points = ctx;
+    const double *row = points->numbers + (size_t)7 * (size_t)i;
+    return (WrSample){ .p = { row[0], row[1], row[2] },
+                       .pressure = points->counts[i] > 3 ? row[3] : 1,
+                       .tilt_x = row[4],
+                       .tilt_y = row[5],
+                       .seconds = row[6] };
+}
+
+static bool run_sculpt(WrSession *session, WrCall *call, WrError *err)
+{
+    WrPainting painting;
+    if (!wr_painting_begin(session, call, &painting, err)) return false;
+    const WrArg *points = wr_call_arg(call, "points");
+    bool good = wr_session_draw(&painting, mesh_sample_of, points, points->rows, err);
+    wr_painting_end(session, &painting);
+    return good;
+}
+
+static const WrComponent mesh_sample_parts[] = {
+    { "x", -WR_LENGTH_MAX, WR_LENGTH_MAX, false },
+    { "y", -WR_LENGTH_MAX, WR_LENGTH_MAX, false },
+    { "z", -WR_LENGTH_MAX, WR_LENGTH_MAX, false },
+    { "pressure", -1e9, 1e9, false },
+    { "tilt_x", -1e9, 1e9, false },
+    { "tilt_y", -1e9, 1e9, false },
+    { "seconds", -1e9, 1e9, false },
+};
+
+static const WrArgSpec args_sculpt[] = {
+    { .name = "points",
+      .type = WR_ARG_LIST,
+      .required = true,
+      .components = 7,
+      .parts = mesh_sample_parts,
+      .counts = TUPLE_OF(3) | TUPLE_OF(4) | TUPLE_OF(6) | TUPLE_OF(7),
+      .rows_low = 1,
+      .rows_high = WR_POINTS_MAX,
+      .shape = "x,y,z[,pressure[,tilt_x,tilt_y[,seconds]]];...",
+      .help = "the pen's samples in order, in the mesh's own coordinates: of each, the nearest "
+              "point of the surface counts" },
+    { .name = "eye",
+      .type = WR_ARG_TUPLE,
+      .components = 3,
+      .low = -WR_LENGTH_MAX,
+      .high = WR_LENGTH_MAX,
+      .shape = "x,y,z",
+      .help = "a place in the mesh's coordinates: faces turned away from it are not painted. Left "
+              "out, all are" },
+    { 0 }
+};
+
+/* ---- a layer as a slide on a mesh ---- */
+
+static double slide_value(const void *ctx, double s, double t)
+{
+    double height;
+    wr_field_sample(ctx, WR_SCHEME_BILINEAR, 1, &s, &t, &height, NULL, NULL);
+    return height > 0.0 ? fmin(height, 1.0) : 0.0;
+}
+
+static WrVec3 vector_of(const WrCall *call, const char *name)
+{
+    const double *at = wr_call_arg(call, name)->numbers;
+    return (WrVec3){ at[0], at[1], at[2] };
+}
+
+/* The picture has the table's proportions. */
+static bool slide_of(const WrCall *call, const WrField *source, WrMeshSlide *slide, WrError *err)
+{
+    const double wide = 0.5 * wr_call_number(call, "width");
+    const double high = wide * wr_field_height(source) / wr_field_width(source);
+    *slide = (WrMeshSlide){ .eye = vector_of(call, "eye"),
+                            .middle = vector_of(call, "at"),
+                            .parallel = wr_call_choice(call, "parallel") == 1,
+                            .value = slide_value,
+                            .ctx = source };
+    const WrVec3 none = { 0, 0, 0 }, line = v3_unit(v3_sub(slide->middle, slide->eye), none);
+    const WrVec3 right = v3_unit(v3_cross(line, vector_of(call, "up")), none);
+    if (!(v3_len(right) > 0.5))
+        return wr_fail(err, "eye=, at= and up= give no direction: eye and at must be apart, and up "
+                            "must not be along the line between them");
+    slide->right = v3_scale(right, wide);
+    slide->up = v3_scale(v3_cross(right, line), high);
+    return true;
+}
+
+/* NULL and an error: no memory, cancelled, or nothing of it is seen. */
+static WrField *slide_cover(WrMeshTexels *mesh, const WrMeshSlide *slide, const WrField *like,
+                            WrError *err)
+{
+    const int w = wr_field_width(like), h = wr_field_height(like);
+    const size_t all = (size_t)w * (size_t)h;
+    float *map = wr_try_alloc(all, sizeof *map, "a projection", err);
+    WrField *cover = NULL;
+    if (!map) return NULL;
+    bool any = false;
+    if (!wr_mesh_texels_slide(mesh, slide, map)) wr_fail(err, "cancelled");
+    else cover = wr_field_new(w, h, wr_field_wrap_u(like), wr_field_wrap_v(like), 0, err);
+    if (cover) wr_field_write(cover, 0, 0, w, h, map, (size_t)w);
+    for (size_t i = 0; i < all && cover && !any; i++) any = map[i] > 0;
+    wr_free(map);
+    if (!cover || any) return cover;
+    wr_field_free(cover);
+    wr_fail(err, "nothing of the layer is seen on the mesh from eye=: its heights above 0 do not "
+                 "meet it");
+    return NULL;
+}
+
+/* into=new: an empty layer above the projected one, which is hidden. */
+static bool add_layer(WrDocument *document, int index, WrError *err)
+{
+    if (document->layer_count >= WR_LAYERS_MAX)
+        return wr_fail(err, "a document has up to %d layers", WR_LAYERS_MAX);
+    document->layers[index].visible = false;
+    wr_document_insert(document, index + 1,
+                       wr_layer_make("projected", document->layers[index].heights));
+    document->active = index + 1;
+    return true;
+}
+
+static bool run_project(WrSession *session, WrCall *call, WrError *err)
+{
+    WrDocument *document = session->state.document;
+    WrPainting painting;
+    WrMeshSlide slide;
+    int index;
+    if (!wr_session_find_layer(session, wr_call_arg(call, "LAYER")->text, &index, err) ||
+        (wr_call_choice(call, "into") == 1 && !add_layer(document, index, err)) ||
+        !wr_painting_begin(session, call, &painting, err))
+        return false;
+    const WrBrushGround *ground = &painting.ground;
+    WrField *source = wr_field_share(document->layers[index].heights);
+    WrField *cover = slide_of(call, source, &slide, err)
+                         ? slide_cover(ground->mesh, &slide, ground->field, err)
+                         : NULL;
+    bool good = cover != NULL;
+    if (good) {
+        double x, y;
+        const WrMeshSpot middle = wr_mesh_texels_nearest(ground->mesh, slide.middle);
+        wr_mesh_texels_place(ground->mesh, &middle, &x, &y);
+        painting.ground.progress = wr_progress_here();
+        good = wr_brush_fill(ground, &painting.held.brush, cover, (x + 0.5) / wr_field_width(cover),
+                             1.0 - (y + 0.5) / wr_field_height(cover), err);
+    }
+    wr_field_free(cover);
+    wr_field_free(source);
+    wr_painting_end(session, &painting);
+    return good;
+}
+
+static const char *const project_targets[] = { "active", "new", NULL };
+
+#define MESH_POINT(name_, help_)                                                                   \
+    .name = name_, .type = WR_ARG_TUPLE, .components = 3, .low = -WR_LENGTH_MAX,                   \
+    .high = WR_LENGTH_MAX, .shape = "x,y,z", .help = help_
+
+static const WrArgSpec args_project[] = {
+    { PLACE("LAYER"), .type = WR_ARG_LAYER,
+      .help = "the layer that is projected: its heights, 0..1, are the coverage" },
+    { MESH_POINT("eye", "the projector's place, in the mesh's coordinates"), .required = true },
+    { MESH_POINT("at", "where the layer's middle is, before the eye"), .required = true },
+    { MESH_POINT("up", "the direction of the layer's upper side"), .fallback = NUMBERS(0, 1, 0) },
+    { .name = "width",
+      .type = WR_ARG_NUMBER,
+      .required = true,
+      .low = WR_LENGTH_MIN,
+      .high = WR_LENGTH_MAX,
+      .help = "of the layer at at=, in the mesh's unit; its height follows from the table's size" },
+    { .name = "parallel",
+      .type = WR_ARG_CHOICE,
+      .words = wr_off_on,
+      .fallback_text = "off",
+      .help = "on: by parallel rays in the direction from eye to at" },
+    { .name = "into",
+      .type = WR_ARG_CHOICE,
+      .words = project_targets,
+      .fallback_text = "active",
+      .help = "the active layer, or a new one above LAYER, which is then hidden" },
+    PAINT_ARGS,
+    { 0 }
+};
+
 /* ---- the rows ---- */
 
 const WrCommand wr_command_dab = {
@@ -100,6 +295,39 @@ const WrCommand wr_command_stroke = {
         "round. Given arguments replace the preset's own. Symmetry draws the whole "
         "stroke again: mirrors, turns, and a lattice over the cell.",
     .example = "stroke points=0.1,0.5;0.9,0.5,0.4 radius=12 mode=lower"
+};
+
+const WrCommand wr_command_project = {
+    .name = "project",
+    .kind = WR_CLASS_EDIT,
+    .args = args_project,
+    .run = run_project,
+    .on_mesh = true,
+    .help = "lay a layer onto the object's mesh as seen from a place",
+    .details =
+        "Text, shapes, stamps and pictures of a layer are laid onto the visible faces of the mesh "
+        "as by a slide projector, across the seams of (u,v), and change the active layer by mode= "
+        "and strength=. Faces that are turned away, or hidden by others, stay.",
+    .example = "project lettering eye=0,0,5 at=0,0,1 width=1.5 strength=0.2 into=new"
+};
+
+const WrCommand wr_command_sculpt = {
+    .name = "sculpt",
+    .kind = WR_CLASS_EDIT,
+    .args = args_sculpt,
+    .more = wr_args_brush,
+    .run = run_sculpt,
+    .streams = true,
+    .on_mesh = true,
+    .help = "draw a brush along a path on the object's mesh",
+    .details =
+        "As `stroke`, but on the surface: a dab reaches the texels within the radius by the way "
+        "over the faces, so it goes on across the seams of (u,v) and does not come through a "
+        "wall. The brush's texels have the mean size that texels have on the mesh. With tip= it "
+        "lays a stamp on the surface. A texel that several places of the mesh share changes at "
+        "all of them; a note says so. clone, sharpen, dilate and erode look around in the table, "
+        "not across seams. No mirror=, radial= or repeat=.",
+    .example = "sculpt points=0,0,1;0.3,0,0.95,0.6 radius=12 eye=0,0,5"
 };
 
 /* ---- Shapes drawn with the brush: rectangles, ellipses, polygons, paths ---- */

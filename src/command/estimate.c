@@ -211,6 +211,8 @@ static const Need needs[] = {
     UNKNOWN("shape", NULL, BY_AREA),
     { "dab", NULL, brush, .bytes = 16 },
     { "stroke", NULL, brush, .bytes = 4 },
+    { "sculpt", NULL, brush, .bytes = 4 },
+    { "project", NULL, texels, .bytes = 8 },
     { "layer", .count = NULL },
     { "layer", "mask", texels, .bytes = 4.5 },
     { "layer", "merge", texels, .bytes = 4.2 },

@@ -16,6 +16,7 @@
 #include "render/frame/frame.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
+#include "surface/mesh_texels.h"
 #include "system/path.h"
 
 #include <ctype.h>
@@ -299,6 +300,7 @@ void wr_session_free(WrSession *session)
     wr_table_cache_fini(&session->table_cache);
     wr_choice_fini(&session->choice);
     wr_brush_files_free(session->brush_files);
+    wr_mesh_texels_free(session->mesh_texels);
     session_forget_inputs(session);
     wr_free((char *)session->options.isa);
     wr_free(session->unsafe_words);

@@ -719,17 +719,13 @@ void wr_session_journal_stroke_begin(WrSession *session, const WrCall *call)
     wr_text_fini(&head);
 }
 
-void wr_session_journal_stroke_add(WrSession *session, const double rows[][6], const int *lengths,
-                                   int count)
+void wr_session_journal_stroke_add(WrSession *session, const double *row, int length)
 {
-    if (!journaled(session) || !session->journal || count == 0) return;
+    if (!journaled(session) || !session->journal) return;
     WrText text = { 0 };
-    for (int i = 0; i < count; i++) {
-        if (i > 0) wr_text_add(&text, ";");
-        for (int k = 0; k < lengths[i]; k++) {
-            if (k > 0) wr_text_add(&text, ",");
-            wr_text_add_number(&text, rows[i][k]);
-        }
+    for (int k = 0; k < length; k++) {
+        if (k > 0) wr_text_add(&text, ",");
+        wr_text_add_number(&text, row[k]);
     }
     wr_journal_stroke_add(session->journal, wr_text_get(&text), NULL);
     wr_text_fini(&text);

@@ -18,6 +18,7 @@
 #include <stdint.h>
 
 typedef struct WrBrushFiles WrBrushFiles;
+typedef struct WrMeshTexels WrMeshTexels;
 typedef struct WrTriangles WrTriangles;
 
 /* A brush and the files it borrows from. */
@@ -77,10 +78,12 @@ struct WrSession {
     WrTableCache table_cache;
     WrChoice choice; /* dials of the last picture under a tolerance */
 
-    WrStroke *stroke;    /* open stroke, or NULL; owned */
-    WrCall *stroke_call; /* the stroke's line so far; owned */
-    WrPainting painting; /* brush and target of the stroke */
-    WrStandIn stand_in;  /* replaces the mask that a command, or the open stroke, changes */
+    WrStroke *stroke;          /* open stroke, or NULL; owned */
+    WrCall *stroke_call;       /* the stroke's line so far; owned */
+    WrPainting painting;       /* brush and target of the stroke */
+    WrMeshTexels *mesh_texels; /* of the mesh last painted on; owned; NULL: none yet */
+    bool mesh_sharing_told;    /* the note about its shared texels was sent */
+    WrStandIn stand_in;        /* replaces the mask that a command, or the open stroke, changes */
 
     WrBrushFiles *brush_files;       /* cached presets and tips; created on first use; owned */
     WR_ARRAY(char *) kept;           /* SHA-256 of the files copied into the journal; owned */
@@ -145,10 +148,9 @@ WrScene *wr_session_scene_at_start(const WrSession *session);
 void wr_session_journal_before(WrSession *session, const WrCall *call);
 /* pushed: the command made a step, rather than moving through the history. */
 void wr_session_journal_after(WrSession *session, bool good, bool pushed);
-/* Journal a stroke; rows as printed, with their lengths. kept: false if it was cancelled or empty. */
+/* Journal a stroke; a sample's numbers as printed. kept: false if it was cancelled or empty. */
 void wr_session_journal_stroke_begin(WrSession *session, const WrCall *call);
-void wr_session_journal_stroke_add(WrSession *session, const double rows[][6], const int *lengths,
-                                   int count);
+void wr_session_journal_stroke_add(WrSession *session, const double *row, int length);
 void wr_session_journal_stroke_end(WrSession *session, bool kept);
 /* Record in the journal that the document was saved to its path. A recovery then has the file name, and still has the
    lines if the file is gone. */

@@ -14,6 +14,9 @@
 #include "field/field.h"
 #include "field/ramp.h"
 #include "field/select.h"
+#include "scene/scene.h"
+#include "surface/mesh_texels.h"
+#include "surface/triangles.h"
 #include "system/path.h"
 
 #include <math.h>
@@ -99,8 +102,8 @@ const WrArgSpec wr_args_brush[] = {
       .help = "settings that pen pressure controls; presets have their own curves" },
     { .name = "preset",
       .type = WR_ARG_PRESET,
-      .help = "a brush preset by its name (`wrinkle brushes` lists them), or a .myb file; what is "
-              "given besides takes the place of the preset's own" },
+      .help = "a brush preset by its name (`wrinkle brushes` lists them), or a .myb file; other "
+              "arguments replace the preset's own" },
     { .name = "preset_sha256",
       .type = WR_ARG_SHA256,
       .help = "of the preset's file: another content is then an error" },
@@ -554,6 +557,58 @@ static void prepare_erasing(WrSession *session, WrLayer *layer, WrPainting *pain
     }
 }
 
+/* ---- strokes on a mesh ---- */
+
+/* The texels of the active object's mesh for the table, made again for another mesh or table. */
+static bool take_texels(WrSession *session, const WrField *field, WrError *err)
+{
+    const WrScene *scene = session->state.document->scene;
+    const WrMeshTexelsTable table = { .width = wr_field_width(field),
+                                      .height = wr_field_height(field),
+                                      .periodic_u = wr_field_wrap_u(field) == WR_WRAP_PERIODIC,
+                                      .periodic_v = wr_field_wrap_v(field) == WR_WRAP_PERIODIC,
+                                      .ru = scene->replicate_u,
+                                      .rv = scene->replicate_v };
+    if (!scene->triangles || !wr_surfaces[scene->shape.kind]->held)
+        return wr_fail(err,
+                       "the object is a %s without triangles; paint in its table with `stroke`",
+                       wr_surfaces[scene->shape.kind]->name);
+    if (session->mesh_texels && wr_mesh_texels_fit(session->mesh_texels, scene->triangles, &table))
+        return true;
+    wr_mesh_texels_free(session->mesh_texels);
+    session->mesh_texels = wr_mesh_texels_new(scene->triangles, &table, err);
+    session->mesh_sharing_told = false;
+    return session->mesh_texels != NULL;
+}
+
+static bool take_mesh(WrSession *session, const WrCall *call, const WrBrush *brush,
+                      WrBrushGround *ground, WrError *err)
+{
+    const WrSymmetry *s = &brush->symmetry;
+    if (!call->command->on_mesh) return true;
+    if (s->mirror_u || s->mirror_v || s->radial > 1 || s->repeat_u > 1 || s->repeat_v > 1)
+        return wr_fail(err, "mirror=, radial= and repeat= are of the table; leave them out on a "
+                            "mesh");
+    if (!take_texels(session, ground->field, err)) return false;
+    ground->mesh = session->mesh_texels;
+    ground->clips = wr_call_given(call, "eye");
+    if (!ground->clips) return true;
+    const double *eye = wr_call_arg(call, "eye")->numbers;
+    ground->eye = (WrVec3){ eye[0], eye[1], eye[2] };
+    return true;
+}
+
+static void note_sharing(WrSession *session)
+{
+    const int64_t shared = wr_mesh_texels_shared(session->mesh_texels);
+    if (shared == 0 || session->mesh_sharing_told) return;
+    session->mesh_sharing_told = true;
+    wr_session_note(session,
+                    "%lld texels of the stroke belong to several places of the mesh, whose (u,v) "
+                    "overlap; they change at all of them",
+                    (long long)shared);
+}
+
 bool wr_painting_begin(WrSession *session, WrCall *call, WrPainting *painting, WrError *err)
 {
     WrPainting made = { 0 };
@@ -571,6 +626,10 @@ bool wr_painting_begin(WrSession *session, WrCall *call, WrPainting *painting, W
                                    .selection = session->state.document->selection,
                                    .below = made.below,
                                    .pool = session->options.pool };
+    if (!take_mesh(session, call, &made.held.brush, &made.ground, err)) {
+        wr_painting_end(session, &made);
+        return false;
+    }
     *painting = made;
     return true;
 }
@@ -606,7 +665,7 @@ static void clear_tile(int tx, int ty, void *ctx)
 
 void wr_painting_end(WrSession *session, WrPainting *painting)
 {
-    (void)session;
+    if (painting->ground.mesh) note_sharing(session);
     if (painting->cover_before) {
         Clearing clearing = { painting->ground.field, painting->cover_before,
                               painting->ground.mark };
@@ -658,7 +717,7 @@ bool wr_session_stroke_begin(WrSession *session, const char *head, WrError *err)
     if (!wr_painting_begin(session, call, &painting, err)) {
         wr_document_edit_end(session->state.document, &session->stand_in);
         wr_call_free(call);
-        wr_error_prefix(err, "stroke: ");
+        wr_error_prefix(err, "%s: ", call->command->name);
         return false;
     }
     wr_session_journal_stroke_begin(session, call);
@@ -683,10 +742,20 @@ static double clamp_finite(double value, double low, double high)
     return value > high ? high : value;
 }
 
-static WrSample round_sample(WrSample s)
+/* 10^n with n decimals for lengths of a mesh of that radius: seven digits and more. */
+static double decimals_for(double radius)
+{
+    double ten_to_n = 1.0;
+    while (ten_to_n < 1e22 && radius * ten_to_n < 1e7) ten_to_n *= 10.0;
+    return ten_to_n;
+}
+
+static WrSample round_sample(WrSample s, double decimals)
 {
     return (WrSample){ .u = round_decimals(s.u, 1e7),
                        .v = round_decimals(s.v, 1e7),
+                       .p = { round_decimals(s.p.x, decimals), round_decimals(s.p.y, decimals),
+                              round_decimals(s.p.z, decimals) },
                        .pressure = round_decimals(clamp_finite(s.pressure, 0, 1), 1e4),
                        .tilt_x = round_decimals(clamp_finite(s.tilt_x, -1, 1), 1e4),
                        .tilt_y = round_decimals(clamp_finite(s.tilt_y, -1, 1), 1e4),
@@ -696,19 +765,33 @@ static WrSample round_sample(WrSample s)
 bool wr_session_stroke_push(WrSession *session, const WrSample *samples, int count, WrError *err)
 {
     if (!session->stroke) return wr_fail(err, "no stroke is being drawn");
-    for (int i = 0; i < count; i++)
-        if (!(fabs(samples[i].u) <= 1e9) || !(fabs(samples[i].v) <= 1e9))
+    const bool mesh = session->stroke_call->command->on_mesh;
+    const double decimals =
+        mesh ? decimals_for(session->state.document->scene->triangles->radius) : 1.0;
+    for (int i = 0; i < count; i++) {
+        const WrVec3 p = samples[i].p;
+        if (mesh && !(fabs(p.x) + fabs(p.y) + fabs(p.z) <= WR_LENGTH_MAX))
+            return wr_fail(err, "sculpt: sample %d is at %g,%g,%g: must be within %g of 0", i + 1,
+                           p.x, p.y, p.z, WR_LENGTH_MAX);
+        if (!mesh && (!(fabs(samples[i].u) <= 1e9) || !(fabs(samples[i].v) <= 1e9)))
             return wr_fail(err, "stroke: sample %d is at %g,%g: must be within 1e9 of 0", i + 1,
                            samples[i].u, samples[i].v);
+    }
     if (count > WR_POINTS_MAX - wr_call_arg(session->stroke_call, "points")->rows)
         return wr_fail(err, "stroke: more than %d samples", WR_POINTS_MAX);
     for (int i = 0; i < count; i++) {
-        WrSample s = round_sample(samples[i]);
-        double row[1][6] = { { s.u, s.v, s.pressure, s.tilt_x, s.tilt_y, s.seconds } };
+        WrSample s = round_sample(samples[i], decimals);
+        const double rest[] = { s.pressure, s.tilt_x, s.tilt_y, s.seconds };
+        double row[7] = { mesh ? s.p.x : s.u, mesh ? s.p.y : s.v, s.p.z };
+        const int place = mesh ? 3 : 2;
+        memcpy(row + place, rest, sizeof rest);
         /* Trailing defaults are omitted: u,v; u,v,pressure; with tilts 5, with times 6 numbers. */
-        int n = s.seconds != 0 ? 6 : s.tilt_x != 0 || s.tilt_y != 0 ? 5 : s.pressure != 1 ? 3 : 2;
-        wr_session_journal_stroke_add(session, (const double(*)[6])row, &n, 1);
-        wr_call_add_row(session->stroke_call, "points", row[0], n);
+        int n = place + (s.seconds != 0                   ? 4
+                         : s.tilt_x != 0 || s.tilt_y != 0 ? 3
+                         : s.pressure != 1                ? 1
+                                                          : 0);
+        wr_session_journal_stroke_add(session, row, n);
+        wr_call_add_row(session->stroke_call, "points", row, n);
         wr_stroke_push(session->stroke, s);
     }
     return true;

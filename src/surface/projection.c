@@ -42,23 +42,16 @@ static WrVec3 face_cross(const WrTriangles *mesh, int32_t triangle)
 
 /* ---- edges ---- */
 
-/* Half-edge 3 i + k leads from corner k of triangle i to the next. Edges are compared by positions. */
-typedef struct Edges {
-    int32_t *place; /* [corner_count] corner -> position */
-    int32_t *edge;  /* [3 triangle_count] half-edge -> edge */
-    int32_t places, count;
-} Edges;
-
-static void free_edges(Edges *edges)
+void wr_mesh_edges_fini(WrMeshEdges *edges)
 {
     wr_free(edges->place);
     wr_free(edges->edge);
 }
 
-static bool find_edges(const WrTriangles *mesh, Edges *out, WrError *err)
+bool wr_mesh_edges_find(const WrTriangles *mesh, WrMeshEdges *out, WrError *err)
 {
     const size_t corners = (size_t)mesh->corner_count, halves = 3 * (size_t)mesh->triangle_count;
-    *out = (Edges){ 0 };
+    *out = (WrMeshEdges){ 0 };
     out->place = wr_try_alloc(corners, sizeof *out->place, "a mesh's edges", err);
     out->edge = wr_try_alloc(halves, sizeof *out->edge, "a mesh's edges", err);
     float(*p)[3] = wr_try_alloc(corners, sizeof *p, "a mesh's edges", err);
@@ -74,12 +67,12 @@ static bool find_edges(const WrTriangles *mesh, Edges *out, WrError *err)
     good = good && wr_weld(ends, sizeof *ends, (int32_t)halves, out->edge, &out->count, err);
     wr_free(p);
     wr_free(ends);
-    if (!good) free_edges(out);
+    if (!good) wr_mesh_edges_fini(out);
     return good;
 }
 
 /* The corner numbers (0..2) at the ends of a half-edge, the one of the lower position first. */
-static void ends_of(const WrTriangles *mesh, const Edges *edges, int32_t half, int end[2])
+static void ends_of(const WrTriangles *mesh, const WrMeshEdges *edges, int32_t half, int end[2])
 {
     const int32_t *c = mesh->triangles[half / 3].corner;
     const int a = half % 3, b = (half + 1) % 3;
@@ -111,8 +104,8 @@ static int32_t *new_sets(int32_t count, WrError *err)
 /* ---- crease normals ---- */
 
 /* Joins the corners of faces that meet at a smooth edge; group: [3 triangle_count]. */
-static void join_smooth(const WrTriangles *mesh, const Edges *edges, double cosine, int32_t *last,
-                        int32_t *group)
+static void join_smooth(const WrTriangles *mesh, const WrMeshEdges *edges, double cosine,
+                        int32_t *last, int32_t *group)
 {
     const WrVec3 none = { 0, 0, 0 };
     for (int32_t h = 0; h < 3 * mesh->triangle_count; h++) {
@@ -133,9 +126,9 @@ static void join_smooth(const WrTriangles *mesh, const Edges *edges, double cosi
 static WrVec3 *crease_normals(const WrTriangles *mesh, double crease_deg, WrError *err)
 {
     const int32_t count = 3 * mesh->triangle_count;
-    Edges edges;
+    WrMeshEdges edges;
     double sine, cosine;
-    if (!find_edges(mesh, &edges, err)) return NULL;
+    if (!wr_mesh_edges_find(mesh, &edges, err)) return NULL;
     wr_sincos_turns(crease_deg / 360, &sine, &cosine);
     int32_t *last = wr_try_alloc((size_t)edges.count, sizeof *last, "a mesh's edges", err);
     int32_t *group = last ? new_sets(count, err) : NULL;
@@ -153,7 +146,7 @@ static WrVec3 *crease_normals(const WrTriangles *mesh, double crease_deg, WrErro
         sum[i] = v3_unit(sum[root_of(group, i)], v3_unit(face_cross(mesh, i / 3), sum[i]));
     wr_free(group);
     wr_free(last);
-    free_edges(&edges);
+    wr_mesh_edges_fini(&edges);
     return sum;
 }
 
@@ -479,7 +472,8 @@ static bool differ(const WrTriangleCorner *const a[2], const WrTriangleCorner *c
 }
 
 /* Marks the seams: first[e] is 1 + the first half-edge of edge e, negative for a seam. */
-static int32_t mark_seams(const WrTriangles *mesh, const Edges *edges, int32_t *first, int32_t *run)
+static int32_t mark_seams(const WrTriangles *mesh, const WrMeshEdges *edges, int32_t *first,
+                          int32_t *run)
 {
     int32_t count = 0;
     for (int32_t h = 0; h < 3 * mesh->triangle_count; h++) {
@@ -511,7 +505,7 @@ static double edge_length(const WrTriangles *mesh, int32_t half, WrVec3 *mid)
     return v3_len(v3_sub(a, b));
 }
 
-static void find_longest(const WrTriangles *mesh, const Edges *edges, const int32_t *first,
+static void find_longest(const WrTriangles *mesh, const WrMeshEdges *edges, const int32_t *first,
                          int32_t *run, double *length, WrTextureSeams *out)
 {
     double longest = 0;
@@ -535,9 +529,9 @@ static void find_longest(const WrTriangles *mesh, const Edges *edges, const int3
 
 bool wr_triangles_seams(const WrTriangles *mesh, WrTextureSeams *out, WrError *err)
 {
-    Edges edges;
+    WrMeshEdges edges;
     *out = (WrTextureSeams){ 0 };
-    if (!find_edges(mesh, &edges, err)) return false;
+    if (!wr_mesh_edges_find(mesh, &edges, err)) return false;
     int32_t *first = wr_try_alloc((size_t)edges.count, sizeof *first, "a mesh's seams", err);
     int32_t *run = first ? new_sets(edges.places, err) : NULL;
     double *length =
@@ -549,6 +543,6 @@ bool wr_triangles_seams(const WrTriangles *mesh, WrTextureSeams *out, WrError *e
     wr_free(length);
     wr_free(run);
     wr_free(first);
-    free_edges(&edges);
+    wr_mesh_edges_fini(&edges);
     return length != NULL;
 }

@@ -417,23 +417,34 @@ static double box_distance2(const Node *node, const double p[3])
     return sum;
 }
 
-double wr_ray_tree_distance(const WrRayTree *tree, WrVec3 p, double most)
+/* Of triangles at one distance the smallest index is taken, whatever the tree is like. */
+double wr_ray_tree_nearest(const WrRayTree *tree, WrVec3 p, double most, int32_t *triangle)
 {
     const double at[3] = { p.x, p.y, p.z };
     double least = most * most;
-    int32_t stack[STACK];
+    int32_t stack[STACK], best = -1;
     int top = 0;
     stack[top++] = 0;
     while (top > 0) {
         const Node *node = &tree->nodes[stack[--top]];
         if (box_distance2(node, at) > least) continue;
-        for (int32_t i = node->first; i < node->first + node->count; i++)
-            least = fmin(least, facet_distance2(&tree->facets[i], p));
+        for (int32_t i = node->first; i < node->first + node->count; i++) {
+            const double d2 = facet_distance2(&tree->facets[i], p);
+            const int32_t index = tree->facets[i].index;
+            if (d2 > least || (d2 == least && best >= 0 && index > best)) continue;
+            least = d2, best = index;
+        }
         if (node->count > 0) continue;
         const int near = box_distance2(&tree->nodes[node->first + 1], at) <
                          box_distance2(&tree->nodes[node->first], at);
         stack[top++] = node->first + 1 - near;
         stack[top++] = node->first + near;
     }
+    if (triangle) *triangle = best;
     return sqrt(least);
+}
+
+double wr_ray_tree_distance(const WrRayTree *tree, WrVec3 p, double most)
+{
+    return wr_ray_tree_nearest(tree, p, most, NULL);
 }

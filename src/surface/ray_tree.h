@@ -32,5 +32,7 @@ bool wr_ray_tree_closest(const WrRayTree *tree, WrVec3 o, WrVec3 d, double most,
                          WrRayHit *hit);
 /* True if any triangle is hit for 0 < t < most, from either side. */
 bool wr_ray_tree_any(const WrRayTree *tree, WrVec3 o, WrVec3 d, double most);
+/* Distance of p from the nearest triangle, and its index; `most` and -1 if that is less. triangle: or NULL. */
+double wr_ray_tree_nearest(const WrRayTree *tree, WrVec3 p, double most, int32_t *triangle);
 /* Distance of p from the nearest triangle; `most` if that is less. */
 double wr_ray_tree_distance(const WrRayTree *tree, WrVec3 p, double most);

@@ -1,4 +1,4 @@
-/* triangles_internal.h - internals of the construction of meshes.
+/* triangles_internal.h - internals of meshes: their construction and edges.
    Private to this module. */
 #pragma once
 #include "surface/triangles.h"
@@ -27,6 +27,16 @@ typedef struct WrTrianglesBuild {
     double centre[3], radius;
     WrTrianglesReport report;
 } WrTrianglesBuild;
+
+/* Half-edge 3 i + k leads from corner k of triangle i to the next. Edges are compared by positions. */
+typedef struct WrMeshEdges {
+    int32_t *place; /* [corner_count] corner -> position; owned */
+    int32_t *edge;  /* [3 triangle_count] half-edge -> edge; owned */
+    int32_t places, count;
+} WrMeshEdges;
+
+bool wr_mesh_edges_find(const WrTriangles *mesh, WrMeshEdges *out, WrError *err);
+void wr_mesh_edges_fini(WrMeshEdges *edges);
 
 /* The angle between two vectors, radians, 0 .. pi; 0 where one is 0. */
 static inline double wr_angle(WrVec3 a, WrVec3 b)

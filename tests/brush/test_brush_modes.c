@@ -349,8 +349,12 @@ static void hc74_wild_samples_leave_finite_heights_in_every_mode(void **state)
             WrBrush brush = brush_by(way, brush_of((WrBrushMode)mode, 9), tip);
             WrStroke *stroke = wr_stroke_new(field, &brush);
             for (int k = 0; k < 36; k++)
-                wr_stroke_add(stroke, (WrSample){ k % 5 ? 0.02 * k : wild[k / 6], 0.3 + 0.01 * k,
-                                                  wild[k % 6], wild[k / 6], 1, wild[k / 6] });
+                wr_stroke_add(stroke, (WrSample){ .u = k % 5 ? 0.02 * k : wild[k / 6],
+                                                  .v = 0.3 + 0.01 * k,
+                                                  .pressure = wild[k % 6],
+                                                  .tilt_x = wild[k / 6],
+                                                  .tilt_y = 1,
+                                                  .seconds = wild[k / 6] });
             wr_stroke_finish(stroke);
             float low, high;
             wr_field_range(field, &low, &high);

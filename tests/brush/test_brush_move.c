@@ -208,7 +208,9 @@ static void a_smudging_preset_drags_heights_and_makes_no_new_extremes(void **sta
         brush.strength = 0.2;
         WrStroke *stroke = wr_stroke_new(field, &brush);
         for (int k = 0; k < 60; k++)
-            wr_stroke_add(stroke, (WrSample){ 0.3 + 0.006 * k, 0.5, 1, 0, 0, 0.01 * k });
+            wr_stroke_add(
+                stroke,
+                (WrSample){ .u = 0.3 + 0.006 * k, .v = 0.5, .pressure = 1, .seconds = 0.01 * k });
         wr_stroke_finish(stroke);
         float low, high;
         wr_field_range(field, &low, &high);

@@ -76,8 +76,10 @@ static const char *const instant[] = {
     "redo",         "cell",
     "sheet",        "export normal-baked",
     "gltf",         "filter",
-    "bake",       /* test_bake_command.c */
-    "bake-tiles", /* test_udim_command.c */
+    "bake",                    /* test_bake_command.c */
+    "bake-tiles",              /* test_udim_command.c */
+    "bake",                    /* test_bake_command.c */
+    "sculpt",       "project", /* test_sculpt.c */
 };
 
 /* Arguments that generators need besides their defaults; generators that read files are tested elsewhere. */

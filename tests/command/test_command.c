@@ -619,7 +619,7 @@ static void rows_agree_with_what_the_session_does_for_them(void **state)
     }
     assert_int_equal(back, 1);
     assert_int_equal(forward, 1);
-    assert_int_equal(streams, 1);
+    assert_int_equal(streams, 2);
     assert_int_equal(views, 1);
 }
 

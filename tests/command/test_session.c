@@ -380,14 +380,22 @@ static void history_keeps_the_canonical_lines_in_order(void **state)
 
 #define SAMPLES 300
 
+static WrSample sample_of(double u, double v, double pressure, double tilt_x, double tilt_y,
+                          double seconds)
+{
+    return (WrSample){
+        .u = u, .v = v, .pressure = pressure, .tilt_x = tilt_x, .tilt_y = tilt_y, .seconds = seconds
+    };
+}
+
 static void random_samples(TestRandom *random, WrSample *samples, int count)
 {
     double u = 0.5, v = 0.5;
     for (int i = 0; i < count; i++) {
         u += (test_random(random) - 0.5) * 0.1; /* sometimes leaves the table */
         v += (test_random(random) - 0.4) * 0.1;
-        samples[i] =
-            (WrSample){ u, v, test_random(random) * 1.2, test_random(random) - 0.5, 0, i / 97.0 };
+        const double pressure = test_random(random) * 1.2;
+        samples[i] = sample_of(u, v, pressure, test_random(random) - 0.5, 0, i / 97.0);
     }
 }
 
@@ -424,7 +432,7 @@ static void an_open_stroke_shows_at_once_and_keeps_others_out(void **state)
     (void)state;
     WrError err;
     WrSession *s = session_of((const char *[]){ "table 64x64", NULL });
-    WrSample sample = { 0.5, 0.5, 1, 0, 0, 0 };
+    WrSample sample = sample_of(0.5, 0.5, 1, 0, 0, 0);
     assert_true(wr_session_stroke_begin(s, "stroke radius=5 strength=2", &err));
     assert_true(wr_session_stroke_add(s, &sample, 1, &err));
     assert_true(wr_field_get(field_of(s), 32, 31) == 2);
@@ -465,10 +473,10 @@ static void hc74_a_wild_pen_is_clamped_or_refused(void **state)
     WrError err;
     float low, high;
     WrSession *s = session_of((const char *[]){ "table 64x64", NULL });
-    WrSample wild[] = { { 0.1, 0.1, NAN, NAN, INFINITY, NAN },
-                        { 0.3, 0.1, -4, -INFINITY, 0, -1 },
-                        { 0.5, 0.9, INFINITY, 2, 2, INFINITY } };
-    WrSample lost = { NAN, 0.5, 1, 0, 0, 0 }, far = { 0.5, 1e300, 1, 0, 0, 0 };
+    WrSample wild[] = { sample_of(0.1, 0.1, NAN, NAN, INFINITY, NAN),
+                        sample_of(0.3, 0.1, -4, -INFINITY, 0, -1),
+                        sample_of(0.5, 0.9, INFINITY, 2, 2, INFINITY) };
+    WrSample lost = sample_of(NAN, 0.5, 1, 0, 0, 0), far = sample_of(0.5, 1e300, 1, 0, 0, 0);
     assert_true(wr_session_stroke_begin(s, "stroke radius=4 strength=1", &err));
     assert_true(wr_session_stroke_add(s, wild, 3, &err));
     assert_false(wr_session_stroke_add(s, &lost, 1, &err));
@@ -488,7 +496,7 @@ static void a_snapshot_of_an_open_stroke_stays_as_it_was(void **state)
     (void)state;
     WrError err;
     WrSession *s = session_of((const char *[]){ "table 64x64", NULL });
-    WrSample samples[] = { { 0.25, 0.5, 1, 0, 0, 0 }, { 0.75, 0.5, 1, 0, 0, 0 } };
+    WrSample samples[] = { sample_of(0.25, 0.5, 1, 0, 0, 0), sample_of(0.75, 0.5, 1, 0, 0, 0) };
     assert_true(wr_session_stroke_begin(s, "stroke radius=5 strength=1", &err));
     assert_true(wr_session_stroke_add(s, samples, 1, &err));
     WrDocument *shot = wr_document_share(wr_session_document(s));

@@ -66,5 +66,5 @@ if(NOT WR_SANITIZE)
                   base
             LIBRARIES -lmypaint -ljson-c -lfreetype -lharfbuzz -lfribidi -lfontconfig -lpng16 -lz -lsleef -lzip -lexpat -ldl -lpthread)
     wr_fuzz(myb brush/engine.c brush/preset.c
-            ROOMS brush image field base LIBRARIES -lmypaint -ljson-c -lfreetype -lharfbuzz -lfribidi -lfontconfig -lpng16 -lz -lsleef -lfreetype -ldl -lpthread)
+            ROOMS brush surface image field base LIBRARIES -lmypaint -ljson-c -lfreetype -lharfbuzz -lfribidi -lfontconfig -lpng16 -lz -lsleef -lfreetype -ldl -lpthread)
 endif()

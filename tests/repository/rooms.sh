@@ -16,7 +16,7 @@ BEGIN {
     may["surface"] = base "field "
     may["shade"] = base "field noise image "
     may["generate"] = base "field surface noise image "
-    may["brush"] = base "field image "
+    may["brush"] = base "field surface image "
     may["scene"] = base "field surface shade image "
     may["render"] = base "field noise image surface shade scene "
     may["accuracy"] = base "field image surface shade scene render "

@@ -6,6 +6,7 @@
 #include "field/field.h"
 #include "render/frame/frame.h"
 #include "scene/scene.h"
+#include "surface/triangles.h"
 #include "base/vec.h"
 
 #include "ui/patch/preview/patch_pick.h"
@@ -213,6 +214,53 @@ static void slopes_say_how_uv_move_with_the_pixel(void **state)
     wr_scene_free(scene);
 }
 
+/* The unit square as a surface by a formula and as two triangles, whose picking is by rays. */
+static void a_mesh_is_picked_as_the_same_surface_by_a_formula(void **state)
+{
+    (void)state;
+    for (int orthographic = 0; orthographic < 2; orthographic++) {
+        WrScene *scenes[2];
+        WrPatchPick *pick[2];
+        for (int k = 0; k < 2; k++) {
+            scenes[k] = scene_of(k ? WR_SURFACE_mesh : WR_SURFACE_plane, orthographic);
+            if (k) wr_scene_set_triangles(scenes[k], wr_triangles_square(), NULL, NULL);
+            scenes[k]->posed = true;
+            scenes[k]->rotate_deg = (WrVec3){ -20, 12, 31 };
+            scenes[k]->size = 1.7;
+            pick[k] = pick_of(scenes[k]);
+            assert_true(wr_patch_pick_is_mesh(pick[k]) == (k == 1));
+        }
+        int hits = 0;
+        for (int k = 0; k < 500; k++) {
+            const double x = random01() * W, y = random01() * H;
+            WrPatchSpot a, b;
+            double px, py;
+            const bool hit = wr_patch_pick_at(pick[0], x, y, &a);
+            assert_true(wr_patch_pick_at(pick[1], x, y, &b) == hit);
+            if (!hit) continue;
+            hits++;
+            assert_near(a.u, b.u, 1e-7);
+            assert_near(a.v, b.v, 1e-7);
+            assert_near(a.depth, b.depth, 1e-7);
+            assert_near(b.p.x, b.u, 1e-7); /* P = (u, v, 0) */
+            assert_near(b.p.y, b.v, 1e-7);
+            assert_near(b.along.x, 1, 1e-9);
+            assert_true(wr_patch_pick_project_point(pick[1], b.p, &px, &py));
+            assert_true(hypot(px - x, py - y) < 1e-6);
+            const WrVec3 to = v3_sub(wr_patch_pick_eye(pick[1]), b.p);
+            assert_true(v3_dot(to, b.n) > 0);
+            WrPatchSpot beside; /* one pixel on, in the plane across the view at least as far */
+            if (!wr_patch_pick_at(pick[1], x + 1e-3, y, &beside)) continue;
+            assert_true(v3_len(v3_sub(beside.p, b.p)) > 0.99e-3 * b.pixel);
+        }
+        assert_true(hits > 100);
+        for (int k = 0; k < 2; k++) {
+            wr_patch_pick_free(pick[k]);
+            wr_scene_free(scenes[k]);
+        }
+    }
+}
+
 static void a_camera_that_cannot_look_is_an_error(void **state)
 {
     (void)state;
@@ -257,6 +305,7 @@ int main(void)
         cmocka_unit_test(beside_the_object_there_is_nothing),
         cmocka_unit_test(the_back_of_a_sphere_is_hidden_and_its_front_is_not),
         cmocka_unit_test(slopes_say_how_uv_move_with_the_pixel),
+        cmocka_unit_test(a_mesh_is_picked_as_the_same_surface_by_a_formula),
         cmocka_unit_test(a_camera_that_cannot_look_is_an_error),
         cmocka_unit_test(hc82_an_eye_within_the_object_does_no_harm),
     };

@@ -20,6 +20,7 @@
 #include "ui/panels/generate/generate_state.h"
 #include "ui/panels/panel_tablet.h"
 #include "ui/patch/patch.h"
+#include "ui/patch/patch_paint.h"
 #include "ui/canvas/tools/preset_browser.h"
 #include "ui/canvas/tools/stroke_input.h"
 #include "ui/canvas/tools/tool.h"
@@ -336,6 +337,7 @@ const WrAction wr_actions[] = {
         wr_is_keys_sculpt),
     ROW(straight_line, "Straight lines", wr_act_straight_line, NULL, wr_is_straight_line),
     ROW(paint_patch, "Paint on the patch", wr_act_paint_patch, NULL, wr_is_painting_patch),
+    ROW(paint_round, "Paint faces turned away too", wr_act_paint_round, NULL, wr_is_painting_round),
     ROW(pressure_up, "Press the mouse harder", wr_act_pressure_up, NULL, NULL),
     ROW(pressure_down, "Press the mouse less", wr_act_pressure_down, NULL, NULL),
     ROW(pressure_speed, "Mouse presses by its speed", wr_act_pressure_speed, NULL,
@@ -362,6 +364,8 @@ const WrAction wr_actions[] = {
     EDIT(filter_edit, "Edit filter...", wr_act_filter_edit, wr_is_filter, NULL),
     LAYER(layer_merge, "Merge layer down", wr_act_layer_merge, wr_can_merge_down, NULL),
     EDIT(layer_flatten, "Flatten all layers", wr_act_layer_flatten, wr_can_flatten, NULL),
+    EDIT(layer_project, "Project layer onto the mesh", wr_patch_project_layer, wr_app_can_bake,
+         NULL),
     LAYER(layer_clear, "Clear layer", wr_act_layer_clear, wr_has_heights, NULL),
     ROW(layer_show, "Layer is shown", wr_act_layer_show, NULL, wr_is_layer_shown),
     ROW(layer_lock, "Layer is locked", wr_act_layer_lock, NULL, wr_is_layer_locked),

@@ -6,6 +6,7 @@
 
 void wr_act_straight_line(WrApp *app);
 void wr_act_paint_patch(WrApp *app);
+void wr_act_paint_round(WrApp *app);
 void wr_act_pressure_up(WrApp *app);
 void wr_act_pressure_down(WrApp *app);
 void wr_act_pressure_speed(WrApp *app);
@@ -16,6 +17,7 @@ void wr_act_steady_catch_up(WrApp *app);
 
 bool wr_is_straight_line(const WrApp *app);
 bool wr_is_painting_patch(const WrApp *app);
+bool wr_is_painting_round(const WrApp *app);
 bool wr_is_pressure_speed(const WrApp *app);
 bool wr_is_steady_off(const WrApp *app);
 bool wr_is_steady_smooth(const WrApp *app);

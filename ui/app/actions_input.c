@@ -32,6 +32,16 @@ bool wr_is_painting_patch(const WrApp *app)
     return app->paint->on;
 }
 
+void wr_act_paint_round(WrApp *app)
+{
+    app->paint->round = !app->paint->round;
+}
+
+bool wr_is_painting_round(const WrApp *app)
+{
+    return app->paint->round;
+}
+
 static void press(WrApp *app, double by)
 {
     WrFakePressure *fake = &app->settings->fake;

@@ -31,8 +31,9 @@ const WrObjectPicks *wr_patch_picks(WrApp *app)
     const bool same = p->picks && p->scene == scene && p->turn_deg == turn &&
                       p->room.w == room->w && p->room.h == room->h;
     if (same || room->w <= 0) return room->w > 0 ? p->picks : NULL;
+    WrObjectPicks *made = wr_object_picks_new(scene, turn, room->w, room->h, p->picks, NULL);
     wr_object_picks_forget(app);
-    p->picks = wr_object_picks_new(scene, turn, room->w, room->h, NULL);
+    p->picks = made;
     p->scene = wr_scene_share(scene);
     p->turn_deg = turn;
     p->room = *room;

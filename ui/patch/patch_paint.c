@@ -1,13 +1,17 @@
 /* Painting on the patch: the pen moves over the object, and the table below is painted by the same strokes as on the
    canvas. The path between two events is divided into steps of a few pixels, each located exactly (patch_pick.h). If
    the next step is elsewhere in the table than the surface derivatives predict, the path has crossed a silhouette, a
-   cube edge, a border, or a seam of a replication that does not close. The stroke ends there and a new one begins. */
+   cube edge, a border, or a seam of a replication that does not close. The stroke ends there and a new one begins.
+   On a mesh the points in space are the stroke's samples (`sculpt`), so it continues across seams of (u,v) and ends
+   only at silhouettes. */
 #include "ui/app/state/action_list.h"
 #include "ui/patch/patch_paint.h"
 #include "ui/app/state/app_state.h"
+#include "ui/app/state/background_command.h"
 #include "ui/app/state/pointer_state.h"
 #include "ui/app/state/keys.h"
 #include "ui/app/state/layout.h"
+#include "ui/app/state/line.h"
 #include "ui/app/state/session_view.h"
 #include "ui/app/state/settings.h"
 #include "ui/toolkit/gui.h"
@@ -20,13 +24,17 @@
 #include "ui/canvas/tools/stroke_input.h"
 #include "ui/canvas/tools/tool_brush.h"
 
+#include "base/text.h"
 #include "brush/brush.h"
+#include "document/document.h"
 #include "field/field.h"
 #include "scene/scene.h"
 #include "surface/surface.h"
+#include "surface/triangles.h"
 
 #include <SDL.h>
 #include <math.h>
+#include <string.h>
 
 #define STEP_PIXELS 4.0
 #define STEPS_MAX 256
@@ -70,20 +78,43 @@ bool wr_patch_paint_uv(WrApp *app, const WrPointer *at, double *u, double *v)
 
 static void lift(WrApp *app)
 {
-    app->paint->inside = false;
+    WrPatchPaint *p = app->paint;
+    const WrPatchPick *pick = p->inside ? picker(app) : NULL;
+    if (pick && wr_patch_pick_is_mesh(pick)) {
+        p->end = p->last.p;
+        p->end_key = wr_app_scene(app)->triangles->key;
+    }
+    p->inside = false;
     wr_strokes_end(app);
+}
+
+/* Digits after the point of lengths on the active mesh: a 10 000th of its radius or less. */
+static int mesh_digits(const WrApp *app)
+{
+    return (int)fmin(9.0, fmax(0.0, ceil(4.0 - log10(wr_app_scene(app)->triangles->radius))));
+}
+
+/* Faces that turn away are not painted, unless that was chosen; where the back of an open sheet is seen, all are. */
+static bool begin_on_mesh(WrApp *app, WrBrush brush, const WrPointer *at, const WrPatchSpot *spot)
+{
+    const WrVec3 eye = wr_line_round_vec(wr_patch_pick_eye(picker(app)), mesh_digits(app));
+    brush.symmetry = wr_brush_default().symmetry; /* of the table */
+    return wr_strokes_begin_on_mesh(app, &brush, at, spot->back || app->paint->round ? NULL : &eye);
 }
 
 static void put_down(WrApp *app, const WrPointer *at, const WrPatchSpot *spot)
 {
     const WrScene *scene = wr_app_scene(app);
+    const bool mesh = wr_patch_pick_is_mesh(picker(app));
     if (!app->brush->drawing) {
-        WrBrush brush = wr_strokes_brush(app, at);
-        if (!wr_strokes_begin(app, &brush, at)) return;
+        const WrBrush brush = wr_strokes_brush(app, at);
+        if (!(mesh ? begin_on_mesh(app, brush, at, spot) : wr_strokes_begin(app, &brush, at)))
+            return;
     }
     app->paint->inside = true;
     app->paint->last = *spot;
-    wr_strokes_sample(app, at, scene->replicate_u * spot->u, scene->replicate_v * spot->v);
+    if (mesh) wr_strokes_sample_on_mesh(app, at, spot->p);
+    else wr_strokes_sample(app, at, scene->replicate_u * spot->u, scene->replicate_v * spot->v);
 }
 
 /* Distance in texels between two table positions, the shortest way round on periodic axes. */
@@ -94,10 +125,27 @@ static double texels(double from, double to, int size, WrWrap wrap)
     return d * size;
 }
 
+/* The step predicted by the more slanted of the two triangles, at least 1 in 10. */
+static bool leads_on_mesh(WrApp *app, const WrPatchSpot *spot)
+{
+    const WrPatchSpot *last = &app->paint->last;
+    const double pixels = hypot(spot->x - last->x, spot->y - last->y);
+    const WrVec3 eye = wr_patch_pick_eye(picker(app));
+    double least = 1.0;
+    for (int i = 0; i < 2; i++) {
+        const WrPatchSpot *at = i ? spot : last;
+        least = fmin(least, v3_dot(at->n, v3_unit(v3_sub(eye, at->p), at->n)));
+    }
+    return spot->back == last->back &&
+           v3_len(v3_sub(spot->p, last->p)) <=
+               JUMP_FACTOR * pixels * fmax(spot->pixel, last->pixel) / fmax(0.1, least);
+}
+
 /* True if the surface is continuous from the last point to this one. */
 static bool leads(WrApp *app, const WrPatchSpot *spot)
 {
     const WrPatchSpot *last = &app->paint->last;
+    if (wr_patch_pick_is_mesh(picker(app))) return leads_on_mesh(app, spot);
     const WrScene *scene = wr_app_scene(app);
     const WrField *field = wr_app_field(app);
     double ru = scene->replicate_u, rv = scene->replicate_v, most = 0.0;
@@ -148,6 +196,22 @@ static void draw_to(WrApp *app, const WrPointer *at)
     p->at = *at;
 }
 
+/* The pixel of the last stroke's end on the mesh, if that is seen. */
+static bool line_start(WrApp *app, WrPointer *from)
+{
+    const WrPatchPaint *p = app->paint;
+    const WrScene *scene = wr_app_scene(app);
+    const WrPatchPick *pick = picker(app);
+    WrPatchSpot spot;
+    if (!pick || !wr_patch_pick_is_mesh(pick) || scene->triangles->key != p->end_key ||
+        !wr_patch_pick_project_point(pick, p->end, &from->x, &from->y))
+        return false;
+    from->x += app->layout->patch.x;
+    from->y += app->layout->patch.y;
+    return spot_under(app, from->x, from->y, &spot) &&
+           v3_len(v3_sub(spot.p, p->end)) < 4.0 * spot.pixel;
+}
+
 void wr_patch_paint_press(WrApp *app, const WrPointer *at)
 {
     double u, v;
@@ -161,10 +225,14 @@ void wr_patch_paint_press(WrApp *app, const WrPointer *at)
         app->hand->grab = WR_GRAB_PICK;
         return;
     }
+    WrPointer from = *at;
+    const bool joins =
+        wr_keys_hold(app->keys, WR_ACT(hold_size), at->mods) && line_start(app, &from);
     app->paint->inside = false;
-    app->paint->at = *at;
+    app->paint->at = from;
     wr_brush_steady_begin(app, at);
-    step_to(app, at);
+    step_to(app, &from);
+    if (joins) draw_to(app, at); /* straight as seen, laid onto the surface */
 }
 
 void wr_patch_paint_drag(WrApp *app, const WrPointer *at)
@@ -176,6 +244,35 @@ void wr_patch_paint_release(WrApp *app, const WrPointer *at)
 {
     wr_brush_steady_end(app, at, draw_to);
     lift(app);
+}
+
+/* ---- projection of a layer ---- */
+
+/* The slide stands at the depth of the object's middle, as large as the patch allows. */
+void wr_patch_project_layer(WrApp *app)
+{
+    WrPlacement at;
+    const WrField *field = wr_app_field(app);
+    const SDL_Rect *room = &app->layout->patch;
+    const WrPatchPick *pick = picker(app);
+    if (!pick || !wr_patch_pick_is_mesh(pick) || !wr_patch_place(app, &at)) return;
+    const double depth = v3_dot(v3_sub(at.position, at.eye), at.forward);
+    const double half = at.orthographic ? at.half_height : at.half_height * depth;
+    const double table = (double)wr_field_width(field) / wr_field_height(field);
+    const double width = 2.0 * half * fmin(table, (double)room->w / room->h) / at.size;
+    const WrVec3 middle = wr_world_to_object(&at, v3_mad(at.eye, at.forward, depth));
+    const int digits = mesh_digits(app);
+    WrText line = { 0 };
+    wr_text_addf(&line, "project %d", wr_app_document(app)->active + 1);
+    wr_line_vec(&line, "eye", wr_line_round_vec(wr_patch_pick_eye(pick), digits));
+    wr_line_vec(&line, "at", wr_line_round_vec(middle, digits));
+    wr_line_vec(&line, "up", wr_line_round_vec(wr_place_turn_back(&at, at.up), 4));
+    wr_line_number(&line, "width", wr_line_round(width, digits));
+    if (at.orthographic) wr_text_add(&line, " parallel=on");
+    wr_line_number(&line, "strength", fabs(wr_brush_now(app).strength));
+    wr_text_add(&line, " into=new");
+    wr_app_run_line(app, wr_text_get(&line));
+    wr_text_fini(&line);
 }
 
 /* ---- brush outline on the object ---- */
@@ -220,6 +317,41 @@ static void make_ring(const WrApp *app, const WrPatchPick *pick, const WrBrushMa
         ring->x[i] = room->x + spot.x;
         ring->y[i] = room->y + spot.y;
         ring->seen[i] = seen ? hidden ? 1 : 2 : 0;
+    }
+}
+
+static double texel_side(WrApp *app)
+{
+    WrPatchPaint *p = app->paint;
+    const WrScene *scene = wr_app_scene(app);
+    const WrField *field = wr_app_field(app);
+    WrMeshTexelsTable table;
+    memset(&table, 0, sizeof table); /* compared by its bytes */
+    table.width = wr_field_width(field), table.height = wr_field_height(field);
+    table.ru = scene->replicate_u, table.rv = scene->replicate_v;
+    if (p->side_key != scene->triangles->key || memcmp(&p->side_table, &table, sizeof table) != 0) {
+        p->side = wr_mesh_texel_side_of(scene->triangles, &table);
+        p->side_key = scene->triangles->key;
+        p->side_table = table;
+    }
+    return p->side;
+}
+
+/* The outline lies in the plane of the triangle. */
+static void make_mesh_ring(WrApp *app, const WrPatchPick *pick, const WrBrushMark *mark,
+                           const WrPatchSpot *middle, Ring *ring)
+{
+    const SDL_Rect *room = &app->layout->patch;
+    const double side = texel_side(app);
+    const WrVec3 up = v3_cross(middle->n, middle->along);
+    double points[WR_BRUSH_MARK_POINTS][2];
+    ring->count = wr_brush_mark_points(mark, points) + 1;
+    for (int i = 0; i < ring->count; i++) {
+        const double *at = points[i % (ring->count - 1)];
+        const WrVec3 p = v3_mad(v3_mad(middle->p, middle->along, side * at[0]), up, -side * at[1]);
+        ring->seen[i] = wr_patch_pick_project_point(pick, p, &ring->x[i], &ring->y[i]) ? 2 : 0;
+        ring->x[i] += room->x;
+        ring->y[i] += room->y;
     }
 }
 
@@ -285,7 +417,8 @@ static void overlay_clipped(WrApp *app)
     WrBrushMark mark = wr_brush_mark(app);
     Ring ring;
     if (!spot_under(app, x, y, &spot)) return;
-    make_ring(app, pick, &mark, &spot, &ring);
+    if (wr_patch_pick_is_mesh(pick)) make_mesh_ring(app, pick, &mark, &spot, &ring);
+    else make_ring(app, pick, &mark, &spot, &ring);
     draw_ring(&ring, mark.erases);
 }
 

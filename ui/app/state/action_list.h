@@ -72,6 +72,7 @@
     X(keys_sculpt, "")                                                                             \
     X(straight_line, "V")                                                                          \
     X(paint_patch, "A")                                                                            \
+    X(paint_round, "")                                                                             \
     X(pressure_up, "Alt+Shift+S")                                                                  \
     X(pressure_down, "Alt+Shift+A")                                                                \
     X(pressure_speed, "")                                                                          \
@@ -95,6 +96,7 @@
     X(filter_edit, "")                                                                             \
     X(layer_merge, "Ctrl+Alt+E")                                                                   \
     X(layer_flatten, "Ctrl+Shift+F")                                                               \
+    X(layer_project, "")                                                                           \
     X(layer_clear, "Delete")                                                                       \
     X(layer_show, "")                                                                              \
     X(layer_lock, "")                                                                              \

@@ -121,6 +121,7 @@ static const struct {
     { "image", "Heights of a picture" },
     { "shape", "Shape" },
     { "flood", "Fill connected texels" },
+    { "project", "Projection onto the mesh" },
     { "ramp", "Ramp" },
     { "rim", "Edge" },
     { "open", "Opened" },
@@ -202,6 +203,7 @@ void wr_step_label(const char *line, WrText *out)
     const WrOpInfo *op = kind && strcmp(verb, "adjust") == 0 ? wr_op_find(kind) : NULL;
     if (!generator && w.count > 0) generator = wr_generator_find(verb, verb);
     if (strcmp(verb, "stroke") == 0) brush_words(&w, "Stroke", out);
+    else if (strcmp(verb, "sculpt") == 0) brush_words(&w, "Stroke on the mesh", out);
     else if (strcmp(verb, "dab") == 0) brush_words(&w, "Dab", out);
     else if (kind && strcmp(verb, "text") == 0)
         wr_text_addf(out, "%s: %.40s", wr_words("Text"), kind);

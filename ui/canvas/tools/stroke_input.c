@@ -7,6 +7,7 @@
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/pointer_state.h"
 #include "ui/app/state/keys.h"
+#include "ui/app/state/line.h"
 #include "ui/app/state/messages.h"
 #include "ui/app/state/registry.h"
 #include "ui/app/state/session_view.h"
@@ -32,13 +33,13 @@
 
 #define WORK_SECONDS 0.004 /* drawing time per frame */
 
-/* Append the stroke command without points for a brush, with the files in *app->brush_files. */
-static void strokes_head(const WrApp *app, const WrBrush *brush, WrText *line)
+/* Append a stroke command without points for a brush, with the files in *app->brush_files. */
+static void strokes_head(const WrApp *app, const char *verb, const WrBrush *brush, WrText *line)
 {
     const WrBrushSources *files = app->brush_files;
     WrBrushNames names = { files->preset, files->set, files->tip };
     WrBrush base = brush->preset ? wr_preset_brush(brush->preset) : wr_brush_default();
-    wr_text_add(line, "stroke");
+    wr_text_add(line, verb);
     wr_brush_line(line, brush, &base, &names);
 }
 
@@ -158,13 +159,10 @@ static void draw_late(WrApp *app, const char *text, bool dropped)
     drop_job(hand, i);
 }
 
-bool wr_strokes_begin(WrApp *app, const WrBrush *brush, const WrPointer *at)
+static bool begin(WrApp *app, const char *head, const WrBrush *brush, const WrPointer *at)
 {
     WrBrushState *hand = app->brush;
-    WrText head = { 0 };
-    strokes_head(app, brush, &head);
-    wr_array_push(&hand->jobs, ((WrStrokeJob){ .head = wr_strdup(wr_text_get(&head)) }));
-    wr_text_fini(&head);
+    wr_array_push(&hand->jobs, ((WrStrokeJob){ .head = wr_strdup(head) }));
     hand->now = *brush;
     hand->began = at->seconds;
     hand->drawing = true;
@@ -179,14 +177,35 @@ bool wr_strokes_begin(WrApp *app, const WrBrush *brush, const WrPointer *at)
     return true;
 }
 
-void wr_strokes_sample(WrApp *app, const WrPointer *at, double u, double v)
+bool wr_strokes_begin(WrApp *app, const WrBrush *brush, const WrPointer *at)
+{
+    WrText head = { 0 };
+    strokes_head(app, "stroke", brush, &head);
+    const bool good = begin(app, wr_text_get(&head), brush, at);
+    wr_text_fini(&head);
+    return good;
+}
+
+bool wr_strokes_begin_on_mesh(WrApp *app, const WrBrush *brush, const WrPointer *at,
+                              const WrVec3 *eye)
+{
+    WrText head = { 0 };
+    strokes_head(app, "sculpt", brush, &head);
+    if (eye) wr_line_vec(&head, "eye", *eye);
+    const bool good = begin(app, wr_text_get(&head), brush, at);
+    wr_text_fini(&head);
+    return good;
+}
+
+/* place: only with its position. */
+static void add_sample(WrApp *app, const WrPointer *at, WrSample place)
 {
     WrBrushState *hand = app->brush;
-    if (!hand->drawing || hand->jobs.count == 0) return;
     const WrBrush *brush = &hand->now;
     bool presses = brush->preset || brush->pressure != WR_PRESSURE_NONE;
     /* Only presets use tilt and time; without them lines stay short. */
-    WrSample sample = { .u = u, .v = v, .pressure = presses ? at->pressure : 1.0 };
+    WrSample sample = place;
+    sample.pressure = presses ? at->pressure : 1.0;
     if (brush->preset) {
         sample.tilt_x = at->tilt_x;
         sample.tilt_y = at->tilt_y;
@@ -195,10 +214,24 @@ void wr_strokes_sample(WrApp *app, const WrPointer *at, double u, double v)
     WrStrokeJob *job = &hand->jobs.data[hand->jobs.count - 1];
     wr_array_push(&job->samples, sample);
     hand->pressure = sample.pressure;
+    wr_app_redraw(app);
+}
+
+void wr_strokes_sample(WrApp *app, const WrPointer *at, double u, double v)
+{
+    WrBrushState *hand = app->brush;
+    if (!hand->drawing || hand->jobs.count == 0) return;
+    add_sample(app, at, (WrSample){ .u = u, .v = v });
     hand->last_u = u;
     hand->last_v = v;
     hand->have_last = true;
-    wr_app_redraw(app);
+}
+
+void wr_strokes_sample_on_mesh(WrApp *app, const WrPointer *at, WrVec3 p)
+{
+    if (!app->brush->drawing || app->brush->jobs.count == 0) return;
+    add_sample(app, at, (WrSample){ .p = p });
+    app->brush->have_last = false; /* no straight line of the table leads from here */
 }
 
 void wr_strokes_end(WrApp *app)

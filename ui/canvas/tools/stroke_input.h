@@ -27,7 +27,6 @@ typedef struct WrBrushState {
     bool opened;                /* the first is open */
     bool unfinished;            /* the session has undrawn samples of it */
     bool drawing;               /* the pointer is pressed and extends the last stroke */
-    bool on_patch;              /* on the patch */
     WrBrush now;                /* brush of the present stroke, with eraser and seed */
     double began;               /* time of its first sample in seconds */
     double pressure;            /* newest pressure */
@@ -49,8 +48,13 @@ typedef struct WrBrushState {
    numbers. */
 WrBrush wr_strokes_brush(WrApp *app, const WrPointer *at);
 bool wr_strokes_begin(WrApp *app, const WrBrush *brush, const WrPointer *at);
+/* Begin a stroke on the active object's mesh, painting what faces the eye; NULL: all faces. */
+bool wr_strokes_begin_on_mesh(WrApp *app, const WrBrush *brush, const WrPointer *at,
+                              const WrVec3 *eye);
 /* Add a sample at (u, v) of the table, unwrapped, with the pointer's pressure, tilt and time. */
 void wr_strokes_sample(WrApp *app, const WrPointer *at, double u, double v);
+/* Add one at a point of the mesh. */
+void wr_strokes_sample_on_mesh(WrApp *app, const WrPointer *at, WrVec3 p);
 void wr_strokes_end(WrApp *app);         /* no more samples; the rest is drawn in later frames */
 void wr_strokes_work(WrApp *app);        /* once before each frame */
 bool wr_strokes_waits(const WrApp *app); /* there are undrawn samples */
