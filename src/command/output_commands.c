@@ -115,7 +115,8 @@ static bool run_export(WrSession *session, WrCall *call, WrError *err)
             return false;
     const char *path = wr_call_arg(call, "FILE")->text;
     WrExportReport report;
-    if (!make_composite(session, err)) return false;
+    if (!wr_session_check_export(session, kind, path, err) || !make_composite(session, err))
+        return false;
     if (!wr_export(kind, session->state.document, &options, session->options.pool, path, &report,
                    err))
         return false;

@@ -180,7 +180,7 @@ void wr_scene_set_triangles(WrScene *scene, WrTriangles *triangles, const char *
                             const char *sha256);
 /* Derives the scene's triangles, of kind mesh, anew from those of its file. Errors: wr_triangles_project. */
 bool wr_scene_project(WrScene *scene, const WrProjection *projection, WrError *err);
-/* True if the projection or the unit differ from those of a file of this name alone. */
+/* True if the projection, the unit or the origin differ from those of a file of this name alone. */
 bool wr_scene_projected(const WrScene *scene);
 /* Converts the meshes of the scene's objects to one picture of one channel, the storage format of
  * documents; and restores that of an object. The caller owns both; *out is NULL if there is none.

@@ -47,6 +47,7 @@ typedef struct WrProjection {
     bool placed;
     double
         at[3]; /* if placed: its origin, in the mesh's coordinates; else the centre of the mesh */
+    double origin[3]; /* that was subtracted from the file's points; not used by the projection */
     double
         crease_deg; /* 0..180; below 180 normals are computed from the faces: edges of a larger angle are
                           sharp, others smooth. 180: the mesh's own normals */

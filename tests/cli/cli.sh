@@ -571,7 +571,28 @@ expect 0 check cube.exr
 has out 'mesh 1   the table runs on across all edges but 12; the longest run of them is 360 long, at '
 "$program" check --json cube.exr >out 2>err
 is 'a mesh as JSON' "$(jq -c '[.meshes[0].object, .meshes[0].seams, .meshes[0].longest]' out)" '[1,12,360]'
-rm -rf good.png cut.png 'a "ramp".png' cube.obj cube.wrinkle cube.exr state
+# of a script, of a mesh's file with a hole, of a script without a mesh
+sed -i '$d' cube.obj
+expect 0 check cube.wrinkle
+has out 'mesh 1   10 triangles, open; open edges: 4, the first at '
+expect 0 check cube.obj
+has out 'mesh 1   10 triangles, open; open edges: 4, the first at '
+"$program" check --json cube.obj >out 2>err
+is "a mesh's file as JSON" "$(jq -c '[.file, .meshes[0].open.count, .meshes[0].doubled, .problems]' out)" \
+    '["cube.obj",4,{"count":0,"at":null},[]]'
+echo 'table 8x8' >plain.wrinkle
+expect 1 check plain.wrinkle
+has err 'plain.wrinkle: is a script without a mesh'
+# the kind by the file's ending, and arguments in help
+expect 2 export cube.wrinkle -o cube.stl
+has err 'needs --as KIND, here --as stl'
+echo 'export cup.stl' >plain.wrinkle
+expect 1 run plain.wrinkle
+has err 'did you mean export stl cup.stl?'
+expect 0 help projection
+has out 'surface mesh' 'projection='
+expect 1 help projektion
+rm -rf good.png cut.png 'a "ramp".png' cube.obj cube.wrinkle plain.wrinkle cube.exr state
 empty 'a check'
 
 if [[ $failures != 0 ]]; then
