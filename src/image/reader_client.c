@@ -52,8 +52,7 @@ static bool find_reader(WrText *path, WrError *err)
     }
     if (!found)
         wr_fail(err,
-                "pictures, meshes and fonts are read by the program " READER_FILE
-                ", which is at none of: %s",
+                "pictures, meshes and fonts need the program " READER_FILE ", looked for at: %s",
                 wr_text_get(&looked));
     wr_text_fini(&looked);
     return found;

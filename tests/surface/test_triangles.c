@@ -162,7 +162,7 @@ static void faults_are_counted(void **state)
         memcpy(corners, cube_corners, sizeof cube_corners);
         source.triangle_count = 12;
         const int32_t a = face[0], b = face[1], c = face[2];
-        const int32_t turned[3] = { b, a, c }, again[3] = { c, a, b }, fin[3] = { a, b, 8 };
+        const int32_t turned[3] = { b, a, c }, again[3] = { c, b, a }, fin[3] = { a, b, 8 };
         const int32_t flat[2][3] = { { a, b, b }, { c, c, c } };
         if (k == 1) memcpy(corners[3], corners[11], sizeof *corners), source.triangle_count--;
         if (k == 2) memcpy(corners[3], turned, sizeof turned);
