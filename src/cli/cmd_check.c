@@ -1,7 +1,10 @@
 #include "cli/cli.h"
 
+#include "base/enum_rows.h"
 #include "base/error.h"
+#include "base/file.h"
 #include "base/text.h"
+#include "command/command_line.h"
 #include "command/session.h"
 #include "document/document.h"
 #include "document/document_file.h"
@@ -9,7 +12,9 @@
 #include "field/seam_check.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
+#include "surface/mesh_faults.h"
 #include "surface/projection.h"
+#include "surface/triangles.h"
 #include "surface/uv_tiles.h"
 
 #include <math.h>
@@ -49,24 +54,44 @@ static void add_tiles(const WrScene *object, bool json, WrText *text)
     wr_uv_tiles_fini(&tiles);
 }
 
-/* One line, or JSON object, for each object with a mesh: edges at which the table does not run on. Every model
-   with an atlas has some, so they are no problem of the file. */
+static void add_faults_json(const WrMeshFaults *faults, WrText *text)
+{
+    for (int i = 0; i < WR_MESH_FAULTS; i++) {
+        const double at[3] = { faults->at[i].x, faults->at[i].y, faults->at[i].z };
+        wr_text_addf(text, ",\"%s\":{\"count\":%d,\"at\":", wr_mesh_fault_rows[i].name,
+                     (int)faults->count[i]);
+        for (int k = 0; k < 3 && faults->placed[i]; k++) {
+            wr_text_add(text, k ? "," : "[");
+            wr_text_add_json_number(text, at[k]);
+        }
+        wr_text_add(text, faults->placed[i] ? "]}" : "null}");
+    }
+}
+
+/* Two lines, or a JSON object, for each object with a mesh: edges at which the table does not run on, and faults of the
+   mesh. Every model with an atlas has such edges, and many have open ones, so they are no problem of the file. */
 static bool add_mesh(const WrScene *object, int number, bool json, WrText *text, WrError *err)
 {
     WrTextureSeams seams;
-    if (!wr_triangles_seams(object->triangles, &seams, err)) return false;
+    WrMeshFaults faults;
+    const WrTriangles *file = object->mesh_source ? object->mesh_source : object->triangles;
+    if (!wr_triangles_seams(object->triangles, &seams, err) ||
+        !wr_mesh_faults_find(file, object->projection.origin, &faults, err))
+        return false;
+    const double *origin = object->projection.origin;
+    const double at[3] = { seams.at.x + origin[0], seams.at.y + origin[1], seams.at.z + origin[2] };
     if (json) {
         wr_text_addf(text,
                      "%s{\"object\":%d,\"seams\":%d,\"longest\":", text->length > 0 ? "," : "",
                      number, (int)seams.edges);
         wr_text_add_json_number(text, seams.length);
-        const double at[3] = { seams.at.x, seams.at.y, seams.at.z };
         for (int k = 0; k < 3; k++) {
             wr_text_add(text, k ? "," : ",\"at\":[");
             wr_text_add_json_number(text, at[k]);
         }
         wr_text_add(text, "]");
         add_tiles(object, true, text);
+        add_faults_json(&faults, text);
         wr_text_add(text, "}");
         return true;
     }
@@ -74,17 +99,46 @@ static bool add_mesh(const WrScene *object, int number, bool json, WrText *text,
     if (seams.edges == 0) wr_text_add(text, "all edges\n");
     else
         wr_text_addf(text,
-                     "all edges but %d; the longest run of them is %.4g long, at %.4g,%.4g,%.4g\n",
-                     (int)seams.edges, seams.length, seams.at.x, seams.at.y, seams.at.z);
+                     "all edges but %d; the longest run of them is %.4g long, at %.7g,%.7g,%.7g\n",
+                     (int)seams.edges, seams.length, at[0], at[1], at[2]);
     add_tiles(object, false, text);
+    wr_text_addf(text, "  mesh %-3d %d triangles, %s", number, (int)file->triangle_count,
+                 file->closed ? "closed" : "open");
+    wr_mesh_faults_text(&faults, text);
+    wr_text_add(text, "\n");
     return true;
+}
+
+/* A script and the file of a mesh have no picture, but meshes. */
+typedef enum CheckSource { CHECK_PICTURE, CHECK_SCRIPT, CHECK_MESH } CheckSource;
+
+static CheckSource source_of(const char *path)
+{
+    static const char *const meshes[] = { "obj", "stl", "ply", "3mf", "gltf", "glb" };
+    char ending[16];
+    wr_path_ending(path, ending);
+    for (int i = 0; i < WR_LENGTH(meshes); i++)
+        if (strcmp(ending, meshes[i]) == 0) return CHECK_MESH;
+    return strcmp(ending, "wrinkle") == 0 ? CHECK_SCRIPT : CHECK_PICTURE;
+}
+
+static bool read_mesh(WrSession *session, const char *path, WrError *err)
+{
+    WrText line = { 0 };
+    wr_text_add(&line, "surface mesh file=");
+    wr_text_add_word(&line, path);
+    const bool good = wr_session_run(session, wr_text_get(&line), err);
+    wr_text_fini(&line);
+    return good;
 }
 
 static bool add_meshes(const WrCli *cli, const char *path, WrText *text, WrError *err)
 {
-    if (!wr_document_recognise(path)) return true;
+    const CheckSource source = source_of(path);
+    if (source == CHECK_PICTURE && !wr_document_recognise(path)) return true;
     WrSession *session = wr_cli_session(cli, false, err);
-    bool good = session && wr_session_open(session, path, err);
+    bool good = session && (source == CHECK_MESH ? read_mesh(session, path, err)
+                                                 : wr_session_open(session, path, err));
     const WrScene *scene = good ? wr_session_document(session)->scene : NULL;
     for (int i = 0; good && i < wr_scene_object_count(scene); i++) {
         const WrScene *object = wr_scene_object(scene, i);
@@ -92,6 +146,10 @@ static bool add_meshes(const WrCli *cli, const char *path, WrText *text, WrError
             good = add_mesh(object, i + 1, cli->json, text, err);
     }
     wr_session_free(session);
+    if (good && source == CHECK_SCRIPT && text->length == 0)
+        return wr_fail(
+            err, "%s: is a script without a mesh: check a picture or a document that it writes",
+            path);
     return good;
 }
 
@@ -275,6 +333,17 @@ static void add_object(WrText *text, const char *path, const WrCheck *check, con
     wr_text_add(text, "]}\n");
 }
 
+static void add_meshes_alone(WrText *text, const char *path, const char *meshes, bool json)
+{
+    if (!json) {
+        wr_text_addf(text, "%s:\n%s", path, meshes);
+        return;
+    }
+    wr_text_add(text, "{\"file\":");
+    wr_text_add_json_string(text, path);
+    wr_text_addf(text, ",\"meshes\":[%s],\"problems\":[]}\n", meshes);
+}
+
 /* ---- the subcommand ---- */
 
 static bool find_kind(const WrCli *cli, int *kind, WrError *err)
@@ -299,10 +368,13 @@ static int check_one(const WrCli *cli, const char *path, int kind, WrCoding codi
     WrCheck check;
     WrError err = { "" };
     WrText text = { 0 }, meshes = { 0 };
-    const bool read =
-        wr_check_picture(path, kind, coding, &check, &err) && add_meshes(cli, path, &meshes, &err);
+    const bool picture = source_of(path) == CHECK_PICTURE;
+    const bool read = (!picture || wr_check_picture(path, kind, coding, &check, &err)) &&
+                      add_meshes(cli, path, &meshes, &err);
     int status = read ? WR_EXIT_DONE : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
-    if (read && cli->json) add_object(&text, path, &check, wr_text_get(&meshes));
+    if (!picture) check.problems = 0;
+    if (read && !picture) add_meshes_alone(&text, path, wr_text_get(&meshes), cli->json);
+    else if (read && cli->json) add_object(&text, path, &check, wr_text_get(&meshes));
     else if (read) add_lines(&text, path, &check, wr_text_get(&meshes));
     else if (cli->json && status != WR_EXIT_INTERRUPTED) {
         wr_text_add(&text, "{\"file\":");

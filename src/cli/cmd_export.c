@@ -110,8 +110,9 @@ static bool export_file(const WrCli *cli, const WrExportKind *kind, Last *last, 
     if (!session) return false;
     const bool same = is_last(session, last);
     char *out = wr_session_output_name(session, cli->out, err);
-    bool good = out && (same || wr_export(kind, wr_session_document(session), &options, cli->pool,
-                                          out, &written, err));
+    bool good = out && (same || (wr_session_check_export(session, kind, out, err) &&
+                                 wr_export(kind, wr_session_document(session), &options, cli->pool,
+                                           out, &written, err)));
     if (good && !same) {
         wr_text_addf(report, "%s: ", out);
         wr_export_report_text(&written, report);
@@ -291,10 +292,13 @@ int wr_cli_export(const WrCli *cli)
     WrError err;
     Last last = { 0 };
     if (!cli->kind || !cli->out || (cli->watch && !cli->file)) {
-        wr_fail(&err, "export: needs %s",
+        char ending[16] = "";
+        const bool body = cli->out && wr_export_find(wr_path_ending(cli->out, ending));
+        wr_fail(&err, "export: needs %s%s%s",
                 !cli->kind  ? "--as KIND"
                 : !cli->out ? "-o OUT"
-                            : "FILE to watch");
+                            : "FILE to watch",
+                !cli->kind && body ? ", here --as " : "", !cli->kind && body ? ending : "");
         return wr_cli_fail(cli, WR_EXIT_USAGE, &err);
     }
     return cli->watch ? watch_file(cli) : export_once(cli, &last);

@@ -38,6 +38,8 @@ const WrSubcommand wr_subcommands[] = {
       "numbers;\n"
       "of normals which way green runs, whether their lengths are 1, and whether a height has such "
       "slopes.\n"
+      "Of meshes, also those of documents and scripts: open, crowded and turned edges, doubled "
+      "faces, edges of the table.\n"
       "The status is 1 where a problem is found or a file cannot be read; all files are looked at. "
       "--json: one\n"
       "object a line.",

@@ -17,13 +17,16 @@
 #include "scene/normal_map.h"
 #include "scene/scene.h"
 #include "surface/bake.h"
+#include "surface/projection.h"
 #include "surface/triangles.h"
 #include "surface/uv_tiles.h"
 
 #include <math.h>
 #include <string.h>
 
-#define READ 0.3 /* of the progress, for the file */
+#define READ 0.3          /* of the progress, for the file */
+#define OVERLAP_CELLS 512 /* of the overlap test along u and v */
+#define OVERLAP_NOTED 0.005
 
 static const char *const matches[] = { "all", "name", NULL };
 
@@ -166,6 +169,8 @@ static bool put_picture(WrSession *session, const char *path, const WrBakeOption
 static void note_bake(WrSession *session, const char *path, const WrBakeOptions *options, int udim,
                       const WrBakeReport *report)
 {
+    const WrUvOverlap overlap =
+        wr_triangles_overlap(session->state.document->scene->triangles, OVERLAP_CELLS);
     WrText text = { 0 };
     wr_message_addf(&text, "%s: %s baked into %dx%d, cage %.4g", path, wr_bakes[options->kind].name,
                     options->width, options->height, report->cage);
@@ -181,6 +186,11 @@ static void note_bake(WrSession *session, const char *path, const WrBakeOptions 
     else wr_message_addf(&text, ", none missed");
     if (report->frameless)
         wr_message_addf(&text, "; %lld have no tangent frame", (long long)report->frameless);
+    if (overlap.share > OVERLAP_NOTED)
+        wr_message_addf(&text,
+                        "; %.1f%% of the object's texture coordinates are met twice, the first at "
+                        "u, v of %.3g,%.3g: one of the places is baked there",
+                        100 * overlap.share, overlap.at[0], overlap.at[1]);
     if (report->alone)
         wr_message_addf(&text, "; %d parts of the object have none of their name in the file",
                         report->alone);
@@ -214,14 +224,21 @@ static void note_mixed_tiles(WrSession *session, const WrTriangles *low)
 
 static WrTriangles *read_high(WrSession *session, WrCall *call, const char *path, WrError *err)
 {
-    bool moved = false;
+    WrMeshFacts facts;
     WrTriangles *high = wr_session_check_sha256(call, path, err)
-                            ? wr_session_read_mesh(session, path, NULL, &moved, err)
+                            ? wr_session_read_mesh(session, path, &facts, err)
                             : NULL;
-    if (!high || !moved) return high;
-    wr_fail(err, "%s: lies far from its file's origin; move both meshes near it", path);
+    if (!high) return NULL;
+    if (facts.origin[0] != 0 || facts.origin[1] != 0 || facts.origin[2] != 0) {
+        wr_fail(err, "%s: lies far from its file's origin; move both meshes near it", path);
+        wr_triangles_free(high);
+        return NULL;
+    }
+    WrProjection normals = wr_projection_default;
+    normals.crease_deg = wr_call_number(call, "crease");
+    WrTriangles *creased = wr_triangles_project(high, &normals, err);
     wr_triangles_free(high);
-    return NULL;
+    return creased;
 }
 
 static WrBakeOptions options_of(const WrSession *session, const WrCall *call)
@@ -499,6 +516,14 @@ static const WrArgSpec args_bake[] = {
       .fallback = NUMBERS(8),
       .unit = "texels",
       .help = "how far it is continued about the islands of (u,v), and into holes" },
+    { .name = "crease",
+      .type = WR_ARG_NUMBER,
+      .high = WR_CREASE_NONE,
+      .fallback = &wr_projection_default.crease_deg,
+      .unit = "degrees",
+      .help = "of the detailed mesh: below 180 its normals are made anew: faces that meet at more "
+              "than this have "
+              "separate ones, others smooth ones; 180: those of the file" },
     { .name = "match",
       .type = WR_ARG_CHOICE,
       .words = matches,

@@ -320,6 +320,22 @@ static void add_argument_of_forms(WrText *text, const WrCommand *command, const 
     wr_text_fini(&rows);
 }
 
+/* Print one argument of all commands; false if none has it. */
+static bool add_argument_of_commands(WrText *text, const char *name)
+{
+    const size_t before = text->length;
+    for (int i = 0; i < wr_command_count; i++) {
+        const WrCommand *command = wr_commands[i];
+        if (command->form) {
+            add_argument_of_forms(text, command, name);
+        } else if (has_argument(command, -1, name)) {
+            wr_text_addf(text, "  %s\n", command->name);
+            add_named_arguments(text, command, -1, name);
+        }
+    }
+    return text->length > before;
+}
+
 bool wr_help_command_part(const WrCommand *command, const char *part, WrText *text, WrError *err)
 {
     WrForm row;
@@ -340,6 +356,7 @@ bool wr_help_command_part(const WrCommand *command, const char *part, WrText *te
 bool wr_help_command(const char *name, WrText *text, WrError *err)
 {
     const WrCommand *command = wr_command_find(name);
+    if (!command && add_argument_of_commands(text, name)) return true;
     if (!command) {
         wr_fail_verb(name, err);
         wr_error_prefix(err, "help: ");

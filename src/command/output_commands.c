@@ -115,7 +115,8 @@ static bool run_export(WrSession *session, WrCall *call, WrError *err)
             return false;
     char *path = wr_session_output_name(session, wr_call_arg(call, "FILE")->text, err);
     WrExportReport report;
-    const bool good = path && make_composite(session, err) &&
+    const bool good = path && wr_session_check_export(session, kind, path, err) &&
+                      make_composite(session, err) &&
                       wr_export(kind, session->state.document, &options, session->options.pool,
                                 path, &report, err);
     WrText text = { 0 };

@@ -1,6 +1,7 @@
 /* Parser of command lines: values are read by their argument's row, then checked; a failure names the argument and
    the remedy. */
 #include "base/error.h"
+#include "base/file.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "command/command_line.h"
@@ -116,6 +117,16 @@ static bool add_forms_of_argument(const WrCommand *command, const char *name, si
     return found > 0;
 }
 
+/* "export stl cup.stl": the form that is called as this file name ends. */
+static bool add_form_of_file(const WrCommand *command, const char *word, WrText *text)
+{
+    WrForm form;
+    char ending[16];
+    if (wr_command_form(command, wr_path_ending(word, ending), &form) < 0) return false;
+    wr_text_addf(text, "%s %s %s", command->name, form.name, word);
+    return true;
+}
+
 /* "light directional to=-1,1,2": the first form with an argument that accepts this value. */
 static bool add_form_for_value(const WrCommand *command, const char *value, WrText *text);
 
@@ -155,8 +166,8 @@ static bool fail_form(const WrCommand *command, const char *word, const char *re
     else if (!word)
         wr_fail(err, "%s: %s is missing: one of %s", command->name, command->form_word,
                 wr_text_get(&names));
-    else if (wr_suggest(word, form_name, &list, &near) || add_commands_of_form(word, &near) ||
-             add_form_for_value(command, word, &near))
+    else if (add_form_of_file(command, word, &near) || wr_suggest(word, form_name, &list, &near) ||
+             add_commands_of_form(word, &near) || add_form_for_value(command, word, &near))
         wr_fail(err, "%s: unknown %s \"%s\": did you mean %s? It must be one of %s", command->name,
                 command->form_word, excerpt, wr_text_get(&near), wr_text_get(&names));
     else

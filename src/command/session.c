@@ -12,6 +12,7 @@
 #include "document/document.h"
 #include "document/edit.h"
 #include "document/history.h"
+#include "export/export.h"
 #include "field/field.h"
 #include "render/frame/frame.h"
 #include "scene/objects.h"
@@ -41,6 +42,18 @@ static void session_forget_inputs(WrSession *session)
 {
     for (int i = 0; i < session->inputs.count; i++) wr_free((char *)session->inputs.data[i].path);
     wr_array_free(&session->inputs);
+}
+
+bool wr_session_check_export(const WrSession *session, const WrExportKind *kind, const char *path,
+                             WrError *err)
+{
+    const WrFileIdentity target = wr_file_identity(path);
+    for (int i = 0; i < session->inputs.count && kind->ending && target.there; i++) {
+        const WrFileIdentity file = wr_file_identity(session->inputs.data[i].path);
+        if (file.there && file.device == target.device && file.inode == target.inode)
+            return wr_fail(err, "%s: is a file that was read here: choose another name", path);
+    }
+    return true;
 }
 
 int wr_session_input_count(const WrSession *session)

@@ -17,6 +17,7 @@
 
 typedef struct WrDocument WrDocument;
 typedef struct WrError WrError;
+typedef struct WrExportKind WrExportKind;
 typedef struct WrFrame WrFrame;
 typedef struct WrPool WrPool;
 typedef struct WrSample WrSample;
@@ -136,6 +137,9 @@ typedef struct WrSessionInput {
     const char *path;
     WrFileIdentity stamp;
 } WrSessionInput;
+/* An error if an export of this kind would replace such a file by a solid or a model. */
+bool wr_session_check_export(const WrSession *session, const WrExportKind *kind, const char *path,
+                             WrError *err);
 int wr_session_input_count(const WrSession *session);
 WrSessionInput wr_session_input(const WrSession *session, int index);
 

@@ -20,6 +20,7 @@
 #include "scene/param.h"
 #include "scene/scene.h"
 #include "surface/data.h"
+#include "surface/mesh_faults.h"
 #include "surface/patches.h"
 #include "surface/projection.h"
 #include "surface/terrain.h"
@@ -266,7 +267,7 @@ static void note_origin(WrSession *session, const char *path, const WrMesh *mesh
         if (k > 0) wr_text_add(&text, ",");
         wr_text_add_number(&text, mesh->origin[k]);
     }
-    wr_text_add(&text, " was subtracted from its points");
+    wr_text_add(&text, " was subtracted from its points, and solids are exported there again");
     if (mesh->single)
         wr_text_addf(&text,
                      "; this format is read in single precision, so that relief below %.2g "
@@ -276,8 +277,19 @@ static void note_origin(WrSession *session, const char *path, const WrMesh *mesh
     wr_text_fini(&text);
 }
 
-WrTriangles *wr_session_read_mesh(WrSession *session, const char *path, WrLengthUnit *unit,
-                                  bool *moved, WrError *err)
+/* Note points whose (u,v) are no numbers. */
+static void note_bad_uv(WrSession *session, const char *path, const WrMesh *mesh)
+{
+    const double *at = mesh->bad_uv_at;
+    if (mesh->bad_uv > 0)
+        wr_session_note(session,
+                        "%s: %d points have texture coordinates that are no numbers, or beyond "
+                        "1e6, the first at %.6g,%.6g,%.6g: their triangles have none",
+                        path, (int)mesh->bad_uv, at[0], at[1], at[2]);
+}
+
+WrTriangles *wr_session_read_mesh(WrSession *session, const char *path, WrMeshFacts *facts,
+                                  WrError *err)
 {
     WrMesh mesh;
     if (!wr_mesh_read_attributes(path, &mesh, err)) return NULL;
@@ -291,10 +303,10 @@ WrTriangles *wr_session_read_mesh(WrSession *session, const char *path, WrLength
                                        .parts = parts,
                                        .part_count = mesh.part_count };
     WrTriangles *made = wr_triangles_new(&source, err);
-    if (unit) *unit = mesh.unit;
-    if (made) note_origin(session, path, &mesh);
+    facts->unit = mesh.unit;
+    memcpy(facts->origin, mesh.origin, sizeof facts->origin);
+    if (made) note_origin(session, path, &mesh), note_bad_uv(session, path, &mesh);
     else wr_error_prefix(err, "%s: ", path);
-    if (moved) *moved = is_moved(&mesh);
     wr_free(parts);
     wr_mesh_fini(&mesh);
     return made;
@@ -320,21 +332,21 @@ static void add_parts(WrText *text, const WrTriangles *mesh)
 /* udim: the tile that shows the table; 0: all. */
 static void add_map(WrText *text, const WrTriangles *mesh, int udim)
 {
-    int32_t outside;
     if (!mesh->mapped) {
         wr_text_add(text, "; no texture coordinates: the table has no slope on it");
         return;
     }
     WrTriangles *tile = udim ? wr_triangles_of_tile(mesh, udim, NULL) : NULL;
-    const double share = wr_triangles_overlap(tile ? tile : mesh, OVERLAP_CELLS, &outside);
-    if (udim) outside = 0;
+    WrUvOverlap overlap = wr_triangles_overlap(tile ? tile : mesh, OVERLAP_CELLS);
+    if (udim) overlap.outside = 0;
     wr_triangles_free(tile);
-    if (share > OVERLAP_NOTED)
+    if (overlap.share > OVERLAP_NOTED)
         wr_text_addf(text,
-                     "; %.1f%% of its texture coordinates are met twice: paint there shows "
-                     "in several places",
-                     100 * share);
-    add_count(text, outside, "triangles reach beyond u, v of 0..1, where the table repeats");
+                     "; %.1f%% of its texture coordinates are met twice, the first at u, v of "
+                     "%.3g,%.3g: paint there shows in several places",
+                     100 * overlap.share, overlap.at[0], overlap.at[1]);
+    add_count(text, overlap.outside,
+              "triangles reach beyond u, v of 0..1, where the table repeats");
     add_count(text, mesh->report.no_map, "triangles without texture coordinates: no slope there");
     add_count(text, mesh->report.collinear,
               "with u, v along a line: no tangent frame, slopes are exact");
@@ -344,16 +356,20 @@ static void add_map(WrText *text, const WrTriangles *mesh, int udim)
 }
 
 /* own: its own texture coordinates are used, of the tile `udim`, or of all, 0. */
-static void note_mesh(WrSession *session, const char *path, const WrTriangles *mesh, bool own,
-                      int udim)
+static void note_mesh(WrSession *session, const char *path, const WrTriangles *mesh,
+                      const WrMeshFacts *facts, bool own, int udim)
 {
     WrText text = { 0 };
     const WrTrianglesReport *report = &mesh->report;
+    WrMeshFaults faults;
+    const bool found = wr_mesh_faults_find(mesh, facts->origin, &faults, NULL);
     wr_text_addf(&text, "%s: %d triangles", path, (int)mesh->triangle_count);
     add_parts(&text, mesh);
-    wr_text_add(&text, mesh->closed ? ", closed" : ", open");
+    wr_text_add(&text, mesh->closed                                     ? ", closed"
+                       : found && faults.count[WR_MESH_FAULT_OPEN] == 0 ? ", no closed body"
+                                                                        : ", open");
     if (report->inside_out) wr_text_add(&text, "; it was inside out and has been turned");
-    add_count(&text, report->no_area, "without area were left out");
+    if (found) wr_mesh_faults_text(&faults, &text);
     add_count(&text, report->no_normal + report->bad_normal,
               "corners without a normal have the mean of their faces'");
     add_count(&text, report->face_normal, "corners have their face's normal");
@@ -418,18 +434,18 @@ static void note_patches(WrSession *session, const char *path, const WrTriangles
 /* ---- the command ---- */
 
 static WrTriangles *read_held(WrSession *session, const WrCall *call, const WrShape *shape,
-                              const char *path, WrLengthUnit *unit, WrError *err)
+                              const char *path, WrMeshFacts *facts, WrError *err)
 {
     if (shape->kind == WR_SURFACE_terrain) return terrain_read(session, path, shape, err);
-    if (shape->kind == WR_SURFACE_mesh) return wr_session_read_mesh(session, path, unit, NULL, err);
+    if (shape->kind == WR_SURFACE_mesh) return wr_session_read_mesh(session, path, facts, err);
     return read_patches(path, (WrPatchTable)wr_call_choice(call, "table"), err);
 }
 
 static void note_held(WrSession *session, WrSurfaceKind kind, const char *path,
-                      const WrTriangles *mesh, bool own, int udim)
+                      const WrTriangles *mesh, const WrMeshFacts *facts, bool own, int udim)
 {
     if (kind == WR_SURFACE_terrain) terrain_note(session, path, mesh);
-    else if (kind == WR_SURFACE_mesh) note_mesh(session, path, mesh, own, udim);
+    else if (kind == WR_SURFACE_mesh) note_mesh(session, path, mesh, facts, own, udim);
     else note_patches(session, path, mesh);
 }
 
@@ -487,7 +503,7 @@ static bool names_projection(const WrCall *call)
     return wr_call_given(call, "udim") || wr_call_given(call, "projection") ||
            wr_call_given(call, "cell") || wr_call_given(call, "turn") ||
            wr_call_given(call, "at") || wr_call_given(call, "unit") ||
-           wr_call_given(call, "crease");
+           wr_call_given(call, "origin") || wr_call_given(call, "crease");
 }
 
 static void take_projection(const WrCall *call, WrProjection *to)
@@ -503,6 +519,8 @@ static void take_projection(const WrCall *call, WrProjection *to)
     if (wr_call_given(call, "at")) memcpy(to->at, wr_call_arg(call, "at")->numbers, sizeof to->at);
     if (wr_call_given(call, "unit"))
         to->unit = (WrLengthUnit)(wr_call_choice(call, "unit") + WR_UNIT_MM);
+    if (wr_call_given(call, "origin"))
+        memcpy(to->origin, wr_call_arg(call, "origin")->numbers, sizeof to->origin);
     if (wr_call_given(call, "crease")) to->crease_deg = wr_call_number(call, "crease");
     if (wr_call_given(call, "udim")) to->udim = udim_of(call);
     else if (to->kind != WR_PROJECTION_UV) to->udim = 0;
@@ -512,6 +530,7 @@ static void take_projection(const WrCall *call, WrProjection *to)
     *to = (WrProjection){ .cell = { none.cell[0], none.cell[1] },
                           .unit = to->unit,
                           .udim = to->udim,
+                          .origin = { to->origin[0], to->origin[1], to->origin[2] },
                           .crease_deg = to->crease_deg };
 }
 
@@ -531,6 +550,7 @@ static bool reuse_mesh(const WrSession *session, WrScene *scene, WrError *err)
 static bool note_projection(WrSession *session, const WrScene *scene, WrError *err)
 {
     const WrProjection *is = &scene->projection;
+    const WrTriangles *file = scene->mesh_source ? scene->mesh_source : scene->triangles;
     WrTextureSeams seams;
     WrText text = { 0 };
     double radius;
@@ -545,15 +565,19 @@ static bool note_projection(WrSession *session, const WrScene *scene, WrError *e
         wr_text_add(&text,
                     "; the file's numbers are taken as millimetres: unit= states another unit");
     if (is->kind >= WR_PROJECTION_CYLINDRICAL) {
-        const int round = wr_projection_round(
-            scene->mesh_source ? scene->mesh_source : scene->triangles, is, &radius);
+        const int round = wr_projection_round(file, is, &radius);
         wr_text_addf(&text, "; %d cells round, at a radius of %.4g mm", round, radius);
     }
     if (seams.edges > 0)
         wr_text_addf(&text,
                      "; the table does not run on across %d edges, the longest run of them %.4g "
-                     "long, at %.4g,%.4g,%.4g",
-                     (int)seams.edges, seams.length, seams.at.x, seams.at.y, seams.at.z);
+                     "long, at %.7g,%.7g,%.7g",
+                     (int)seams.edges, seams.length, seams.at.x + is->origin[0],
+                     seams.at.y + is->origin[1], seams.at.z + is->origin[2]);
+    if (is->kind == WR_PROJECTION_BOX && is->crease_deg >= WR_CREASE_NONE &&
+        file->report.no_normal + file->report.bad_normal > 0)
+        wr_text_add(&text, "; the file has no normals, so that edges are rounded: crease=30 makes "
+                           "normals that keep edges above 30 degrees sharp");
     wr_session_note(session, "%s", wr_text_get(&text));
     wr_text_fini(&text);
     return true;
@@ -573,7 +597,7 @@ static bool run_projection(WrSession *session, const WrCall *call, WrScene *scen
 }
 
 static WrTriangles *find_mesh(WrSession *session, WrCall *call, const WrShape *shape,
-                              const char *name, WrLengthUnit *unit, WrError *err)
+                              const char *name, WrMeshFacts *facts, WrError *err)
 {
     if (session->loading) {
         const int object = session->state.document->scene->chosen;
@@ -589,7 +613,7 @@ static WrTriangles *find_mesh(WrSession *session, WrCall *call, const WrShape *s
        reported as such, not by the parse error that it may cause. glTF consists of several files, whose joint checksum is
        computed by wr_input_sha256. */
     WrSha256Work *hash = wr_sha256_begin(path);
-    mesh = read_held(session, call, shape, path, unit, err);
+    mesh = read_held(session, call, shape, path, facts, err);
     WrError why = { "" };
     char ending[16];
     const bool parts = strcmp(wr_path_ending(path, ending), "gltf") == 0;
@@ -602,7 +626,7 @@ static WrTriangles *find_mesh(WrSession *session, WrCall *call, const WrShape *s
     }
     const bool own = shape->kind != WR_SURFACE_mesh || !wr_call_given(call, "projection") ||
                      wr_call_choice(call, "projection") == WR_PROJECTION_UV;
-    if (mesh) note_held(session, shape->kind, path, mesh, own, udim_of(call));
+    if (mesh) note_held(session, shape->kind, path, mesh, facts, own, udim_of(call));
     wr_free(path);
     return mesh;
 }
@@ -640,11 +664,12 @@ static bool run_mesh(WrSession *session, WrCall *call, WrScene *scene, WrError *
         return !table || run_table(session, call, scene, err);
     }
     const char *name = wr_call_arg(call, "file")->text;
-    WrLengthUnit unit = WR_UNIT_UNKNOWN;
-    WrTriangles *mesh = find_mesh(session, call, &scene->shape, name, &unit, err);
+    WrMeshFacts facts = { .unit = WR_UNIT_UNKNOWN };
+    WrTriangles *mesh = find_mesh(session, call, &scene->shape, name, &facts, err);
     if (!mesh) return false;
     wr_scene_set_triangles(scene, mesh, name, wr_call_arg(call, "sha256")->text);
-    if (unit != WR_UNIT_UNKNOWN) scene->projection.unit = unit;
+    if (facts.unit != WR_UNIT_UNKNOWN) scene->projection.unit = facts.unit;
+    memcpy(scene->projection.origin, facts.origin, sizeof facts.origin);
     return run_projection(session, call, scene, err);
 }
 
@@ -673,6 +698,8 @@ static void print_projection(const WrScene *scene, WrText *text)
     if (is->udim) wr_text_addf(text, " udim=%d", is->udim);
     if (is->unit != WR_UNIT_UNKNOWN)
         wr_text_addf(text, " unit=%s", wr_length_units[is->unit - WR_UNIT_MM]);
+    if (is->origin[0] != 0 || is->origin[1] != 0 || is->origin[2] != 0)
+        add_numbers(text, "origin", is->origin, 3, "");
     if (is->crease_deg < WR_CREASE_NONE) add_numbers(text, "crease", &is->crease_deg, 1, "");
 }
 
@@ -738,6 +765,10 @@ static const WrArgSpec projection_args[] = {
       .type = WR_ARG_CHOICE,
       .words = wr_length_units,
       .help = "of the file's numbers; left out, m for glTF, the file's own for 3MF, else mm" },
+    { TRIPLE("origin", "X,Y,Z", -1e30, 1e30), .fallback = wr_projection_default.origin,
+      .help =
+          "place of the mesh's origin in the file's coordinates, where solids are exported; left "
+          "out, 0,0,0, or for a mesh far from its file's origin the nearest corner of its box" },
     { .name = "crease",
       .type = WR_ARG_NUMBER,
       .high = WR_CREASE_NONE,

@@ -95,6 +95,14 @@ static void add_choices(WrText *text, const WrArgSpec *spec)
         wr_text_addf(text, "%s%s", i ? ", " : "", wr_arg_word(spec, i));
 }
 
+/* The smaller number of numbers that a tuple of one of two lengths may have; else its only length. */
+static int fewest_of(const WrArgSpec *spec)
+{
+    for (int n = 1; n < spec->components; n++)
+        if (spec->counts == ((1U << n) | (1U << spec->components))) return n;
+    return spec->components;
+}
+
 void wr_arg_expectation(const WrArgSpec *spec, WrText *text)
 {
     switch (spec->type) {
@@ -105,10 +113,16 @@ void wr_arg_expectation(const WrArgSpec *spec, WrText *text)
         wr_message_addf(text, "%s, two whole numbers, each ", spec->shape ? spec->shape : "WxH");
         break;
     case WR_ARG_TUPLE:
-        wr_message_addf(text,
-                        spec->whole ? "%d whole numbers separated by commas"
-                                    : "%d numbers separated by commas",
-                        spec->components);
+        if (fewest_of(spec) < spec->components)
+            wr_message_addf(text,
+                            spec->whole ? "%d or %d whole numbers separated by commas"
+                                        : "%d or %d numbers separated by commas",
+                            fewest_of(spec), spec->components);
+        else
+            wr_message_addf(text,
+                            spec->whole ? "%d whole numbers separated by commas"
+                                        : "%d numbers separated by commas",
+                            spec->components);
         if (!spec->parts) wr_message_addf(text, ", each ");
         break;
     case WR_ARG_LIST:

@@ -20,6 +20,8 @@
 
 #include <math.h>
 
+#define OVERLAP_CELLS 512 /* of the overlap test along u and v */
+
 typedef struct Bake {
     WrExportJob *job;
     const WrTriangles *mesh;
@@ -162,8 +164,15 @@ bool wr_export_baked_make(WrExportJob *job, WrError *err)
                        "surface %s: maps are baked for a mesh, patches or a terrain (`surface mesh "
                        "file=FILE`)",
                        wr_surfaces[scene->shape.kind]->name);
+    if (scene->triangles && !scene->triangles->mapped)
+        return wr_fail(err,
+                       "the mesh has no texture coordinates, by which maps lie on it: unwrap it in "
+                       "a modelling program and read it again");
     if (scene->bump != WR_BUMP_NONE && scene->bump != WR_BUMP_BLINN)
         return wr_fail(err, "maps are baked for bump mode=blinn, or none: choose one of them");
+    job->report.table_sized = job->options.map_w == 0;
+    if (scene->triangles)
+        job->report.overlap = wr_triangles_overlap(scene->triangles, OVERLAP_CELLS);
     WrTriangles *mesh = scene->triangles ? wr_scene_whole_mesh(scene, err) : wr_triangles_square();
     const bool good = mesh && bake_mesh(job, mesh, err);
     wr_triangles_free(mesh);

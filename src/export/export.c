@@ -22,6 +22,7 @@
 #include "scene/scene.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 WrExportOptions wr_export_default(void)
@@ -211,6 +212,7 @@ static bool take_object(WrExportJob *job, const WrDocument *document, WrTables *
     const WrField *own = *tables ? wr_tables_fields(*tables)[index] : NULL;
     if (own) job->field = own;
     job->scene = wr_scene_object(document->scene, index);
+    if (job->object > 0) job->object = index + 1;
     return true;
 }
 
@@ -266,6 +268,12 @@ static bool write_one(WrExportJob *job, const char *path, WrError *err)
                                     .convention = convention_of(job->kind, job->options.axes),
                                     .depth = job->options.depth,
                                     .half = job->options.half };
+    if (job->kind->ending || job->kind->on_surface) {
+        job->report.object = job->object;
+        job->report.objects = job->objects;
+        snprintf(job->report.object_name, sizeof job->report.object_name, "%s",
+                 job->scene->name ? job->scene->name : "");
+    }
     job->report.seam = wr_export_certify_seam(job);
     return job->picture       ? wr_export_fill_preview(job, err)
            : job->kind->write ? job->kind->write(job, path, err)
@@ -361,17 +369,35 @@ static bool run_on(WrExportJob *job, const WrDocument *document, const char *pat
     wr_filters_forget();
     job->field = wr_document_field(document);
     job->scene = document->scene;
+    job->object = document->scene->chosen + 1;
+    job->objects = wr_scene_object_count(document->scene);
+    if (job->objects == 1) job->object = job->objects = 0;
     const bool ok = (!job->options.object || take_object(job, document, &tables, err)) &&
                     wr_filters_carried(err) && run_scaled(job, path, err);
     wr_tables_free(tables);
     return ok;
 }
 
+/* No export replaces the file that a mesh was read from. */
+static bool check_target(const WrScene *scene, const char *path, WrError *err)
+{
+    const WrFileIdentity target = wr_file_identity(path);
+    for (int i = 0; i < wr_scene_object_count(scene); i++) {
+        const char *name = wr_scene_object(scene, i)->triangles_path;
+        const WrFileIdentity file = name && *name ? wr_file_identity(name) : (WrFileIdentity){ 0 };
+        if (target.there && file.there && file.device == target.device &&
+            file.inode == target.inode)
+            return wr_fail(err, "%s: is the file that the mesh was read from: choose another name",
+                           path);
+    }
+    return true;
+}
+
 bool wr_export(const WrExportKind *kind, const WrDocument *document, const WrExportOptions *options,
                WrPool *pool, const char *path, WrExportReport *report, WrError *err)
 {
     WrExportJob job = { .kind = kind, .options = *options, .pool = pool };
-    bool ok = run_on(&job, document, path, err);
+    bool ok = check_target(document->scene, path, err) && run_on(&job, document, path, err);
     if (ok && report) *report = job.report;
     return ok;
 }
@@ -445,12 +471,17 @@ static void add_receipt(const WrExportReport *report, WrText *text)
     else wr_text_add(text, "exact");
 }
 
+#define OVERLAP_NOTED 0.005
+
 static void add_solid(const WrExportReport *report, WrText *text)
 {
     const double *size = report->solid_size;
     wr_text_addf(text, "%lld triangles, off by at most %.3g mm; %.6g x %.6g x %.6g mm",
                  (long long)report->triangles, report->solid_error, size[0], size[1], size[2]);
-    if (report->solid_open) wr_text_add(text, ", open, as the mesh is");
+    if (report->solid_open)
+        wr_text_add(text, report->solid_faults.count[WR_MESH_FAULT_OPEN] > 0
+                              ? ", open, as the mesh is"
+                              : ", no closed body, as the mesh is none");
     else wr_text_addf(text, ", volume %.6g mm3", report->solid_volume);
     if (report->solid_missed > 0)
         wr_text_addf(text, "; in %lld triangles the relief is too steep for the requested error",
@@ -476,6 +507,27 @@ static void add_solid(const WrExportReport *report, WrText *text)
                      "%.6g,%.6g,%.6g: a lower height, or folds=limit",
                      (long long)report->solid_folds, report->solid_fold[0], report->solid_fold[1],
                      report->solid_fold[2]);
+    const double *place = report->solid_left_out, relief = report->solid_relief;
+    /* a flat face is off by a third of it or more */
+    if (relief > 0 && relief <= 3 * report->solid_error)
+        wr_text_addf(text,
+                     "; the relief is %.3g mm from its lowest to its highest and error=%.3g: much "
+                     "of it is lost; error=%.1g keeps it",
+                     relief, report->solid_allowed, relief / 10);
+    if (place[0] != 0 || place[1] != 0 || place[2] != 0)
+        wr_text_addf(text,
+                     "; it stands at 0,0,0 instead of %.9g,%.9g,%.9g mm, where the file's mesh "
+                     "does: 32-bit coordinates would lose the relief there",
+                     place[0], place[1], place[2]);
+    wr_mesh_faults_text(&report->solid_faults, text);
+}
+
+/* Of several objects. */
+static void add_object(const WrExportReport *report, WrText *text)
+{
+    if (report->objects == 0) return;
+    wr_text_addf(text, "; object %d of %d", report->object, report->objects);
+    if (*report->object_name) wr_text_addf(text, ", %s", report->object_name);
 }
 
 static void add_facts(const WrExportReport *report, WrText *text)
@@ -483,10 +535,12 @@ static void add_facts(const WrExportReport *report, WrText *text)
     if (report->model) {
         wr_text_addf(text, "%lld triangles, %d map%s", (long long)report->triangles,
                      report->pictures, report->pictures == 1 ? "" : "s");
+        add_object(report, text);
         return;
     }
     if (report->triangles) {
         add_solid(report, text);
+        add_object(report, text);
         return;
     }
     if (report->lines) {
@@ -516,6 +570,14 @@ static void add_facts(const WrExportReport *report, WrText *text)
     if (report->convention) wr_text_addf(text, ", %s", report->convention);
     add_count(text, report->clipped, "outside the range, clipped");
     add_count(text, report->replaced, "not finite, replaced by 0");
+    if (report->overlap.share > OVERLAP_NOTED)
+        wr_text_addf(text,
+                     "; %.1f%% of the texture coordinates are met twice, the first at u, v of "
+                     "%.3g,%.3g: the map has one of the places there",
+                     100 * report->overlap.share, report->overlap.at[0], report->overlap.at[1]);
+    if (report->table_sized)
+        wr_text_add(text, "; as large as the table: size=WIDTHxHEIGHT makes another size");
+    add_object(report, text);
     if (report->seen) add_receipt(report, text);
     if (report->unseen)
         wr_text_add(text,
@@ -526,6 +588,7 @@ static void add_facts(const WrExportReport *report, WrText *text)
 void wr_export_report_text(const WrExportReport *report, WrText *text)
 {
     add_facts(report, text);
+    if (report->triangles && !report->model) return; /* a body has no edges of a cell */
     wr_text_add(text, "; ");
     wr_certificate_text(&report->seam, text);
 }

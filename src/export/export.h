@@ -68,6 +68,8 @@
 #pragma once
 #include "base/enum_rows.h"
 #include "field/seam_check.h"
+#include "surface/mesh_faults.h"
+#include "surface/triangles.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -188,6 +190,8 @@ typedef struct WrExportOptions {
     bool solid_limited; /* of a mesh: relief that folds over is lowered */
 } WrExportOptions;
 
+#define WR_EXPORT_OBJECT_NAME 64
+
 /* Results of an export, for the user. */
 typedef struct WrExportReport {
     int width, height, channels, depth;
@@ -224,8 +228,19 @@ typedef struct WrExportReport {
     int64_t solid_limited;    /* points at which the relief was lowered */
     int64_t
         solid_steps; /* triangles at hard edges and seams of (u,v) that span a step of the relief */
-    bool model;      /* a model, without the three above */
-    int pictures;    /* in the model */
+    WrMeshFaults solid_faults; /* of the mesh without relief */
+    double solid_left_out[3];  /* mm: place of the mesh in its file that the solid does not have */
+    double solid_relief;       /* mm from the lowest to the highest F, of all solids ... */
+    double solid_allowed;      /* ... and the requested error */
+    /* maps of a mesh: */
+    WrUvOverlap overlap; /* of its (u,v) */
+    bool table_sized;    /* the map's size is the table's */
+    /* which object a solid, a model or a map of a surface is of, from 1, and the number of objects, if there are
+       several; else 0 */
+    int object, objects;
+    char object_name[WR_EXPORT_OBJECT_NAME]; /* cut; may be empty */
+    bool model;                              /* a model, without the three above */
+    int pictures;                            /* in the model */
 } WrExportReport;
 
 typedef struct WrExportOptionInfo {
@@ -292,7 +307,8 @@ bool wr_export_option(const WrExportKind *kind, WrExportOptions *options, const 
    document  read only     pool  may be NULL: one thread
    path      its extension selects the format
    report    may be NULL
-   Errors    options out of range, a depth that the format does not support, any file error */
+   Errors    options out of range, a depth that the format does not support, the file of an object's mesh as `path`,
+             any file error */
 bool wr_export(const WrExportKind *kind, const WrDocument *document, const WrExportOptions *options,
                WrPool *pool, const char *path, WrExportReport *report, WrError *err);
 

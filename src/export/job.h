@@ -22,6 +22,7 @@ struct WrExportJob {
     const WrField *cell; /* the field before its arrangement as a sheet */
     int copies[2];       /* copies of the cell in the field along u and v; 0: 1 */
     const WrScene *scene;
+    int object, objects;     /* which of how many, from 1; 0: the only one */
     WrExportOptions options; /* with final depth and scheme */
     WrPool *pool;            /* may be NULL */
     int width, height, channels;

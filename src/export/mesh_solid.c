@@ -8,12 +8,15 @@
 #include "base/pool.h"
 #include "export/job.h"
 #include "export/solid_body.h"
+#include "field/field.h"
 #include "render/tessellation/dice.h"
 #include "render/tessellation/mesh_relief.h"
 #include "scene/scene.h"
+#include "surface/mesh_faults.h"
 #include "surface/ray_tree.h"
 #include "surface/triangles.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -142,13 +145,32 @@ static bool check_rooms(WrMeshRelief *r, bool limit, WrExportReport *report, WrE
 
 /* ---- the whole ---- */
 
-/* Millimetres per unit of the mesh: those of its file's unit, with its own origin, or such that its longest side is
-   `size`. */
-static void set_scale(WrMeshReliefRequest *ask, double size)
+/* Moves the solid to where the mesh is in its file, if rounding to 32-bit floats there is at most half of the error
+   (a rounding is up to half a unit in the last place along each axis). */
+static void set_origin(WrMeshReliefRequest *ask, WrExportReport *report)
+{
+    const double *o = ask->scene->projection.origin;
+    const WrVec3 at = { ask->stretch.x * o[0], ask->stretch.y * o[1], ask->stretch.z * o[2] };
+    const double away = fmax(fabs(at.x), fmax(fabs(at.y), fabs(at.z))) * ask->scale;
+    if (away * FLT_EPSILON <= ask->error / 2) {
+        ask->middle = v3_neg(at);
+        return;
+    }
+    report->solid_left_out[0] = at.x * ask->scale;
+    report->solid_left_out[1] = at.y * ask->scale;
+    report->solid_left_out[2] = at.z * ask->scale;
+}
+
+/* Millimetres per unit of the mesh: those of its file's unit, with its place there, or such that its longest side is
+   `size`, about the origin. */
+static void set_scale(WrMeshReliefRequest *ask, double size, WrExportReport *report)
 {
     WrVec3 low = { INFINITY, INFINITY, INFINITY }, high = { -INFINITY, -INFINITY, -INFINITY };
     ask->scale = wr_length_unit_mm(ask->scene->projection.unit);
-    if (!(size > 0)) return;
+    if (!(size > 0)) {
+        set_origin(ask, report);
+        return;
+    }
     for (int32_t i = 0; i < ask->mesh->corner_count; i++) {
         const float *p = ask->mesh->corners[i].p;
         const WrVec3 at = { ask->stretch.x * (double)p[0], ask->stretch.y * (double)p[1],
@@ -179,6 +201,16 @@ static void fill_body(const WrMeshRelief *r, WrSolidBody *body)
         wr_solid_body_add_triangle(body, t->point, uv);
     }
     if (s.x * s.y * s.z < 0) wr_solid_body_reverse(body);
+}
+
+/* Of F, in object units: over the points, and over all texels of a table, since a relief below the error has few
+   points. */
+static double height_range(const WrExportJob *job, const WrMeshRelief *r)
+{
+    float low, high;
+    if (job->scene->analytic.kind != WR_ANALYTIC_OFF) return r->high - r->low;
+    wr_field_range(job->field, &low, &high);
+    return fmax(r->high - r->low, fabs(job->scene->height) * ((double)high - (double)low));
 }
 
 static void report_relief(const WrMeshRelief *r, WrExportReport *report)
@@ -217,7 +249,7 @@ bool wr_mesh_solid_make(WrExportJob *job, WrSolidBody *body, WrError *err)
         fmin(fabs(ask.stretch.x), fmin(fabs(ask.stretch.y), fabs(ask.stretch.z))) <= WR_THINNEST)
         return wr_fail(
             err, "the object is flat (size=...,0): a solid needs a size above 0 along all axes");
-    set_scale(&ask, job->options.solid_size);
+    set_scale(&ask, job->options.solid_size, &job->report);
     WrRaised raised;
     bool good = wr_raised_init(&raised, job->scene, job->field, err);
     ask.scene = raised.scene;
@@ -232,11 +264,15 @@ bool wr_mesh_solid_make(WrExportJob *job, WrSolidBody *body, WrError *err)
                     "error=%.6g mm needs more than %d triangles: a larger error, a smaller size, "
                     "a coarser mesh, or triangles=",
                     ask.error, ask.most);
+    const WrTriangles *file = job->scene->mesh_source ? job->scene->mesh_source : ask.mesh;
+    good = good &&
+           wr_mesh_faults_find(file, job->scene->projection.origin, &job->report.solid_faults, err);
     const bool limit = job->options.solid_limited;
     good = good && check_rooms(&relief, limit, &job->report, err);
     if (good && limit) limit_folds(&relief, &job->report);
     if (good) {
         report_relief(&relief, &job->report);
+        job->report.solid_relief = height_range(job, &relief) * ask.scale;
         fill_body(&relief, body);
     }
     wr_mesh_relief_fini(&relief);

@@ -1149,6 +1149,7 @@ static void report_body(WrExportJob *job, const WrSolidBody *body)
     WrVec3 low, high;
     wr_solid_body_bounds(body, &low, &high);
     job->report.triangles = body->triangle_count;
+    job->report.solid_allowed = job->options.solid_error;
     job->report.solid_volume = job->report.solid_open ? 0.0 : wr_solid_body_volume(body);
     job->report.solid_size[0] = high.x - low.x;
     job->report.solid_size[1] = high.y - low.y;
@@ -1174,6 +1175,7 @@ static bool make_solid(WrExportJob *job, WrSolidBody *body, WrError *err)
     else set_scale(&s);
     const bool good = make(&s, err);
     job->report.solid_error = s.worst;
+    job->report.solid_relief = (s.high - s.low) * s.scale;
     job->report.low = s.low;
     job->report.high = s.high;
     *body = s.body;

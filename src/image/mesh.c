@@ -41,7 +41,7 @@ static bool check_block(const char *block, size_t length, WrMesh *mesh)
     memcpy(&head, block, sizeof head);
     if (head.points < 3 || head.points > WR_MESH_POINTS_MAX || head.triangles < 1 ||
         head.triangles > WR_MESH_TRIANGLES_MAX || head.whole < 0 || head.whole > 1 ||
-        head.unit < 0 || head.unit >= WR_UNIT_COUNT || head.parts < head.whole ||
+        head.unit < 0 || head.unit >= WR_UNIT_COUNT || head.bad_uv < 0 || head.parts < head.whole ||
         head.parts > head.whole * WR_MESH_PARTS_MAX ||
         length != sizeof head + 12 * ((size_t)head.points + (size_t)head.triangles) +
                       (head.whole ? 20 * (size_t)head.points : 0) +
@@ -54,9 +54,11 @@ static bool check_block(const char *block, size_t length, WrMesh *mesh)
     mesh->triangle_count = head.triangles;
     mesh->single = head.single != 0;
     mesh->unit = (WrLengthUnit)head.unit;
+    mesh->bad_uv = head.bad_uv;
     for (int k = 0; k < 3; k++) {
-        if (!(fabs(head.origin[k]) <= 1e30)) return false;
+        if (!(fabs(head.origin[k]) <= 1e30 && fabs(head.bad_uv_at[k]) <= 1e30)) return false;
         mesh->origin[k] = head.origin[k];
+        mesh->bad_uv_at[k] = head.bad_uv_at[k];
     }
     for (int32_t i = 0; i < head.points; i++)
         for (int k = 0; k < 3; k++)

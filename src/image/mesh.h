@@ -29,6 +29,8 @@ typedef struct WrMesh {
     double origin[3];  /* add it to get the file's coordinates; 0,0,0 for a body near the origin */
     bool single;       /* the coordinates in the file are 32-bit floats */
     WrLengthUnit unit; /* stated by the file (3MF) */
+    int32_t bad_uv;    /* points whose (u,v) in the file are no numbers, or beyond 1e6: missing */
+    double bad_uv_at[3];         /* the first of them, in the file's coordinates */
     const float (*points)[3];    /* [point_count] x, y, z; finite, within 1e30 of 0 */
     const int32_t (*corners)[3]; /* [triangle_count] point indices; polygons are triangulated */
     int32_t point_count, triangle_count;

@@ -32,7 +32,9 @@ typedef struct WrMeshBuild {
     WrMeshPart *parts;
     int32_t point_count, triangle_count, part_count;
     size_t point_room, triangle_room;
-    int64_t work; /* steps used by triangulation so far */
+    int32_t bad_uv; /* points with (u,v) that are no numbers, or beyond 1e6; stored as missing */
+    double bad_uv_at[3]; /* the first of them */
+    int64_t work;        /* steps used by triangulation so far */
 } WrMeshBuild;
 
 void wr_mesh_build_fini(WrMeshBuild *build);

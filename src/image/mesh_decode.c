@@ -1,8 +1,10 @@
 /* Decoding of mesh files: the mesh under construction, and the choice of the reader. */
 #include "image/mesh_decode.h"
 
+#include "base/enum_rows.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/message.h"
 #include "base/text.h"
 #include "image/assimp.h"
 #include "image/mesh_build.h"
@@ -17,6 +19,7 @@
 /* A mesh under construction: points[i] with normals[i], uv[i], and next[i], a chain of points at the same place: 1 + the next
    one's number, 0 at the end. Arrays grow by doubling, limited by the maximum of readable meshes. */
 #define ALIKE 32            /* wedges of one place that are compared; further ones are not merged */
+#define UV_MAX 1e6F         /* larger ones are treated as missing (surface/triangles.h) */
 #define WORK_MAX 2000000000 /* steps: a few seconds */
 /* A mesh whose distance from the origin is this many times its size loses at least 2 of 24 bits; a
    nearer one is not moved. */
@@ -94,17 +97,25 @@ bool wr_mesh_build_reserve(WrMeshBuild *build, int64_t points, int64_t triangles
 
 /* ---- points ---- */
 
+static const float unmapped[2] = { NAN, NAN };
+
+static bool is_bad_uv(const float *uv)
+{
+    return uv && !(fabsf(uv[0]) <= UV_MAX && fabsf(uv[1]) <= UV_MAX);
+}
+
 bool wr_mesh_build_point(WrMeshBuild *build, const double p[3], const float normal[3],
                          const float uv[2], WrError *err)
 {
-    static const float none[3] = { 0, 0, 0 }, unmapped[2] = { NAN, NAN };
+    static const float none[3] = { 0, 0, 0 };
     if (!points_room(build, 1, err)) return false;
     const int32_t i = build->point_count++;
     memcpy(build->points[i], p, sizeof build->points[i]);
     build->next[i] = 0;
     if (!build->whole) return true;
+    if (is_bad_uv(uv) && build->bad_uv++ == 0) memcpy(build->bad_uv_at, p, sizeof build->bad_uv_at);
     memcpy(build->normals[i], normal ? normal : none, sizeof none);
-    memcpy(build->uv[i], uv ? uv : unmapped, sizeof unmapped);
+    memcpy(build->uv[i], uv && !is_bad_uv(uv) ? uv : unmapped, sizeof unmapped);
     return true;
 }
 
@@ -114,8 +125,8 @@ static bool has_looks(const WrMeshBuild *build, int32_t i, const float normal[3]
     static const float none[3] = { 0, 0, 0 };
     if (!build->whole) return true;
     if (memcmp(build->normals[i], normal ? normal : none, sizeof none) != 0) return false;
-    return uv ? memcmp(build->uv[i], uv, 2 * sizeof *uv) == 0
-              : isnan(build->uv[i][0]) && isnan(build->uv[i][1]);
+    return uv && !is_bad_uv(uv) ? memcmp(build->uv[i], uv, 2 * sizeof *uv) == 0
+                                : isnan(build->uv[i][0]) && isnan(build->uv[i][1]);
 }
 
 int32_t wr_mesh_build_wedge(WrMeshBuild *build, int32_t *first, const double p[3],
@@ -330,8 +341,8 @@ static bool check_points(const WrMeshBuild *build, WrError *err)
     for (int32_t i = 0; i < build->point_count; i++) {
         const double *p = build->points[i];
         if (fabs(p[0]) <= 1e30 && fabs(p[1]) <= 1e30 && fabs(p[2]) <= 1e30) continue;
-        return wr_fail(err, "point %d is %g,%g,%g: must be finite, within 1e30 of 0", (int)i + 1,
-                       p[0], p[1], p[2]);
+        return wr_fail(err, "point %d is %g,%g,%g: coordinates are numbers from -1e30 to 1e30",
+                       (int)i + 1, p[0], p[1], p[2]);
     }
     return true;
 }
@@ -374,7 +385,9 @@ static bool mesh_build_finish(const WrMeshBuild *build, WrText *block, WrError *
                         .whole = build->whole,
                         .single = build->single,
                         .unit = (int32_t)build->unit,
+                        .bad_uv = build->bad_uv,
                         .parts = build->whole ? build->part_count : 0 };
+    memcpy(head.bad_uv_at, build->bad_uv_at, sizeof head.bad_uv_at);
     find_origin(build, head.origin);
     add(block, &head, sizeof head);
     for (size_t i = 0; i < points; i++) {
@@ -457,6 +470,66 @@ static bool read_by_library(const void *bytes, size_t length, const char *ending
     return good;
 }
 
+/* ---- the content of files that could not be read ---- */
+
+#define TEXT_LOOKED 512 /* bytes */
+
+/* Plain text, perhaps with lines of an OBJ file: "v 1 2 3". NULL: something else. */
+static const char *text_of(const char *bytes, size_t length)
+{
+    bool vertex = false, begins = true;
+    for (size_t i = 0; i < length && i < TEXT_LOOKED; i++) {
+        if ((unsigned char)bytes[i] < ' ' && !memchr("\t\n\r\f", bytes[i], 4)) return NULL;
+        vertex |= begins && i + 1 < length && memcmp(bytes + i, "v ", 2) == 0;
+        begins = bytes[i] == '\n';
+    }
+    return vertex ? WR_MESSAGE("an OBJ file") : WR_MESSAGE("plain text");
+}
+
+/* The content by its first bytes; NULL: that of the ending, or unknown. Text is recognised only in the place of
+   formats that the own readers read: others may be text too. */
+static const char *content_of(const void *bytes, size_t length, const char *ending)
+{
+    static const struct {
+        const char *begins;
+        size_t count;
+        const char *name, *endings;
+    } kinds[] = {
+        { "\x89PNG", 4, WR_MESSAGE("a PNG picture"), "png" },
+        { "\xff\xd8\xff", 3, WR_MESSAGE("a JPEG picture"), "jpg jpeg" },
+        { "GIF8", 4, WR_MESSAGE("a GIF picture"), "gif" },
+        { "II*\0", 4, WR_MESSAGE("a TIFF picture"), "tif tiff" },
+        { "MM\0*", 4, WR_MESSAGE("a TIFF picture"), "tif tiff" },
+        { "v/1\1", 4, WR_MESSAGE("an OpenEXR picture"), "exr" },
+        { "%PDF", 4, WR_MESSAGE("a PDF document"), "pdf" },
+        { "PK\3\4", 4, WR_MESSAGE("a zip archive, such as 3MF"), "3mf" },
+        { "BLENDER", 7, WR_MESSAGE("a Blender file"), "blend" },
+        { "glTF", 4, WR_MESSAGE("a binary glTF file"), "glb gltf" },
+        { "solid", 5, WR_MESSAGE("an STL file"), "stl" },
+    };
+    if (wr_ply_is(bytes, length)) return NULL; /* it was read as such, whatever its name */
+    for (int i = 0; i < WR_LENGTH(kinds); i++)
+        if (length >= kinds[i].count && memcmp(bytes, kinds[i].begins, kinds[i].count) == 0)
+            return strstr(kinds[i].endings, ending) ? NULL : kinds[i].name;
+    if (wr_stl_is_binary(bytes, length))
+        return strcmp(ending, "stl") == 0 ? NULL : WR_MESSAGE("an STL file");
+    const bool own = strcmp(ending, "stl") == 0 || strcmp(ending, "ply") == 0;
+    const char *text = own || strcmp(ending, "obj") == 0 ? text_of(bytes, length) : NULL;
+    return text && (own || strcmp(text, WR_MESSAGE("plain text")) == 0) ? text : NULL;
+}
+
+/* Replaces the error by one that names the content, if that is of another kind than the file's name says. */
+static void explain_content(const void *bytes, size_t length, const char *ending, WrError *err)
+{
+    const char *content = *ending ? content_of(bytes, length, ending) : NULL;
+    char name[16];
+    int i = 0;
+    for (; ending[i] && i + 1 < WR_LENGTH(name); i++)
+        name[i] = (char)(ending[i] >= 'a' && ending[i] <= 'z' ? ending[i] - 'a' + 'A' : ending[i]);
+    name[i] = '\0';
+    if (content) wr_fail(err, "is no %s file: its content is that of %s", name, content);
+}
+
 /* ---- all formats ---- */
 
 /* The format by the bytes if they are characteristic, else by the extension; formats without an own
@@ -470,9 +543,9 @@ static bool read_kind(const void *bytes, size_t length, const char *ending, WrMe
     if ((strcmp(ending, "gltf") == 0 || strcmp(ending, "glb") == 0) && wr_gltf_is(bytes, length))
         return wr_gltf_read(bytes, length, build, err);
     if (!*ending || strcmp(ending, "obj") == 0) {
-        const char *wrong;
+        WrError wrong = { "" };
         if (wr_obj_read(bytes, length, build, &wrong)) return true;
-        if (wrong) return wr_fail(err, "%s", wrong);
+        if (*wrong.text) return wr_fail(err, "%s", wr_error_message(&wrong));
         const bool whole = build->whole;
         wr_mesh_build_fini(build);
         build->whole = whole;
@@ -487,6 +560,8 @@ bool wr_mesh_make(const void *bytes, size_t length, const char *ending, bool who
     WrMeshBuild build = { .whole = whole };
     const bool good =
         read_kind(bytes, length, ending, &build, err) && mesh_build_finish(&build, block, err);
+    if (!good && !build.memory && build.point_count == 0)
+        explain_content(bytes, length, ending, err);
     if (memory) *memory = !good && build.memory;
     wr_mesh_build_fini(&build);
     return good;

@@ -13,8 +13,8 @@ typedef struct WrText WrText;
 /* Header of a serialised mesh; the points follow, then the corners; for a whole mesh the normals, the
  * (u,v) and the parts. */
 typedef struct WrMeshHead {
-    double origin[3];
-    int32_t points, triangles, whole, parts, single, unit;
+    double origin[3], bad_uv_at[3];
+    int32_t points, triangles, whole, parts, single, unit, bad_uv;
 } WrMeshHead;
 
 #define WR_MESH_PARTS_MAX 4096

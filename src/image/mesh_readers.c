@@ -139,6 +139,7 @@ typedef struct Obj {
     int32_t v_count, vt_count, vn_count, face_count;
     int32_t *first;   /* for each position: 1 + its latest point */
     int32_t *polygon; /* [CORNERS_MAX] */
+    WrError *wrong;   /* set for files that the library would not read either */
     char object[WR_MESH_NAME], material[WR_MESH_NAME];
 } Obj;
 
@@ -181,13 +182,13 @@ static bool take_word(WrScan *line, const char *word)
     return true;
 }
 
-/* Reads `least` to `most` numbers up to the end of the line; absent ones are unchanged. Returns their
- * number, or -1. */
+/* Reads `least` to `most` numbers, or words for none, up to the end of the line; absent ones are unchanged. Returns
+ * their number, or -1. */
 static int take_numbers(WrScan *line, int least, int most, double *out)
 {
     int count = 0;
     for (; line->at < line->end && count < most; count++, scan_blanks(line))
-        if (!scan_number(line, &out[count])) return -1;
+        if (!scan_any_number(line, &out[count])) return -1;
     return line->at == line->end && count >= least ? count : -1;
 }
 
@@ -198,15 +199,21 @@ static bool is_float(double x)
     return isfinite((float)x);
 }
 
+static bool refuse_place(Obj *obj, const double p[3])
+{
+    return wr_fail(obj->wrong, "point %d is %g,%g,%g: coordinates are numbers from -1e30 to 1e30",
+                   (int)obj->v_count + 1, p[0], p[1], p[2]);
+}
+
 /* x y z, then a weight, or colours, or a weight and colours, or colours with alpha. A weight other than
    1 is a rational curve. */
 static bool read_place(Obj *obj, WrScan *line)
 {
     double p[7];
     const int count = take_numbers(line, 3, 7, p);
-    if (count < 3 || count == 5 || (count == 4 && (p[3] < 1 || p[3] > 1))) return false;
+    if (count < 3 || count == 5 || (count == 4 && !(p[3] >= 1 && p[3] <= 1))) return false;
     for (int k = 0; k < 3; k++)
-        if (!(fabs(p[k]) <= 1e30)) return false;
+        if (!(fabs(p[k]) <= 1e30)) return refuse_place(obj, p);
     memcpy(obj->v[obj->v_count++], p, 3 * sizeof *p);
     return true;
 }
@@ -214,7 +221,7 @@ static bool read_place(Obj *obj, WrScan *line)
 static bool read_uv(Obj *obj, WrScan *line)
 {
     double p[3] = { 0, 0, 0 };
-    if (take_numbers(line, 1, 3, p) < 1 || !is_float(p[0]) || !is_float(p[1])) return false;
+    if (take_numbers(line, 1, 3, p) < 1) return false;
     for (int k = 0; k < 2; k++) obj->vt[obj->vt_count][k] = (float)p[k];
     obj->vt_count++;
     return true;
@@ -391,18 +398,17 @@ static bool has_decimal_comma(WrScan line)
 
 /* This reader accepts the common subset of OBJ and fails on anything else; the caller then tries the slower library (assimp),
    so no rare file is lost. Two passes: counts, then elements. */
-bool wr_obj_read(const char *bytes, size_t length, WrMeshBuild *build, const char **wrong)
+bool wr_obj_read(const char *bytes, size_t length, WrMeshBuild *build, WrError *wrong)
 {
-    Obj obj = { .build = build, .object = "defaultobject" };
+    Obj obj = { .build = build, .object = "defaultobject", .wrong = wrong };
     const bool mark = length >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0;
     const char *start = bytes + (mark ? 3 : 0), *end = bytes + length, *at = start;
     WrScan line;
     count_lines(&obj, start, end);
     bool good = make_room(&obj);
     while (good && next_line(&at, end, &line)) good = read_line(&obj, line);
-    *wrong = !good && at > start && has_decimal_comma(line)
-                 ? "has numbers with a decimal comma; save it with decimal points"
-                 : NULL;
+    if (!good && at > start && has_decimal_comma(line))
+        wr_fail(wrong, "has numbers with a decimal comma; save it with decimal points");
     free_all(&obj);
     return good;
 }
@@ -926,6 +932,16 @@ static bool add_record(WrMeshBuild *build, const char *at, WrError *err)
     return wr_mesh_build_triangle(build, first, first + 1, first + 2, err);
 }
 
+/* Three points each. */
+static bool check_count(int64_t count, WrError *err)
+{
+    return count <= WR_MESH_POINTS_MAX / 3 ||
+           wr_fail(err,
+                   "has more than %d triangles, the most of an STL file: PLY, OBJ and glTF files, "
+                   "whose triangles share points, may have %d",
+                   WR_MESH_POINTS_MAX / 3, WR_MESH_TRIANGLES_MAX);
+}
+
 static bool read_binary(const char *bytes, size_t length, WrMeshBuild *build, WrError *err)
 {
     if (length < HEAD)
@@ -936,7 +952,8 @@ static bool read_binary(const char *bytes, size_t length, WrMeshBuild *build, Wr
         return wr_fail(err,
                        "says that it holds %u triangles in %zu bytes; it is damaged or cut off",
                        (unsigned)count, length - HEAD);
-    if (!wr_mesh_build_reserve(build, 3 * (int64_t)count, count, err)) return false;
+    if (!check_count(count, err) || !wr_mesh_build_reserve(build, 3 * (int64_t)count, count, err))
+        return false;
     for (uint32_t i = 0; i < count; i++)
         if (!add_record(build, bytes + HEAD + (size_t)RECORD * i, err)) return false;
     return true;
@@ -1013,7 +1030,8 @@ static bool end_facet(Stl *stl, WrError *err)
     if (stl->count < 3)
         return wr_fail(err, "is damaged: facet %lld has %d corners: must be 3",
                        (long long)stl->facet, (int)stl->count);
-    const bool good = wr_mesh_build_polygon(stl->build, stl->corners, stl->count, err);
+    const bool good = check_count((int64_t)stl->build->triangle_count + 1, err) &&
+                      wr_mesh_build_polygon(stl->build, stl->corners, stl->count, err);
     stl->count = 0;
     return good;
 }
@@ -1052,12 +1070,17 @@ static bool read_text(const char *bytes, size_t length, WrMeshBuild *build, WrEr
     return stl.count == 0 || wr_fail(err, "is cut off in facet %lld", (long long)stl.facet);
 }
 
+bool wr_stl_is_binary(const char *bytes, size_t length)
+{
+    return length >= HEAD && HEAD + RECORD * (uint64_t)number_at(bytes + 80) == length;
+}
+
 /* Titles of binary files may also begin with "solid"; their length distinguishes them. */
 static bool is_text(const char *bytes, size_t length)
 {
     WrScan scan = { bytes, bytes + length };
     const char *word;
-    if (length >= HEAD && HEAD + RECORD * (uint64_t)number_at(bytes + 80) == length) return false;
+    if (wr_stl_is_binary(bytes, length)) return false;
     scan_space(&scan);
     const size_t n = scan_word(&scan, &word);
     return is_word(word, n, "solid") || is_word(word, n, "facet");

@@ -18,9 +18,9 @@ typedef struct WrMeshBuild WrMeshBuild;
  * faces.
  *
  * Returns  false for all other content: curves, rational weights other than 1, continued lines, forward
- *          indices, invalid numbers, damage, lack of memory. *wrong is then an error that the library
- *          would not notice, or NULL: the library reads the file, or reports the error. */
-bool wr_obj_read(const char *bytes, size_t length, WrMeshBuild *build, const char **wrong);
+ *          indices, invalid numbers, damage, lack of memory. wrong is then an error that the library
+ *          would not notice or not place, or unchanged: the library reads the file, or reports the error. */
+bool wr_obj_read(const char *bytes, size_t length, WrMeshBuild *build, WrError *wrong);
 
 /* ---- reader of PLY files ---- */
 
@@ -49,6 +49,8 @@ bool wr_ply_read(const char *bytes, size_t length, WrMeshBuild *build, WrError *
  * solid is a part.
  * Errors   one sentence that does not name the file, with the position and kind of the damage */
 bool wr_stl_read(const char *bytes, size_t length, WrMeshBuild *build, WrError *err);
+/* True if the length is that of a binary STL file of the count that the bytes state. */
+bool wr_stl_is_binary(const char *bytes, size_t length);
 
 /* ---- container of 3MF files ---- */
 

@@ -51,7 +51,8 @@ static bool find_reader(WrText *path, WrError *err)
         found = wr_path_can_run(wr_text_get(path));
     }
     if (!found)
-        wr_fail(err, "picture files need the program " READER_FILE ", looked for at: %s",
+        wr_fail(err,
+                "pictures, meshes and fonts need the program " READER_FILE ", looked for at: %s",
                 wr_text_get(&looked));
     wr_text_fini(&looked);
     return found;

@@ -90,7 +90,8 @@ bool wr_scene_projected(const WrScene *scene)
 {
     const WrProjection *p = &scene->projection;
     return scene->triangles && (p->kind != WR_PROJECTION_UV || p->crease_deg < WR_CREASE_NONE ||
-                                p->udim != 0 || p->unit != unit_of(scene->triangles_path));
+                                p->udim != 0 || p->unit != unit_of(scene->triangles_path) ||
+                                p->origin[0] != 0 || p->origin[1] != 0 || p->origin[2] != 0);
 }
 
 size_t wr_scene_mesh_bytes(const WrTriangles *triangles)

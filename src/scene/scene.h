@@ -182,7 +182,7 @@ void wr_scene_set_triangles(WrScene *scene, WrTriangles *triangles, const char *
 bool wr_scene_project(WrScene *scene, const WrProjection *projection, WrError *err);
 /* The object's mesh with the (u,v) of all its tiles; a reference. Errors: wr_triangles_project. */
 WrTriangles *wr_scene_whole_mesh(const WrScene *scene, WrError *err);
-/* True if the projection, the tile or the unit differ from those of a file of this name alone. */
+/* True if the projection, the tile, the unit or the origin differ from those of a file of this name alone. */
 bool wr_scene_projected(const WrScene *scene);
 /* Converts the meshes of the scene's objects to one picture of one channel, the storage format of
  * documents; and restores that of an object. The caller owns both; *out is NULL if there is none.

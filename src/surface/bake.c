@@ -417,7 +417,9 @@ static bool prepare(Bake *bake, WrError *err)
     const WrBakeOptions *options = bake->options;
     const WrTriangles *low = bake->low;
     const size_t corners = 3 * (size_t)low->triangle_count;
-    if (!low->mapped) return wr_fail(err, "the object has no texture coordinates to bake into");
+    if (!low->mapped)
+        return wr_fail(err, "the object has no texture coordinates to bake into: unwrap it in a "
+                            "modelling program and read it again");
     bake->report->cage = options->cage;
     if (options->kind == WR_BAKE_NORMAL) {
         bake->frames = wr_try_alloc(corners, sizeof *bake->frames, "the frames of a mesh", err);

@@ -48,6 +48,7 @@ typedef struct WrProjection {
     double
         at[3]; /* if placed: its origin, in the mesh's coordinates; else the centre of the mesh */
     int udim; /* kind uv: tile of the file's (u,v) that shows the table, by wr_triangles_of_tile; 0: all */
+    double origin[3]; /* that was subtracted from the file's points; not used by the projection */
     double
         crease_deg; /* 0..180; below 180 normals are computed from the faces: edges of a larger angle are
                           sharp, others smooth. 180: the mesh's own normals */

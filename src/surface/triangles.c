@@ -259,7 +259,15 @@ static void report_from_floats(const float *in, WrTrianglesReport *report)
 {
     int32_t n[REPORT_COUNT];
     for (int i = 0; i < REPORT_COUNT; i++) n[i] = (int32_t)in[i];
-    *report = (WrTrianglesReport){ n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8] != 0, 0 };
+    *report = (WrTrianglesReport){ .no_area = n[0],
+                                   .no_normal = n[1],
+                                   .bad_normal = n[2],
+                                   .face_normal = n[3],
+                                   .bad_uv = n[4],
+                                   .no_map = n[5],
+                                   .collinear = n[6],
+                                   .mirrored = n[7],
+                                   .inside_out = n[8] != 0 };
 }
 
 /* A double as three floats whose sum it is.
@@ -463,11 +471,11 @@ static void cover(const Count *count, const Flat *t)
         }
 }
 
-double wr_triangles_overlap(const WrTriangles *triangles, int cells, int32_t *outside)
+WrUvOverlap wr_triangles_overlap(const WrTriangles *triangles, int cells)
 {
+    WrUvOverlap overlap = { 0 };
     const size_t total = (size_t)cells * (size_t)cells;
     Count count = { wr_alloc(total, 1), cells };
-    int32_t beyond = 0;
     for (int32_t i = 0; i < triangles->triangle_count; i++) {
         Flat t;
         bool out = false;
@@ -476,17 +484,19 @@ double wr_triangles_overlap(const WrTriangles *triangles, int cells, int32_t *ou
             t.u[k] = (double)c->u * cells, t.v[k] = (double)c->v * cells;
             out |= c->u < 0 || c->u > 1 || c->v < 0 || c->v > 1;
         }
-        beyond += out;
+        overlap.outside += out;
         cover(&count, &t);
     }
     size_t once = 0, often = 0;
     for (size_t i = 0; i < total; i++) {
         once += count.cell[i] > 0;
-        often += count.cell[i] > 1;
+        if (count.cell[i] < 2 || often++ > 0) continue;
+        overlap.at[0] = ((double)(i % (size_t)cells) + 0.5) / cells;
+        overlap.at[1] = ((double)(i / (size_t)cells) + 0.5) / cells;
     }
     wr_free(count.cell);
-    if (outside) *outside = beyond;
-    return once > 0 ? (double)often / (double)once : 0;
+    overlap.share = once > 0 ? (double)often / (double)once : 0;
+    return overlap;
 }
 
 /* ---- merging of equal positions ---- */
@@ -563,6 +573,14 @@ static bool usable(WrVec3 n)
     return l > 0 && isfinite(l);
 }
 
+static void note_no_area(WrTrianglesBuild *b, const int32_t c[3])
+{
+    for (int k = 0; k < 3; k++)
+        b->report.no_area_at[k] =
+            b->points[c[0]][k] / 3 + b->points[c[1]][k] / 3 + b->points[c[2]][k] / 3;
+    b->report.no_area_known = true;
+}
+
 /* Keeps the triangles with an area, each from the corner between its two shortest edges; computes their
  * normals.
  * Two faces of a mesh may have no area although their corners differ (collinear), or have corners of equal
@@ -578,7 +596,7 @@ static void keep_faces(WrTrianglesBuild *b)
         const WrVec3 n = face_of(p, &from);
         if (b->at[c[0]] == b->at[c[1]] || b->at[c[1]] == b->at[c[2]] ||
             b->at[c[2]] == b->at[c[0]] || !usable(n)) {
-            b->report.no_area++;
+            if (b->report.no_area++ == 0) note_no_area(b, c);
             continue;
         }
         for (int k = 0; k < 3; k++) b->face[kept].corner[k] = c[(from + k) % 3];
@@ -849,7 +867,7 @@ static bool check_source(const WrTrianglesSource *source, WrError *err)
     for (int32_t i = 0; i < source->point_count; i++) {
         const float *p = source->points[i];
         if (!(fabsf(p[0]) <= 1e30f && fabsf(p[1]) <= 1e30f && fabsf(p[2]) <= 1e30f))
-            return wr_fail(err, "point %d is %g,%g,%g: must be finite, within 1e30 of 0",
+            return wr_fail(err, "point %d is %g,%g,%g: coordinates are numbers from -1e30 to 1e30",
                            (int)i + 1, (double)p[0], (double)p[1], (double)p[2]);
     }
     int64_t sum = 0;

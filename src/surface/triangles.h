@@ -38,7 +38,7 @@ typedef struct WrTrianglePart {
 
 /* Statistics and repairs, for reports. */
 typedef struct WrTrianglesReport {
-    int32_t no_area;     /* removed triangles */
+    int32_t no_area;     /* removed triangles ... */
     int32_t no_normal;   /* corners whose normal was missing ... */
     int32_t bad_normal;  /* ... 0 or NaN ... */
     int32_t face_normal; /* ... of which this many became the face's */
@@ -46,9 +46,11 @@ typedef struct WrTrianglesReport {
     int32_t no_map;      /* triangles without texture coordinates */
     int32_t
         collinear; /* mapped triangles whose (u,v) have no area: no tangent frame, slopes are exact */
-    int32_t mirrored; /* mapped triangles whose (u,v) are mirrored */
-    bool inside_out;  /* the body was reversed */
-    int32_t near_uv;  /* corners distinguished from another only by a rounding of (u,v) (HC129) */
+    int32_t mirrored;    /* mapped triangles whose (u,v) are mirrored */
+    bool inside_out;     /* the body was reversed */
+    float no_area_at[3]; /* ... and the middle of the first of them, */
+    bool no_area_known;  /* unless the mesh comes from a document */
+    int32_t near_uv; /* corners distinguished from another only by a rounding of (u,v) (HC129) */
 } WrTrianglesReport;
 
 typedef struct WrTriangle {
@@ -111,10 +113,14 @@ WrTriangles *wr_triangles_deserialize(const float *block, size_t count, WrError 
 bool wr_triangle_gradients(const WrVec3 p[3], const double uv[3][2], WrVec3 *normal, WrVec3 *grad_u,
                            WrVec3 *grad_v);
 
-/* Fraction 0..1 of the area covered by the triangles' (u,v), modulo 1, that is covered by two or more.
- * Painting there affects several places at once. Measured on a grid of `cells` x `cells`, 1..4096.
- * outside: number of triangles that extend beyond 0..1, where the table repeats; or NULL. */
-double wr_triangles_overlap(const WrTriangles *triangles, int cells, int32_t *outside);
+/* Overlap of the triangles' (u,v), modulo 1: painting there affects several places at once. */
+typedef struct WrUvOverlap {
+    double share;    /* 0..1 of the covered area that is covered by two or more */
+    double at[2];    /* u, v of the first such place, lowest v first; only if share > 0 */
+    int32_t outside; /* triangles that extend beyond 0..1, where the table repeats */
+} WrUvOverlap;
+/* Measured on a grid of `cells` x `cells`, 1..4096. */
+WrUvOverlap wr_triangles_overlap(const WrTriangles *triangles, int cells);
 
 /* Rows of `size` bytes, a multiple of 4, with equal bits get the same index, 0 .. kinds - 1 in the
  * order of their first occurrence. */

@@ -585,7 +585,29 @@ expect 0 export tiles.exr --as height -o 'h.<UDIM>.png'
 has out 'h.1002.png: 512x512'
 expect 0 export tiles.exr --as povray -o . name=t udim=1024
 has out 't_hf.1024.png: 512x512'
-rm -rf good.png cut.png 'a "ramp".png' cube.obj cube.wrinkle cube.exr tiles.* h.1002.png t_hf.1024.png state
+rm -f tiles.* h.1002.png t_hf.1024.png
+# of a script, of a mesh's file with a hole, of a script without a mesh
+sed -i '$d' cube.obj
+expect 0 check cube.wrinkle
+has out 'mesh 1   10 triangles, open; open edges: 4, the first at '
+expect 0 check cube.obj
+has out 'mesh 1   10 triangles, open; open edges: 4, the first at '
+"$program" check --json cube.obj >out 2>err
+is "a mesh's file as JSON" "$(jq -c '[.file, .meshes[0].open.count, .meshes[0].doubled, .problems]' out)" \
+    '["cube.obj",4,{"count":0,"at":null},[]]'
+echo 'table 8x8' >plain.wrinkle
+expect 1 check plain.wrinkle
+has err 'plain.wrinkle: is a script without a mesh'
+# the kind by the file's ending, and arguments in help
+expect 2 export cube.wrinkle -o cube.stl
+has err 'needs --as KIND, here --as stl'
+echo 'export cup.stl' >plain.wrinkle
+expect 1 run plain.wrinkle
+has err 'did you mean export stl cup.stl?'
+expect 0 help projection
+has out 'surface mesh' 'projection='
+expect 1 help projektion
+rm -rf good.png cut.png 'a "ramp".png' cube.obj cube.wrinkle plain.wrinkle cube.exr state
 empty 'a check'
 
 if [[ $failures != 0 ]]; then

@@ -100,6 +100,49 @@ static void misses_are_noted_and_padded(void **state)
     wr_session_free(s);
 }
 
+/* A step of 45 degrees without normals: with crease= each side bakes its own normal, without it the edge is rounded. */
+static void a_crease_of_the_detailed_mesh_stays_sharp(void **state)
+{
+    (void)state;
+    static const char bent[] =
+        "v -1 -1 0.5\nv 0.5 -1 0.5\nv 0.5 2 0.5\nv -1 2 0.5\nv 2 -1 -1\nv 2 2 -1\n"
+        "f 1 2 3 4\nf 2 5 6 3\n";
+    Said said;
+    write_text("bent.obj", bent);
+    WrSession *s = with_low(&said);
+    for (int k = 0; k < 2; k++) {
+        must_run(s, k ? "bake bent.obj map=object-normal crease=30 cage=3"
+                      : "bake bent.obj map=object-normal cage=3");
+        const WrImage *map = doc(s)->scene->normals.image;
+        const float *left = map->data + 3 * (20 * (size_t)map->width + 20); /* u = 0.43 */
+        const float *right = map->data + 3 * (20 * (size_t)map->width + 27);
+        if (k == 1) assert_near((double)left[2], 1, 1e-6);
+        if (k == 1) assert_near((double)right[2], sqrt(0.5), 1e-6);
+        if (k == 0) assert_true(left[2] < 0.99f && right[2] > 0.72f);
+    }
+    wr_session_free(s);
+}
+
+/* Two faces of the object share their texels: said with the share and the first place. */
+static void shared_texels_are_noted(void **state)
+{
+    (void)state;
+    Said said;
+    write_high("high.obj", 0.02, 2);
+    WrSession *s = with_low(&said);
+    write_text("twice.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                            "f 1/1 2/2 3/3\nf 1/1 3/2 4/3\n");
+    must_run(s, "bake high.obj map=position");
+    assert_null(strstr(said.text, "met twice"));
+    must_run(s, "surface mesh file=twice.obj");
+    said.text[0] = '\0';
+    must_run(s, "bake high.obj map=position");
+    assert_non_null(strstr(said.text,
+                           "100.0% of the object's texture coordinates are met twice, the first at "
+                           "u, v of "));
+    wr_session_free(s);
+}
+
 static void normals_are_the_objects_map(void **state)
 {
     (void)state;
@@ -215,6 +258,10 @@ int main(void)
         cmocka_unit_test_setup_teardown(heights_become_a_layer_in_the_tables_unit, enter_own_folder,
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(misses_are_noted_and_padded, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(a_crease_of_the_detailed_mesh_stays_sharp, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(shared_texels_are_noted, enter_own_folder,
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(normals_are_the_objects_map, enter_own_folder,
                                         leave_own_folder),

@@ -12,11 +12,13 @@
 #include "command/session.h"
 #include "document/document.h"
 #include "image/image.h"
+#include "image/mesh.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
 #include "surface/patches.h"
 #include "surface/triangles.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 static void note(void *ctx, const char *text)
@@ -422,6 +424,172 @@ static void units_are_the_files(void **state)
     wr_text_fini(&text);
 }
 
+/* A mesh far from its file's origin: the scene stores the place, also in a document, and the solid stands there. */
+static void a_far_mesh_returns_to_its_place(void **state)
+{
+    (void)state;
+    WrText notes = { 0 }, text = { 0 };
+    WrError err = { "" };
+    WrSession *a = session_with(&notes), *b = session_with(&notes);
+    write_file("far.obj",
+               "v 40000 -80000 5\nv 40010 -80000 5\nv 40000 -79990 5\nv 40000 -80000 15\n"
+               "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 2 2 3\n");
+    must_run(a, "table 8x8");
+    must_run(a, "surface mesh file=far.obj projection=planar cell=3mm");
+    assert_non_null(strstr(surface_line(a, &text), " origin=40000,-80000,5"));
+    assert_non_null(strstr(wr_text_get(&notes), "without area, left out: 1, the first at "));
+    assert_non_null(strstr(wr_text_get(&notes), ",-79996.67,5")); /* in the file's coordinates */
+    must_run(a, "surface mesh projection=uv");
+    must_run(a, "surface mesh projection=box");
+    must_run(a, "save far.exr");
+    if (!wr_session_open(b, "far.exr", &err)) fail_msg("%s", err.text);
+    assert_true(wr_hash_equal(wr_session_hash(a), wr_session_hash(b)));
+    for (int k = 0; k < 3; k++) {
+        /* of two sizes, and with an error that 32-bit coordinates there do not allow */
+        static const char *const lines[] = { "export stl out.stl", "export stl out.stl size=30",
+                                             "export stl out.stl error=0.005" };
+        WrMesh mesh = { 0 };
+        wr_text_clear(&notes);
+        must_run(b, lines[k]);
+        if (!wr_mesh_read("out.stl", &mesh, &err)) fail_msg("%s", err.text);
+        double low = INFINITY, high = -INFINITY; /* of y */
+        for (int32_t i = 0; i < mesh.point_count; i++) {
+            low = fmin(low, (double)mesh.points[i][1] + mesh.origin[1]);
+            high = fmax(high, (double)mesh.points[i][1] + mesh.origin[1]);
+        }
+        assert_near(low, k == 0 ? -80000 : k == 1 ? -15 : 0, 0.01);
+        assert_near(high, k == 0 ? -79990 : k == 1 ? 15 : 10, 0.01);
+        assert_int_equal(
+            strstr(wr_text_get(&notes), "stands at 0,0,0 instead of 40000,-80000,5 mm") != NULL,
+            k == 2);
+        wr_mesh_fini(&mesh);
+    }
+    wr_session_free(a);
+    wr_session_free(b);
+    wr_text_fini(&notes);
+    wr_text_fini(&text);
+}
+
+/* Notes of a mesh's faults, when it is read and when it is exported. */
+static void faults_are_noted(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    WrSession *s = session_with(&notes);
+    write_file("fin.obj",
+               "v 0 0 0\nv 10 0 0\nv 0 10 0\nv 0 0 10\nv -4 -6 5\nvt nan 0\nvt 1 0\nvt 0 1\n"
+               "f 1/2 3/3 2/2\nf 1/1 2/2 4/3\nf 1/2 4/3 3/2\nf 2/2 3/2 4/3\nf 1/2 4/2 5/3\n");
+    must_run(s, "table 8x8");
+    must_run(s, "noise simplex");
+    must_run(s, "surface mesh file=fin.obj");
+    assert_non_null(strstr(wr_text_get(&notes),
+                           "fin.obj: 1 points have texture coordinates that are no "
+                           "numbers, or beyond 1e6, the first at 0,0,0"));
+    for (int k = 0; k < 2; k++) {
+        assert_non_null(strstr(wr_text_get(&notes), ", open"));
+        assert_non_null(strstr(wr_text_get(&notes), "; open edges: 2, the first at "));
+        assert_non_null(
+            strstr(wr_text_get(&notes), "; edges of more than two faces: 1, the first at 0,0,5"));
+        wr_text_clear(&notes);
+        must_run(s, "surface mesh projection=box crease=40");
+        assert_null(strstr(wr_text_get(&notes), "crease="));
+        must_run(s, "export stl out.stl");
+    }
+    assert_null(strstr(wr_text_get(&notes), "object"));
+    assert_null(strstr(wr_text_get(&notes), "seam")); /* of the table's edges */
+    must_run(s, "surface mesh crease=180");
+    assert_non_null(strstr(wr_text_get(&notes), "the file has no normals"));
+    assert_non_null(strstr(wr_text_get(&notes), "crease=30"));
+    wr_session_free(s);
+    wr_text_fini(&notes);
+}
+
+/* The file of a mesh is never the file of an export, by whatever name, from a script of another folder, or of an object
+   that is not active. */
+static void exports_leave_the_file_alone(void **state)
+{
+    (void)state;
+    static const char *const names[] = { "roof.obj", "./roof.obj", "link.obj" };
+    WrText notes = { 0 };
+    WrError err = { "" };
+    WrSession *s = session_with(&notes);
+    write_file("roof.obj", roof);
+    assert_int_equal(link("roof.obj", "link.obj"), 0);
+    must_run(s, "surface mesh file=roof.obj");
+    must_run(s, "object add other");
+    must_run(s, "surface torus");
+    must_run(s, "save two.exr");
+    for (int k = 0; k < 6; k++) {
+        WrSession *b = session_with(&notes);
+        char line[60];
+        if (!wr_session_open(b, "two.exr", &err)) fail_msg("%s", err.text);
+        snprintf(line, sizeof line, "export obj %s", names[k / 2]);
+        must_fail(k % 2 ? b : s, line, "choose another name");
+        wr_session_free(b);
+    }
+    wr_text_clear(&notes);
+    must_run(s, "export obj roof2.obj");
+    assert_non_null(strstr(wr_text_get(&notes), "; object 2 of 2, other"));
+    wr_text_clear(&notes);
+    must_run(s, "object choose \"object 1\"");
+    must_run(s, "export obj roof2.obj object=other");
+    assert_non_null(strstr(wr_text_get(&notes), "; object 2 of 2, other"));
+    must_run(s, "export obj roof2.obj");
+    assert_non_null(strstr(wr_text_get(&notes), "; object 1 of 2"));
+    assert_int_equal(mkdir("inner", 0700), 0);
+    write_file("inner/roof.obj", roof);
+    write_file("inner/s.wrinkle", "surface mesh file=roof.obj\n");
+    if (!wr_session_open(s, "inner/s.wrinkle", &err)) fail_msg("%s", err.text);
+    must_fail(s, "export obj inner/roof.obj", "inner/roof.obj: is a file that was read here");
+    char *bytes;
+    size_t length;
+    if (!wr_file_read("inner/roof.obj", 1 << 20, &bytes, &length, &err)) fail_msg("%s", err.text);
+    assert_int_equal(length, sizeof roof - 1);
+    assert_memory_equal(bytes, roof, length);
+    wr_free(bytes);
+    wr_session_free(s);
+    wr_text_fini(&notes);
+}
+
+/* Maps that lie by (u,v): refused without any, noted where they overlap. Relief below the error is noted with both. */
+static void maps_and_relief_that_are_lost_are_noted(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    WrSession *s = session_with(&notes);
+    write_file("roof.obj", roof);
+    write_cube("cube.stl", 10);
+    must_run(s, "table 32x32");
+    must_run(s, "noise simplex");
+    must_run(s, "bump mode=blinn height=0.004");
+    must_run(s, "surface mesh file=cube.stl");
+    must_fail(s, "export normal-baked n.png",
+              "no texture coordinates, by which maps lie on it: unwrap");
+    must_run(s, "surface mesh projection=box");
+    wr_text_clear(&notes);
+    must_run(s, "export stl out.stl error=0.03");
+    assert_non_null(strstr(wr_text_get(&notes),
+                           "mm from its lowest to its highest and error=0.03: much of it is lost"));
+    wr_text_clear(&notes);
+    must_run(s, "export stl out.stl error=0.0009");
+    assert_null(strstr(wr_text_get(&notes), "is lost"));
+    must_run(s, "surface torus");
+    must_run(s, "bump height=0.00004");
+    must_run(s, "export stl out.stl");
+    assert_non_null(strstr(wr_text_get(&notes), "and error=0.05: much of it is lost"));
+    wr_text_clear(&notes);
+    must_run(s, "surface mesh file=roof.obj"); /* both sides have the whole table */
+    must_run(s, "export normal-baked n.png");
+    assert_non_null(strstr(wr_text_get(&notes),
+                           "; 100.0% of the texture coordinates are met twice, the first at"));
+    assert_non_null(strstr(wr_text_get(&notes), "size=WIDTHxHEIGHT"));
+    wr_text_clear(&notes);
+    must_run(s, "export normal-baked n.png size=40x30");
+    assert_null(strstr(wr_text_get(&notes), "size=WIDTHxHEIGHT"));
+    wr_session_free(s);
+    wr_text_fini(&notes);
+}
+
 /* Copies share the file's mesh in a document, each with its own projection. */
 static void objects_have_their_own_projections(void **state)
 {
@@ -512,6 +680,13 @@ int main(void)
         cmocka_unit_test_setup_teardown(objects_have_their_own_projections, enter_own_folder,
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(hostile_projections_are_refused, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(a_far_mesh_returns_to_its_place, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(faults_are_noted, enter_own_folder, leave_own_folder),
+        cmocka_unit_test_setup_teardown(exports_leave_the_file_alone, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(maps_and_relief_that_are_lost_are_noted, enter_own_folder,
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(units_are_the_files, enter_own_folder, leave_own_folder),
     };

@@ -266,12 +266,85 @@ static void a_point_that_is_not_finite_is_named(void **state)
         "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
         "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
         "0 0 0\n1 0 0\n0 nan 0\n0 0 inf\n3 0 1 2\n";
-    refuse("odd.ply", nan_ply, sizeof nan_ply - 1, "point 3 is 0,nan,0: must be finite");
+    refuse("odd.ply", nan_ply, sizeof nan_ply - 1, "point 3 is 0,nan,0: coordinates are numbers");
     char stl[512];
     const float far = 3e38f;
     size_t length = tetrahedron_stl(stl);
     memcpy(stl + 84 + 12 + 4, &far, 4);
-    refuse("far.stl", stl, length, "within 1e30");
+    refuse("far.stl", stl, length, "are numbers from -1e30 to 1e30");
+    /* by its number in the file, not by the order of its use */
+    static const char nan_obj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 7 nan 2\nf 1 2 4\nf 2 3 4\n";
+    refuse("nan.obj", nan_obj, sizeof nan_obj - 1, "point 4 is 7,nan,2");
+}
+
+/* (u,v) that are no numbers are missing; how many points have them, and where the first one is. */
+static void coordinates_of_textures_that_are_no_numbers_are_counted(void **state)
+{
+    (void)state;
+    static const char obj[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 5 7\nvt 0 0\nvt 1 0\n"
+                              "vt nan 1\nvt 0 2e6\nvt 0.5 inf\n"
+                              "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\nf 1/1 2/2 5/5\n";
+    static const char ply[] =
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+        "property float z\nproperty float u\nproperty float v\nelement face 1\n"
+        "property list uchar int vertex_indices\nend_header\n"
+        "1000 0 0 0 0\n1001 0 0 1 0\n1000 1 3 nan 0\n1000 0 1 0 1\n3 0 1 2\n";
+    for (int k = 0; k < 2; k++) {
+        const char *text = k ? ply : obj;
+        WrMesh mesh = { 0 };
+        WrError err = { "" };
+        if (!wr_mesh_read_whole_bytes(k ? "a.ply" : "a.obj", text, strlen(text), &mesh, &err))
+            fail_msg("%s", err.text);
+        assert_int_equal(mesh.bad_uv, k ? 1 : 3);
+        assert_near(mesh.bad_uv_at[0], k ? 1000 : 1, 0); /* not from where the mesh was moved to */
+        assert_near(mesh.bad_uv_at[1], 1, 0);
+        assert_near(mesh.bad_uv_at[2], k ? 3 : 0, 0);
+        int missing = 0;
+        for (int32_t i = 0; i < mesh.point_count; i++)
+            missing += isnan(mesh.uv[i][0]) && isnan(mesh.uv[i][1]);
+        assert_int_equal(missing, k ? 1 : 3);
+        wr_mesh_fini(&mesh);
+    }
+}
+
+/* Files of another kind than their names. */
+static void other_contents_are_named(void **state)
+{
+    (void)state;
+    static const char png[] =
+        "\x89PNG\r\n\x1a\n-rest-of-a-picture-that-is-longer-than-a-head-of-80-"
+        "bytes-which-STL-has-rest-of-a-picture",
+                      zip[] = "PK\3\4.............................",
+                      letter[] = "Dear Sir,\nvery long lines of a letter\n";
+    char stl[512];
+    const size_t length = tetrahedron_stl(stl);
+    refuse("a.stl", png, sizeof png - 1, "is no STL file: its content is that of a PNG picture");
+    refuse("a.obj", png, sizeof png - 1, "is no OBJ file: its content is that of a PNG picture");
+    refuse("a.ply", png, sizeof png - 1, "is no PLY file: its content is that of a PNG picture");
+    refuse("a.3mf", png, sizeof png - 1, "is no 3MF file: its content is that of a PNG picture");
+    refuse("a.glb", zip, sizeof zip - 1, "is no GLB file: its content is that of a zip archive");
+    refuse("a.ply", stl, length, "is no PLY file: its content is that of an STL file");
+    refuse("a.obj", stl, length, "is no OBJ file: its content is that of an STL file");
+    refuse("b.stl", box_obj, sizeof box_obj - 1,
+           "is no STL file: its content is that of an OBJ file");
+    refuse("c.obj", letter, sizeof letter - 1, "is no OBJ file: its content is that of plain text");
+    /* the right kind, but damaged */
+    refuse("cut.stl", stl, length - 1, "cut.stl: says that it holds 4 triangles");
+    refuse("cut.3mf", zip, sizeof zip - 1, "cut.3mf: is no 3MF file, or is truncated");
+}
+
+/* 3 000 001 triangles with three points each, which STL files do not share. */
+static void an_stl_file_has_fewer_triangles(void **state)
+{
+    (void)state;
+    const uint32_t count = WR_MESH_POINTS_MAX / 3 + 1;
+    const size_t length = 84 + 50 * (size_t)count;
+    char *stl = calloc(length, 1);
+    assert_non_null(stl);
+    memcpy(stl + 80, &count, 4);
+    refuse("big.stl", stl, length, "more than 3000000 triangles");
+    refuse("big.stl", stl, length, "may have 9000000");
+    free(stl);
 }
 
 static void files_that_are_no_meshes_are_refused_with_a_reason(void **state)
@@ -280,7 +353,7 @@ static void files_that_are_no_meshes_are_refused_with_a_reason(void **state)
     static const char points[] = "v 0 0 0\nv 1 1 1\nv 2 0 0\nl 1 2 3\n";
     refuse("points.obj", points, sizeof points - 1, "points.obj: ");
     refuse("a.png", "\x89PNG\r\n\x1a\n", 8, "of a kind that can be read (.png)");
-    refuse("a.ply", "hello", 5, "cannot be read");
+    refuse("a.ply", "hel\1o", 5, "cannot be read");
     refuse("a.obj", "", 0, "0 bytes: must be");
     /* Header counts without data. */
     static const char vertices[] = "ply\nformat ascii 1.0\nelement vertex 2147483647\nend_header\n";
@@ -377,6 +450,9 @@ int main(void)
         cmocka_unit_test(the_nodes_of_a_gltf_file_are_put_where_they_belong),
         cmocka_unit_test(a_mesh_is_the_same_from_memory_from_a_file_and_inside),
         cmocka_unit_test(a_point_that_is_not_finite_is_named),
+        cmocka_unit_test(coordinates_of_textures_that_are_no_numbers_are_counted),
+        cmocka_unit_test(other_contents_are_named),
+        cmocka_unit_test(an_stl_file_has_fewer_triangles),
         cmocka_unit_test(files_that_are_no_meshes_are_refused_with_a_reason),
         cmocka_unit_test(what_a_file_points_to_is_not_opened),
         cmocka_unit_test(truncated_files_and_wild_indices_are_harmless),

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "surface/mesh_faults.h"
 #include "surface/triangles.h"
 
 #include <math.h>
@@ -134,6 +135,70 @@ static void hubs_are_bodies_too(void **state)
     wr_triangles_free(t);
     wr_free(points);
     wr_free(corners);
+}
+
+/* A box of 3 x 2 x 1 squares' corners as a body, made faulty: counts and places follow from the faces that are left out,
+   added or turned. Places may be those of any fault of the kind: the first in the mesh's order. */
+static void faults_are_counted(void **state)
+{
+    (void)state;
+    static const double origin[3] = { 10, 20, 30 }, none[3] = { 0, 0, 0 };
+    WrMeshFaults f;
+    WrError err = { "" };
+    float points[9][3];
+    int32_t corners[16][3];
+    WrTrianglesSource source = cube_source();
+    memcpy(points, source.points, 8 * sizeof *points);
+    memcpy(corners, cube_corners, sizeof cube_corners);
+    points[8][0] = 5, points[8][1] = 6, points[8][2] = 7;
+    source.points = (const float(*)[3])points, source.point_count = 9;
+    source.corners = (const int32_t(*)[3])corners;
+    for (int k = 0; k < 6; k++) {
+        const int32_t *face = corners[3];
+        /* open, crowded, turned, doubled, without area */
+        static const int32_t counts[6][WR_MESH_FAULTS] = { { 0, 0, 0, 0, 0 }, { 3, 0, 0, 0, 0 },
+                                                           { 0, 0, 3, 0, 0 }, { 0, 3, 0, 1, 0 },
+                                                           { 2, 1, 0, 0, 0 }, { 0, 0, 0, 0, 2 } };
+        memcpy(corners, cube_corners, sizeof cube_corners);
+        source.triangle_count = 12;
+        const int32_t a = face[0], b = face[1], c = face[2];
+        const int32_t turned[3] = { b, a, c }, again[3] = { c, b, a }, fin[3] = { a, b, 8 };
+        const int32_t flat[2][3] = { { a, b, b }, { c, c, c } };
+        if (k == 1) memcpy(corners[3], corners[11], sizeof *corners), source.triangle_count--;
+        if (k == 2) memcpy(corners[3], turned, sizeof turned);
+        if (k == 3) memcpy(corners[source.triangle_count++], again, sizeof again);
+        if (k == 4) memcpy(corners[source.triangle_count++], fin, sizeof fin);
+        if (k == 5) memcpy(corners[12], flat, sizeof flat), source.triangle_count += 2;
+        WrTriangles *t = make(&source);
+        if (!wr_mesh_faults_find(t, k == 1 ? origin : none, &f, &err)) fail_msg("%s", err.text);
+        for (int i = 0; i < WR_MESH_FAULTS; i++) {
+            if (f.count[i] != counts[k][i])
+                fail_msg("case %d: %d %s", k, (int)f.count[i], wr_mesh_fault_rows[i].label);
+            assert_int_equal(f.placed[i], f.count[i] > 0);
+        }
+        WrVec3 p[4];
+        for (int i = 0; i < 4; i++) {
+            const float *at = points[i < 3 ? cube_corners[3][i] : 8];
+            p[i] = (WrVec3){ (double)at[0], (double)at[1], (double)at[2] };
+        }
+        if (k == 1) { /* the middle of a side of the missing face */
+            const WrVec3 at = { f.at[0].x - 10, f.at[0].y - 20, f.at[0].z - 30 };
+            double nearest = INFINITY;
+            for (int i = 0; i < 3; i++)
+                nearest =
+                    fmin(nearest, v3_len(v3_sub(at, v3_scale(v3_add(p[i], p[(i + 1) % 3]), 0.5))));
+            assert_near(nearest, 0, 1e-6);
+        }
+        if (k == 3) {
+            const WrVec3 middle = v3_scale(v3_add(v3_add(p[0], p[1]), p[2]), 1 / 3.0);
+            assert_near(v3_len(v3_sub(f.at[WR_MESH_FAULT_DOUBLED], middle)), 0, 1e-6);
+        }
+        if (k == 4)
+            assert_near(
+                v3_len(v3_sub(f.at[WR_MESH_FAULT_CROWDED], v3_scale(v3_add(p[0], p[1]), 0.5))), 0,
+                1e-6);
+        wr_triangles_free(t);
+    }
 }
 
 /* HC136: a normal that is 0 or NaN is replaced by that of the adjacent faces, and counted. */
@@ -300,13 +365,15 @@ static void documents_bring_it_back(void **state)
 static void overlaps_are_told(void **state)
 {
     (void)state;
-    int32_t outside;
     WrTriangles *once = strip(8, 1), *twice = strip(8, 2), *half = strip(8, 1.5);
-    assert_near(wr_triangles_overlap(once, 64, &outside), 0, 0);
-    assert_int_equal(outside, 0);
-    assert_near(wr_triangles_overlap(twice, 64, &outside), 1, 0);
-    assert_true(outside >= 8);
-    assert_near(wr_triangles_overlap(half, 64, NULL), 0.5, 1e-9);
+    assert_near(wr_triangles_overlap(once, 64).share, 0, 0);
+    assert_int_equal(wr_triangles_overlap(once, 64).outside, 0);
+    assert_near(wr_triangles_overlap(twice, 64).share, 1, 0);
+    assert_true(wr_triangles_overlap(twice, 64).outside >= 8);
+    const WrUvOverlap part = wr_triangles_overlap(half, 64);
+    assert_near(part.share, 0.5, 1e-9);
+    assert_near(part.at[0], 0.5 / 64, 1e-12); /* u of 1 .. 1.5 is that of 0 .. 0.5 */
+    assert_near(part.at[1], 0.5 / 64, 1e-12);
     wr_triangles_free(once);
     wr_triangles_free(twice);
     wr_triangles_free(half);
@@ -341,6 +408,7 @@ int main(void)
         cmocka_unit_test(a_cube_is_a_body),
         cmocka_unit_test(bodies_are_told),
         cmocka_unit_test(hubs_are_bodies_too),
+        cmocka_unit_test(faults_are_counted),
         cmocka_unit_test(bad_normals_are_mended),
         cmocka_unit_test(empty_triangles_are_left_out),
         cmocka_unit_test(the_longest_edge_is_opposite),

@@ -1,0 +1,155 @@
+#include "surface/mesh_faults.h"
+
+#include "base/enum_rows.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "surface/triangles.h"
+
+#include <string.h>
+
+WR_ROWS(wr_mesh_fault_rows);
+const WrMeshFaultRow wr_mesh_fault_rows[WR_MESH_FAULTS] = {
+    [WR_ROW(WR_MESH_FAULT_OPEN)] = { "open", "open edges" },
+    [WR_ROW(WR_MESH_FAULT_CROWDED)] = { "crowded", "edges of more than two faces" },
+    [WR_ROW(WR_MESH_FAULT_TURNED)] = { "turned", "edges between faces of opposite orientation" },
+    [WR_ROW(WR_MESH_FAULT_DOUBLED)] = { "doubled", "doubled faces" },
+    [WR_ROW(WR_MESH_FAULT_NO_AREA)] = { "no_area", "faces without area, left out" },
+};
+WR_ROWS_END(wr_mesh_fault_rows, WR_MESH_FAULTS);
+
+static WrVec3 vector_of(const float p[3])
+{
+    return (WrVec3){ (double)p[0], (double)p[1], (double)p[2] };
+}
+
+static void add(WrMeshFaults *out, WrMeshFault fault, WrVec3 at)
+{
+    if (out->count[fault]++ > 0) return;
+    out->at[fault] = at;
+    out->placed[fault] = true;
+}
+
+static WrVec3 corner_of(const WrTriangles *mesh, int32_t triangle, int k)
+{
+    return vector_of(mesh->corners[mesh->triangles[triangle].corner[k]].p);
+}
+
+static void order(int32_t *a, int32_t *b)
+{
+    const int32_t low = *a < *b ? *a : *b, high = *a < *b ? *b : *a;
+    *a = low, *b = high;
+}
+
+/* place: corner -> position. */
+static bool find_doubled(const WrTriangles *mesh, const int32_t *place, WrMeshFaults *out,
+                         WrError *err)
+{
+    const int32_t count = mesh->triangle_count;
+    int32_t kinds, seen = 0;
+    int32_t(*key)[3] = wr_try_alloc((size_t)count, sizeof *key, "a mesh's faces", err);
+    int32_t *kind = key ? wr_try_alloc((size_t)count, sizeof *kind, "a mesh's faces", err) : NULL;
+    for (int32_t i = 0; i < count && kind; i++) {
+        for (int k = 0; k < 3; k++) key[i][k] = place[mesh->triangles[i].corner[k]];
+        order(&key[i][0], &key[i][1]);
+        order(&key[i][1], &key[i][2]);
+        order(&key[i][0], &key[i][1]);
+    }
+    const bool good = kind && wr_weld(key, sizeof *key, count, kind, &kinds, err);
+    for (int32_t i = 0; i < count && good; i++) {
+        const WrVec3 sum =
+            v3_add(v3_add(corner_of(mesh, i, 0), corner_of(mesh, i, 1)), corner_of(mesh, i, 2));
+        if (kind[i] == seen) seen++; /* kinds are numbered by first appearance */
+        else add(out, WR_MESH_FAULT_DOUBLED, v3_scale(sum, 1.0 / 3));
+    }
+    wr_free(key);
+    wr_free(kind);
+    return good;
+}
+
+/* Faces that have an edge in its rising direction of positions, and in the falling one. */
+typedef struct Uses {
+    int32_t rising, falling;
+} Uses;
+
+/* Each edge counts at its first half-edge; its uses are cleared then. */
+static void count_edges(const WrTriangles *mesh, const int32_t *edge, Uses *uses, WrMeshFaults *out)
+{
+    for (int32_t h = 0; h < 3 * mesh->triangle_count; h++) {
+        const Uses is = uses[edge[h]];
+        const int32_t all = is.rising + is.falling;
+        uses[edge[h]] = (Uses){ 0, 0 };
+        if (all == 0 || (is.rising == 1 && is.falling == 1)) continue;
+        const WrVec3 ends =
+            v3_add(corner_of(mesh, h / 3, h % 3), corner_of(mesh, h / 3, (h + 1) % 3));
+        add(out,
+            all == 1   ? WR_MESH_FAULT_OPEN
+            : all == 2 ? WR_MESH_FAULT_TURNED
+                       : WR_MESH_FAULT_CROWDED,
+            v3_scale(ends, 0.5));
+    }
+}
+
+static bool find_edges(const WrTriangles *mesh, const int32_t *place, WrMeshFaults *out,
+                       WrError *err)
+{
+    const int32_t halves = 3 * mesh->triangle_count;
+    int32_t count;
+    int32_t(*ends)[2] = wr_try_alloc((size_t)halves, sizeof *ends, "a mesh's edges", err);
+    int32_t *edge = ends ? wr_try_alloc((size_t)halves, sizeof *edge, "a mesh's edges", err) : NULL;
+    for (int32_t h = 0; h < halves && edge; h++) {
+        const int32_t *c = mesh->triangles[h / 3].corner;
+        ends[h][0] = place[c[h % 3]], ends[h][1] = place[c[(h + 1) % 3]];
+        order(&ends[h][0], &ends[h][1]);
+    }
+    const bool welded = edge && wr_weld(ends, sizeof *ends, halves, edge, &count, err);
+    Uses *uses = welded ? wr_try_alloc((size_t)count, sizeof *uses, "a mesh's edges", err) : NULL;
+    for (int32_t h = 0; h < halves && uses; h++) {
+        const bool rises = place[mesh->triangles[h / 3].corner[h % 3]] == ends[h][0];
+        *(rises ? &uses[edge[h]].rising : &uses[edge[h]].falling) += 1;
+    }
+    if (uses) count_edges(mesh, edge, uses, out);
+    wr_free(uses);
+    wr_free(edge);
+    wr_free(ends);
+    return uses != NULL;
+}
+
+static bool find_all(const WrTriangles *mesh, WrMeshFaults *out, WrError *err)
+{
+    const WrTrianglesReport *report = &mesh->report;
+    int32_t places;
+    *out = (WrMeshFaults){ .count[WR_MESH_FAULT_NO_AREA] = report->no_area,
+                           .at[WR_MESH_FAULT_NO_AREA] = vector_of(report->no_area_at),
+                           .placed[WR_MESH_FAULT_NO_AREA] = report->no_area_known };
+    if (mesh->closed) return true;
+    float(*p)[3] = wr_try_alloc((size_t)mesh->corner_count, sizeof *p, "a mesh's edges", err);
+    int32_t *place =
+        p ? wr_try_alloc((size_t)mesh->corner_count, sizeof *place, "a mesh's edges", err) : NULL;
+    for (int32_t i = 0; i < mesh->corner_count && place; i++)
+        memcpy(p[i], mesh->corners[i].p, sizeof p[i]);
+    const bool good = place && wr_weld(p, sizeof *p, mesh->corner_count, place, &places, err) &&
+                      find_doubled(mesh, place, out, err) && find_edges(mesh, place, out, err);
+    wr_free(place);
+    wr_free(p);
+    return good;
+}
+
+bool wr_mesh_faults_find(const WrTriangles *mesh, const double origin[3], WrMeshFaults *out,
+                         WrError *err)
+{
+    if (!find_all(mesh, out, err)) return false;
+    for (int i = 0; i < WR_MESH_FAULTS; i++)
+        out->at[i] = v3_add(out->at[i], (WrVec3){ origin[0], origin[1], origin[2] });
+    return true;
+}
+
+void wr_mesh_faults_text(const WrMeshFaults *faults, WrText *text)
+{
+    for (int i = 0; i < WR_MESH_FAULTS; i++) {
+        const WrVec3 at = faults->at[i];
+        if (faults->count[i] == 0) continue;
+        wr_text_addf(text, "; %s: %d", wr_mesh_fault_rows[i].label, (int)faults->count[i]);
+        if (faults->placed[i])
+            wr_text_addf(text, ", the first at %.7g,%.7g,%.7g", at.x, at.y, at.z);
+    }
+}
