@@ -5,6 +5,7 @@
 #include "image/image.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
+#include "surface/relief_weights.h"
 #include "surface/triangles.h"
 
 #include <math.h>
@@ -73,8 +74,9 @@ bool wr_scene_project(WrScene *scene, const WrProjection *projection, WrError *e
 bool wr_scene_projected(const WrScene *scene)
 {
     const WrProjection *p = &scene->projection;
-    return scene->triangles && (p->kind != WR_PROJECTION_UV || p->crease_deg < WR_CREASE_NONE ||
-                                p->unit != unit_of(scene->triangles_path));
+    return scene->triangles &&
+           (p->kind != WR_PROJECTION_UV || p->crease_deg < WR_CREASE_NONE ||
+            wr_relief_is_weighted(p) || p->unit != unit_of(scene->triangles_path));
 }
 
 size_t wr_scene_mesh_bytes(const WrTriangles *triangles)
