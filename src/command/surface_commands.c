@@ -21,6 +21,7 @@
 #include "surface/data.h"
 #include "surface/patches.h"
 #include "surface/projection.h"
+#include "surface/relief_weights.h"
 #include "surface/terrain.h"
 #include "surface/triangles.h"
 
@@ -530,13 +531,30 @@ static bool note_projection(WrSession *session, const WrScene *scene, WrError *e
     return true;
 }
 
+/* Triangles that have relief at their centres. */
+static void note_masks(WrSession *session, const WrScene *scene)
+{
+    const WrProjection *is = &scene->projection;
+    const WrTriangles *mesh = scene->triangles;
+    WrReliefTap taps[WR_RELIEF_TAPS];
+    int32_t count = 0;
+    if (is->facing == WR_FACING_ANY && !*is->materials) return;
+    for (int32_t i = 0; i < mesh->triangle_count; i++)
+        count += wr_relief_taps(mesh, i, 1.0 / 3, 1.0 / 3, taps) > 0;
+    wr_session_note(session, "masks leave relief on %d of %d triangles", (int)count,
+                    (int)mesh->triangle_count);
+}
+
 /* Apply the projection of the call to the scene's mesh. */
 static bool run_projection(WrSession *session, const WrCall *call, WrScene *scene, WrError *err)
 {
     WrProjection projection = scene->projection;
     if (scene->shape.kind != WR_SURFACE_mesh) return true;
-    return take_projection(call, &projection, err) && wr_scene_project(scene, &projection, err) &&
-           (session->loading || note_projection(session, scene, err));
+    if (!take_projection(call, &projection, err) || !wr_scene_project(scene, &projection, err))
+        return false;
+    if (session->loading) return true;
+    note_masks(session, scene);
+    return note_projection(session, scene, err);
 }
 
 static WrTriangles *find_mesh(WrSession *session, WrCall *call, const WrShape *shape,

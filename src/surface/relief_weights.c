@@ -134,8 +134,7 @@ static void mark_facing(WrReliefWeights *w, const WrTriangles *mesh, WrFacing fa
 
 /* ---- materials ---- */
 
-/* The number of a part's name in the list; 0: not in it. One of no such name may be the part's number, from 1. */
-static bool is_listed(const char *list, const WrTriangles *mesh, int32_t part)
+bool wr_relief_lists(const char *list, const WrTriangles *mesh, int32_t part)
 {
     const char *name = mesh->parts[part].name;
     char number[16];
@@ -155,19 +154,19 @@ static bool is_listed(const char *list, const WrTriangles *mesh, int32_t part)
 static bool has_part(const WrTriangles *mesh, const char *name)
 {
     for (int32_t i = 0; i < mesh->part_count; i++)
-        if (is_listed(name, mesh, i)) return true;
+        if (wr_relief_lists(name, mesh, i)) return true;
     return false;
 }
 
 static bool fail_material(const WrTriangles *mesh, const char *name, WrError *err)
 {
     WrText text = { 0 };
-    wr_text_addf(&text, "materials=%s: the mesh has no such material; it has ", name);
     for (int32_t i = 0; i < mesh->part_count && i < LISTED; i++)
         wr_text_addf(&text, "%s%d %s", i ? ", " : "", (int)i + 1,
                      *mesh->parts[i].name ? mesh->parts[i].name : "(unnamed)");
     if (mesh->part_count > LISTED) wr_text_addf(&text, ", ... %d in all", (int)mesh->part_count);
-    wr_fail(err, "%s", wr_text_get(&text));
+    wr_fail(err, "materials=%s: the mesh has no such material; it has %s", name,
+            wr_text_get(&text));
     wr_text_fini(&text);
     return false;
 }
@@ -190,7 +189,7 @@ static void mark_materials(WrReliefWeights *w, const WrTriangles *mesh, const ch
 {
     for (int32_t i = 0; i < mesh->part_count; i++) {
         const WrTrianglePart *part = &mesh->parts[i];
-        const bool listed = is_listed(list, mesh, i);
+        const bool listed = wr_relief_lists(list, mesh, i);
         for (int32_t k = part->first; k < part->first + part->count; k++) w->covers[k] &= listed;
     }
 }

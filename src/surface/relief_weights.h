@@ -50,6 +50,8 @@ bool wr_relief_is_weighted(const WrProjection *projection);
 WrReliefWeights *wr_relief_weights_new(const WrTriangles *mesh, const WrProjection *projection,
                                        const WrProjectionFrame *frame, WrError *err);
 void wr_relief_weights_free(WrReliefWeights *weights);
+/* True if the part is in a list of materials, by its name or its number from 1. */
+bool wr_relief_lists(const char *list, const WrTriangles *mesh, int32_t part);
 /* True if F runs on across edges where (u,v) does not. */
 bool wr_relief_is_blended(const WrTriangles *mesh);
 /* False if m is 0 on the whole face. */
