@@ -31,7 +31,8 @@ static void toggle_part(WrApp *app, int32_t part)
         const char *name = mesh->parts[i].name;
         const bool same = i == part || (*name && strcmp(name, mesh->parts[part].name) == 0);
         if (is_listed(scene, i) == same) continue;
-        if (count++ > 0) wr_text_add(&list, ",");
+        if (count++ > 0 && wr_relief_lists(wr_text_get(&list), mesh, i)) continue; /* same name */
+        if (count > 1) wr_text_add(&list, ",");
         if (*name && !strchr(name, ',')) wr_text_add(&list, name);
         else wr_text_addf(&list, "%d", (int)i + 1);
     }
@@ -47,7 +48,7 @@ static void part_list(WrApp *app, const WrTriangles *mesh)
     if (!wr_gui_popup_begin("mesh materials")) return;
     wr_gui_width_at_least(200);
     wr_gui_list_begin("##parts",
-                      wr_gui_px(26.0 * (mesh->part_count < 10 ? mesh->part_count : 10) + 14));
+                      wr_gui_px(30.0 * (mesh->part_count < 10 ? mesh->part_count : 10) + 14));
     for (int32_t i = 0; i < mesh->part_count; i++) {
         char label[WR_TRIANGLE_NAME + 16];
         bool on = is_listed(wr_app_scene(app), i);
