@@ -44,15 +44,15 @@ static const WrTriangleCorner *corner_of(const WrTriangles *mesh, int32_t face, 
     return &mesh->corners[mesh->triangles[face].corner[k]];
 }
 
-static SlopedVector interpolate(const float a[3], const float b[3], const float c[3], double b1,
-                                double b2)
+static inline SlopedVector interpolate(const float a[3], const float b[3], const float c[3],
+                                       double b1, double b2)
 {
     const WrVec3 p = vector_of(a), e1 = v3_sub(vector_of(b), p), e2 = v3_sub(vector_of(c), p);
     return (SlopedVector){ v3_mad(v3_mad(p, e1, b1), e2, b2), { e1, e2 } };
 }
 
 /* x / |x|: its derivative is that of x across x, divided by |x|. */
-static SlopedVector unit_of(SlopedVector a)
+static inline SlopedVector unit_of(SlopedVector a)
 {
     const double length = v3_len(a.x);
     const WrVec3 none = { 0, 0, 0 };
@@ -64,7 +64,7 @@ static SlopedVector unit_of(SlopedVector a)
     return out;
 }
 
-static Sloped dot(SlopedVector a, SlopedVector b)
+static inline Sloped dot(SlopedVector a, SlopedVector b)
 {
     return (Sloped){ v3_dot(a.x, b.x),
                      { v3_dot(a.b[0], b.x) + v3_dot(a.x, b.b[0]),
@@ -72,7 +72,7 @@ static Sloped dot(SlopedVector a, SlopedVector b)
 }
 
 /* S((x - low) / (high - low)) */
-static Sloped smooth_step(Sloped x, double low, double high)
+static inline Sloped smooth_step(Sloped x, double low, double high)
 {
     const double t = (x.x - low) / (high - low), slope = 6 * t * (1 - t) / (high - low);
     if (!(t > 0)) return (Sloped){ 0, { 0, 0 } };
@@ -88,7 +88,7 @@ static WrVec3 without(WrVec3 v, WrVec3 axis)
 }
 
 /* The direction d at P. */
-static SlopedVector way_at(const WrReliefWeights *w, WrFacing facing, SlopedVector p)
+static inline SlopedVector way_at(const WrReliefWeights *w, WrFacing facing, SlopedVector p)
 {
     const WrVec3 none = { 0, 0, 0 };
     if (facing < WR_FACING_OUT) {
@@ -106,7 +106,7 @@ static SlopedVector way_at(const WrReliefWeights *w, WrFacing facing, SlopedVect
     return (SlopedVector){ v3_neg(r.x), { v3_neg(r.b[0]), v3_neg(r.b[1]) } };
 }
 
-static SlopedVector place_of(const WrTriangles *mesh, int32_t face, double b1, double b2)
+static inline SlopedVector place_of(const WrTriangles *mesh, int32_t face, double b1, double b2)
 {
     return interpolate(corner_of(mesh, face, 0)->p, corner_of(mesh, face, 1)->p,
                        corner_of(mesh, face, 2)->p, b1, b2);
