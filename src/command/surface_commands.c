@@ -23,6 +23,7 @@
 #include "surface/mesh_faults.h"
 #include "surface/patches.h"
 #include "surface/projection.h"
+#include "surface/relief_weights.h"
 #include "surface/terrain.h"
 #include "surface/triangles.h"
 #include "surface/uv_tiles.h"
@@ -503,10 +504,44 @@ static bool names_projection(const WrCall *call)
     return wr_call_given(call, "udim") || wr_call_given(call, "projection") ||
            wr_call_given(call, "cell") || wr_call_given(call, "turn") ||
            wr_call_given(call, "at") || wr_call_given(call, "unit") ||
-           wr_call_given(call, "origin") || wr_call_given(call, "crease");
+           wr_call_given(call, "origin") || wr_call_given(call, "crease") ||
+           wr_call_given(call, "facing") || wr_call_given(call, "angle") ||
+           wr_call_given(call, "soft") || wr_call_given(call, "materials") ||
+           wr_call_given(call, "blend");
 }
 
-static void take_projection(const WrCall *call, WrProjection *to)
+static bool take_masks(const WrCall *call, WrProjection *to, WrError *err)
+{
+    if (wr_call_given(call, "facing")) to->facing = (WrFacing)wr_call_choice(call, "facing");
+    if (wr_call_given(call, "angle")) to->facing_deg = wr_call_number(call, "angle");
+    if (wr_call_given(call, "soft")) to->facing_soft_deg = wr_call_number(call, "soft");
+    if (wr_call_given(call, "blend")) to->blend = wr_call_number(call, "blend");
+    if (wr_call_given(call, "materials")) {
+        const char *list = wr_call_arg(call, "materials")->text;
+        if (strlen(list) >= sizeof to->materials)
+            return wr_fail(err, "materials=: the list is longer than %d bytes; give numbers",
+                           (int)sizeof to->materials - 1);
+        strcpy(to->materials, list);
+    }
+    return true;
+}
+
+/* Settings without a meaning take their defaults, so that what is printed is all there is. */
+static void drop_unused(WrProjection *to)
+{
+    const WrProjection none = wr_projection_default;
+    if (to->facing == WR_FACING_ANY)
+        to->facing_deg = none.facing_deg, to->facing_soft_deg = none.facing_soft_deg;
+    if (to->kind != WR_PROJECTION_BOX) to->blend = none.blend;
+    if (to->kind != WR_PROJECTION_UV) return;
+    memcpy(to->cell, none.cell, sizeof to->cell);
+    if (to->facing != WR_FACING_ANY) return; /* it is along the projection's axes */
+    memcpy(to->turn_deg, none.turn_deg, sizeof to->turn_deg);
+    memcpy(to->at, none.at, sizeof to->at);
+    to->placed = false;
+}
+
+static bool take_projection(const WrCall *call, WrProjection *to, WrError *err)
 {
     const WrArg *cell = wr_call_arg(call, "cell");
     if (wr_call_given(call, "projection"))
@@ -524,14 +559,12 @@ static void take_projection(const WrCall *call, WrProjection *to)
     if (wr_call_given(call, "crease")) to->crease_deg = wr_call_number(call, "crease");
     if (wr_call_given(call, "udim")) to->udim = udim_of(call);
     else if (to->kind != WR_PROJECTION_UV) to->udim = 0;
-    if (to->kind != WR_PROJECTION_UV) return;
-    const WrProjection none =
-        wr_projection_default; /* without a meaning for the file's own (u,v) */
-    *to = (WrProjection){ .cell = { none.cell[0], none.cell[1] },
-                          .unit = to->unit,
-                          .udim = to->udim,
-                          .origin = { to->origin[0], to->origin[1], to->origin[2] },
-                          .crease_deg = to->crease_deg };
+    if (to->udim && to->kind != WR_PROJECTION_UV)
+        return wr_fail(err, "udim=%d: a projection makes no tiles; the file's own (u,v) have them",
+                       to->udim);
+    if (!take_masks(call, to, err)) return false;
+    drop_unused(to);
+    return true;
 }
 
 /* Use the file's mesh of the active object with another projection, since the file may have moved. */
@@ -583,17 +616,30 @@ static bool note_projection(WrSession *session, const WrScene *scene, WrError *e
     return true;
 }
 
+/* Triangles that have relief at their centres. */
+static void note_masks(WrSession *session, const WrScene *scene)
+{
+    const WrProjection *is = &scene->projection;
+    const WrTriangles *mesh = scene->triangles;
+    WrReliefTap taps[WR_RELIEF_TAPS];
+    int32_t count = 0;
+    if (is->facing == WR_FACING_ANY && !*is->materials) return;
+    for (int32_t i = 0; i < mesh->triangle_count; i++)
+        count += wr_relief_taps(mesh, i, 1.0 / 3, 1.0 / 3, taps) > 0;
+    wr_session_note(session, "masks leave relief on %d of %d triangles", (int)count,
+                    (int)mesh->triangle_count);
+}
+
 /* Apply the projection of the call to the scene's mesh. */
 static bool run_projection(WrSession *session, const WrCall *call, WrScene *scene, WrError *err)
 {
     WrProjection projection = scene->projection;
     if (scene->shape.kind != WR_SURFACE_mesh) return true;
-    take_projection(call, &projection);
-    if (projection.udim && projection.kind != WR_PROJECTION_UV)
-        return wr_fail(err, "udim=%d: a projection makes no tiles; the file's own (u,v) have them",
-                       projection.udim);
-    return wr_scene_project(scene, &projection, err) &&
-           (session->loading || note_projection(session, scene, err));
+    if (!take_projection(call, &projection, err) || !wr_scene_project(scene, &projection, err))
+        return false;
+    if (session->loading) return true;
+    note_masks(session, scene);
+    return note_projection(session, scene, err);
 }
 
 static WrTriangles *find_mesh(WrSession *session, WrCall *call, const WrShape *shape,
@@ -684,6 +730,18 @@ static void add_numbers(WrText *text, const char *name, const double *numbers, i
     }
 }
 
+static void print_masks(const WrProjection *is, WrText *text)
+{
+    if (is->facing != WR_FACING_ANY) {
+        wr_text_addf(text, " facing=%s", wr_facing_names[is->facing]);
+        add_numbers(text, "angle", &is->facing_deg, 1, "");
+        if (is->facing_soft_deg > 0) add_numbers(text, "soft", &is->facing_soft_deg, 1, "");
+    }
+    if (!*is->materials) return;
+    wr_text_add(text, " materials=");
+    wr_text_add_word(text, is->materials);
+}
+
 static void print_projection(const WrScene *scene, WrText *text)
 {
     const WrProjection *is = &scene->projection;
@@ -691,16 +749,18 @@ static void print_projection(const WrScene *scene, WrText *text)
     if (is->kind != WR_PROJECTION_UV) {
         wr_text_addf(text, " projection=%s", wr_projection_names[is->kind]);
         add_numbers(text, "cell", is->cell, is->cell[0] == is->cell[1] ? 1 : 2, "mm");
-        if (is->turn_deg[0] != 0 || is->turn_deg[1] != 0 || is->turn_deg[2] != 0)
-            add_numbers(text, "turn", is->turn_deg, 3, "");
-        if (is->placed) add_numbers(text, "at", is->at, 3, "");
+        if (is->blend > 0) add_numbers(text, "blend", &is->blend, 1, "");
     }
     if (is->udim) wr_text_addf(text, " udim=%d", is->udim);
+    if (is->turn_deg[0] != 0 || is->turn_deg[1] != 0 || is->turn_deg[2] != 0)
+        add_numbers(text, "turn", is->turn_deg, 3, "");
+    if (is->placed) add_numbers(text, "at", is->at, 3, "");
     if (is->unit != WR_UNIT_UNKNOWN)
         wr_text_addf(text, " unit=%s", wr_length_units[is->unit - WR_UNIT_MM]);
     if (is->origin[0] != 0 || is->origin[1] != 0 || is->origin[2] != 0)
         add_numbers(text, "origin", is->origin, 3, "");
     if (is->crease_deg < WR_CREASE_NONE) add_numbers(text, "crease", &is->crease_deg, 1, "");
+    print_masks(is, text);
 }
 
 static void print_mesh(const WrScene *scene, bool content, WrText *text)
@@ -776,6 +836,39 @@ static const WrArgSpec projection_args[] = {
       .unit = "degrees",
       .help = "below 180 normals are made anew: faces that meet at more than this have separate "
               "ones, others smooth ones; 180: those of the file" },
+    { .name = "blend",
+      .type = WR_ARG_NUMBER,
+      .high = 1,
+      .fallback = &wr_projection_default.blend,
+      .help =
+          "of a box's planes: width of the zone in which the heights of two or three are mixed, "
+          "so that the relief runs on across their borders; 0: each triangle has one plane" },
+    { .name = "facing",
+      .type = WR_ARG_CHOICE,
+      .words = wr_facing_names,
+      .fallback_text = "any",
+      .help =
+          "relief only where the mesh faces along this axis of the projection; out and in: from "
+          "and to its z axis, of a spherical one its centre" },
+    { .name = "angle",
+      .type = WR_ARG_NUMBER,
+      .high = 180,
+      .fallback = &wr_projection_default.facing_deg,
+      .unit = "degrees",
+      .help = "of facing=: the largest one between normal and direction" },
+    { .name = "soft",
+      .type = WR_ARG_NUMBER,
+      .high = 180,
+      .fallback = &wr_projection_default.facing_soft_deg,
+      .unit = "degrees",
+      .help = "of facing=: relief fades out over so many beyond the angle; 0: whole triangles have "
+              "it or not" },
+    { .name = "materials",
+      .type = WR_ARG_TEXT,
+      .shape = "NAME,...",
+      .may_be_empty = true,
+      .help = "relief only on these materials or parts of the file, by names or numbers, from 1; "
+              "\"\": on all" },
 };
 
 static void form_mesh(WrSurfaceKind kind, WrArgSpec *args)

@@ -131,7 +131,7 @@ typedef enum WrSceneAge {
     WR_SCENE_OF_CELL, /* the cell's size, solid textures, tone, relief shadows, displacement */
     /* roughness and metalness pictures, occlusion, area lamps, hollows, sheets, frames */
     WR_SCENE_OF_FACETS,
-    WR_SCENE_OF_PROJECTION /* projections, creases and units of meshes */
+    WR_SCENE_OF_PROJECTION /* projections, creases, units and masks of meshes */
 } WrSceneAge;
 
 /* The newest feature in the scene that differs from its default in older programs. */

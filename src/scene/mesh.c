@@ -5,6 +5,7 @@
 #include "image/image.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
+#include "surface/relief_weights.h"
 #include "surface/triangles.h"
 #include "surface/uv_tiles.h"
 
@@ -57,11 +58,13 @@ static const WrTriangles *source_of(const WrScene *scene)
     return scene->mesh_source ? scene->mesh_source : scene->triangles;
 }
 
-static WrTriangles *tile_of(WrTriangles *mesh, int udim, WrError *err)
+/* The tile comes first, so that masks and creases are those of the mesh that is shown. */
+static WrTriangles *project(const WrTriangles *source, const WrProjection *projection, WrError *err)
 {
-    if (!mesh || udim == 0) return mesh;
-    WrTriangles *made = wr_triangles_of_tile(mesh, udim, err);
-    wr_triangles_free(mesh);
+    WrTriangles *tile = projection->udim ? wr_triangles_of_tile(source, projection->udim, err)
+                                         : wr_triangles_share(source);
+    WrTriangles *made = tile ? wr_triangles_project(tile, projection, err) : NULL;
+    wr_triangles_free(tile);
     return made;
 }
 
@@ -73,8 +76,7 @@ WrTriangles *wr_scene_whole_mesh(const WrScene *scene, WrError *err)
 
 bool wr_scene_project(WrScene *scene, const WrProjection *projection, WrError *err)
 {
-    WrTriangles *made =
-        tile_of(wr_triangles_project(source_of(scene), projection, err), projection->udim, err);
+    WrTriangles *made = project(source_of(scene), projection, err);
     if (!made) return false;
     if (!scene->mesh_source) scene->mesh_source = wr_triangles_share(scene->triangles);
     hold(scene, made);
@@ -89,9 +91,10 @@ bool wr_scene_project(WrScene *scene, const WrProjection *projection, WrError *e
 bool wr_scene_projected(const WrScene *scene)
 {
     const WrProjection *p = &scene->projection;
-    return scene->triangles && (p->kind != WR_PROJECTION_UV || p->crease_deg < WR_CREASE_NONE ||
-                                p->udim != 0 || p->unit != unit_of(scene->triangles_path) ||
-                                p->origin[0] != 0 || p->origin[1] != 0 || p->origin[2] != 0);
+    return scene->triangles &&
+           (p->kind != WR_PROJECTION_UV || p->crease_deg < WR_CREASE_NONE ||
+            wr_relief_is_weighted(p) || p->udim != 0 || p->unit != unit_of(scene->triangles_path) ||
+            p->origin[0] != 0 || p->origin[1] != 0 || p->origin[2] != 0);
 }
 
 size_t wr_scene_mesh_bytes(const WrTriangles *triangles)

@@ -12,6 +12,7 @@
 #include "scene/tone_mapping.h"
 #include "shade/slope.h"
 #include "surface/data.h"
+#include "surface/relief_weights.h"
 #include "surface/triangles.h"
 
 #include <float.h>
@@ -515,6 +516,21 @@ void wr_scene_heights(const WrScene *scene, const WrField *field, int count, con
         wr_field_sample(field, scene->scheme, (size_t)n, x, y, f + from, NULL, NULL);
         for (int i = from; i < from + n; i++) f[i] = wr_slope_bounded(scene->height * f[i]);
     }
+}
+
+void wr_scene_weighted_height(const WrScene *scene, const WrField *field, const WrTriangles *mesh,
+                              int32_t face, double b1, double b2, double *f, double *fu, double *fv)
+{
+    WrReliefTap taps[WR_RELIEF_TAPS];
+    WrReliefSum sum = { 0 };
+    const int count = wr_relief_taps(mesh, face, b1, b2, taps);
+    for (int k = 0; k < count; k++) {
+        double t, tu, tv;
+        wr_scene_height(scene, field, taps[k].u, taps[k].v, &t, &tu, &tv);
+        wr_relief_add(&sum, &taps[k], t, tu, tv);
+    }
+    *f = sum.f;
+    wr_relief_slopes(mesh, face, &sum, fu, fv);
 }
 
 /* The part of a material that its tables of albedo depend on. */

@@ -294,10 +294,15 @@ WrVec3 wr_place_dual_back(const WrPlacement *place, WrVec3 world);
  * factors height, height ru, height rv. */
 void wr_scene_height(const WrScene *scene, const WrField *field, double u, double v, double *f,
                      double *fu, double *fv);
-/* Only F at `count` positions, with the same bits. */
+/* Only F at `count` positions, with the same bits. Runs of up to WR_HEIGHTS_RUN are the fastest. */
 #define WR_HEIGHTS_RUN 256
 void wr_scene_heights(const WrScene *scene, const WrField *field, int count, const double *u,
                       const double *v, double *f);
+/* F at a place of a face, of a mesh with weights (relief_weights.h): b1, b2 of its corners 1 and 2; and its slopes by
+ * the face's own u and v. */
+void wr_scene_weighted_height(const WrScene *scene, const WrField *field, const WrTriangles *mesh,
+                              int32_t face, double b1, double b2, double *f, double *fu,
+                              double *fv);
 
 /* Coefficients of a material's formulas. */
 void wr_scene_matter(const WrMaterial *material, WrMatter *matter);

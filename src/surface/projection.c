@@ -1,9 +1,11 @@
 #include "surface/projection.h"
 
+#include "surface/relief_weights.h"
 #include "surface/triangles_internal.h"
 
 #include "base/error.h"
 #include "base/exactmath.h"
+#include "base/hash.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -20,7 +22,11 @@
 
 const char *const wr_projection_names[WR_PROJECTIONS + 1] = { "uv",          "planar",    "box",
                                                               "cylindrical", "spherical", NULL };
-const WrProjection wr_projection_default = { .cell = { 10, 10 }, .crease_deg = WR_CREASE_NONE };
+const char *const wr_facing_names[WR_FACINGS + 1] = { "any", "x",  "y",   "z",  "-x",
+                                                      "-y",  "-z", "out", "in", NULL };
+const WrProjection wr_projection_default = { .cell = { 10, 10 },
+                                             .crease_deg = WR_CREASE_NONE,
+                                             .facing_deg = 45 };
 
 static WrVec3 vector_of(const float p[3])
 {
@@ -426,11 +432,29 @@ static WrTriangles *make(const Work *w, const WrTrianglePart *parts, WrError *er
     return made;
 }
 
+/* Gives the mesh its weights. Its key changes with them, so that caches notice. */
+static WrTriangles *with_weights(WrTriangles *made, const Work *w, WrError *err)
+{
+    const WrProjection *is = w->is;
+    const WrProjectionFrame frame = { { w->axis[0], w->axis[1], w->axis[2] }, w->at, w->scale };
+    const double numbers[] = { is->facing, is->facing_deg, is->facing_soft_deg, is->blend };
+    WrHash hash = { made->key, 0 };
+    hash = wr_hash_bytes(numbers, sizeof numbers, hash);
+    hash = wr_hash_bytes(&frame, sizeof frame, hash);
+    made->key = wr_hash_bytes(is->materials, strlen(is->materials), hash).low;
+    made->weights = wr_relief_weights_new(made, is, &frame, err);
+    if (made->weights) return made;
+    wr_triangles_free(made);
+    return NULL;
+}
+
 WrTriangles *wr_triangles_project(const WrTriangles *mesh, const WrProjection *projection,
                                   WrError *err)
 {
     const bool creased = projection->crease_deg < WR_CREASE_NONE;
-    if (projection->kind == WR_PROJECTION_UV && !creased) return wr_triangles_share(mesh);
+    const bool weighted = wr_relief_is_weighted(projection);
+    if (projection->kind == WR_PROJECTION_UV && !creased && !weighted)
+        return wr_triangles_share(mesh);
     Work w = begin(mesh, projection);
     WrTriangles *made = NULL;
     WrVec3 *normals = creased ? crease_normals(mesh, projection->crease_deg, err) : NULL;
@@ -442,7 +466,7 @@ WrTriangles *wr_triangles_project(const WrTriangles *mesh, const WrProjection *p
     }
     wr_free(parts);
     wr_free(normals);
-    return made;
+    return made && weighted ? with_weights(made, &w, err) : made;
 }
 
 int wr_projection_round(const WrTriangles *mesh, const WrProjection *projection, double *radius_mm)
@@ -531,6 +555,7 @@ bool wr_triangles_seams(const WrTriangles *mesh, WrTextureSeams *out, WrError *e
 {
     WrMeshEdges edges;
     *out = (WrTextureSeams){ 0 };
+    if (wr_relief_is_blended(mesh)) return true;
     if (!wr_mesh_edges_find(mesh, &edges, err)) return false;
     int32_t *first = wr_try_alloc((size_t)edges.count, sizeof *first, "a mesh's seams", err);
     int32_t *run = first ? new_sets(edges.places, err) : NULL;

@@ -36,8 +36,24 @@ typedef enum WrProjectionKind {
 } WrProjectionKind;
 extern const char *const wr_projection_names[WR_PROJECTIONS + 1]; /* NULL-terminated */
 
+/* Direction of a mask: along the projection's axes, or from and to its z axis, of a spherical one its centre. */
+typedef enum WrFacing {
+    WR_FACING_ANY, /* no mask */
+    WR_FACING_X,
+    WR_FACING_Y,
+    WR_FACING_Z,
+    WR_FACING_MINUS_X,
+    WR_FACING_MINUS_Y,
+    WR_FACING_MINUS_Z,
+    WR_FACING_OUT,
+    WR_FACING_IN,
+    WR_FACINGS
+} WrFacing;
+extern const char *const wr_facing_names[WR_FACINGS + 1]; /* NULL-terminated */
+
 #define WR_CREASE_NONE 180.0
-#define WR_PROJECTION_CELLS 65536 /* largest |u| and |v| */
+#define WR_PROJECTION_MATERIALS 2048 /* bytes */
+#define WR_PROJECTION_CELLS 65536    /* largest |u| and |v| */
 
 typedef struct WrProjection {
     WrProjectionKind kind;
@@ -52,21 +68,27 @@ typedef struct WrProjection {
     double
         crease_deg; /* 0..180; below 180 normals are computed from the faces: edges of a larger angle are
                           sharp, others smooth. 180: the mesh's own normals */
+    /* Masks and blending (relief_weights.h): */
+    WrFacing facing;
+    double facing_deg, facing_soft_deg;      /* 0..180 each */
+    char materials[WR_PROJECTION_MATERIALS]; /* names or numbers, separated by commas; empty: all */
+    double blend; /* 0..1, of the box's planes; 0: each triangle has one plane */
 } WrProjection;
 
 extern const WrProjection wr_projection_default;
 
-/* Derives the mesh with these texture coordinates and normals; a reference to `mesh` itself if there is
- * nothing to change. For cylinders and spheres, triangles over more than 5 degrees are divided; neighbours
+/* Derives the mesh with these texture coordinates, normals and weights of the relief; a reference to `mesh`
+ * itself if there is nothing to change. For cylinders and spheres, triangles over more than 5 degrees are divided; neighbours
  * divide a shared edge alike.
- * Errors: too many triangles or cells, out of memory. */
+ * Errors: too many triangles or cells, a material that the mesh has not, out of memory. */
 WrTriangles *wr_triangles_project(const WrTriangles *mesh, const WrProjection *projection,
                                   WrError *err);
 
 /* n and R of the formulas above, for reports; n is 0 for projections without an axis. */
 int wr_projection_round(const WrTriangles *mesh, const WrProjection *projection, double *radius_mm);
 
-/* Edges of a mesh at which the (u,v) of the two faces differ by more than whole numbers. */
+/* Edges of a mesh at which the (u,v) of the two faces differ by more than whole numbers; none if the relief is
+ * blended there. */
 typedef struct WrTextureSeams {
     int32_t edges;
     double length; /* of the longest connected run of them */

@@ -7,6 +7,7 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "surface/patches.h"
+#include "surface/relief_weights.h"
 
 #include <math.h>
 #include <string.h>
@@ -958,6 +959,7 @@ void wr_triangles_free(WrTriangles *triangles)
     wr_free((void *)triangles->triangles);
     wr_free((void *)triangles->parts);
     wr_patches_free(triangles->patches);
+    wr_relief_weights_free(triangles->weights);
     wr_free(triangles);
 }
 

@@ -24,6 +24,7 @@
 
 typedef struct WrError WrError;
 typedef struct WrPatches WrPatches;
+typedef struct WrReliefWeights WrReliefWeights;
 
 #define WR_TRIANGLES_MAX 9000000 /* indices of triangles are exact as floats */
 #define WR_TRIANGLE_PARTS_MAX 4096
@@ -77,6 +78,8 @@ typedef struct WrTriangles {
     WrTrianglesReport report;
     WrPatches *
         patches; /* source patches (patches.h), whose (u,v) the corners have; owned; NULL: a mesh */
+    WrReliefWeights *
+        weights; /* of a projected mesh (relief_weights.h); owned; NULL: F is the table's at (u,v) */
 } WrTriangles;
 
 /* Arrays of a file; borrowed for the call. */

@@ -615,6 +615,70 @@ static void objects_have_their_own_projections(void **state)
     wr_text_fini(&notes);
 }
 
+/* Masks and blending are settings of the projection; those without a meaning are dropped. */
+static void masks_are_kept(void **state)
+{
+    (void)state;
+    static const char parts[] = "v 0 0 0\nv 1 0 1\nv 1 2 1\nv 0 2 0\nv 2 0 0\nv 2 2 0\n"
+                                "usemtl left side\nf 1 2 3 4\nusemtl right\nf 2 5 6 3\n";
+    static const struct {
+        const char *line, *kept;
+    } rows[] = {
+        { "projection=box cell=7mm blend=0.37 unit=mm", " cell=7mm blend=0.37 unit=mm\n" },
+        { "facing=-y angle=31.7 turn=33.7,-71.3,128.9 at=0.3,12.9,8.77 blend=0.5",
+          " turn=33.7,-71.3,128.9 at=0.3,12.9,8.77 facing=-y angle=31.7\n" },
+        { "projection=spherical facing=out soft=11.5 materials=\"left side,2\"",
+          " facing=out angle=45 soft=11.5 materials=\"left side,2\"\n" },
+        { "materials=2 angle=12 soft=3 crease=20", " crease=20 materials=2\n" },
+    };
+    WrError err = { "" };
+    for (int i = 0; i < 8; i++) {
+        WrText notes = { 0 }, was = { 0 }, is = { 0 };
+        char line[160];
+        const char *const name = i % 2 ? "m.ora" : "m.exr";
+        WrSession *a = session_with(&notes), *b = session_with(&notes);
+        write_file("parts.obj", parts);
+        must_run(a, "surface mesh file=parts.obj");
+        snprintf(line, sizeof line, "surface mesh %s", rows[i / 2].line);
+        must_run(a, line);
+        assert_non_null(scene_in(a)->triangles->weights);
+        if (!strstr(surface_line(a, &was), rows[i / 2].kept)) fail_msg("%s", wr_text_get(&was));
+        snprintf(line, sizeof line, "save %s", name);
+        must_run(a, line);
+        if (i % 2 == 0) check_version(name, "10");
+        if (!wr_session_open(b, name, &err)) fail_msg("%s", err.text);
+        assert_string_equal(surface_line(a, &was), surface_line(b, &is));
+        assert_true(scene_in(a)->triangles->key == scene_in(b)->triangles->key);
+        assert_true(same_mesh(scene_in(a)->triangles, scene_in(b)->triangles));
+        assert_non_null(scene_in(b)->triangles->weights);
+        must_run(b, "surface mesh projection=uv facing=any materials=\"\" crease=180");
+        assert_null(scene_in(b)->triangles->weights);
+        assert_null(scene_in(b)->mesh_source);
+        wr_session_free(a);
+        wr_session_free(b);
+        wr_text_fini(&notes);
+        wr_text_fini(&was);
+        wr_text_fini(&is);
+    }
+}
+
+/* A note counts the triangles with relief. */
+static void masks_are_told_of(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    WrSession *s = session_with(&notes);
+    write_cube("cube.stl", 30);
+    must_run(s, "surface mesh file=cube.stl facing=z");
+    assert_non_null(strstr(wr_text_get(&notes), "masks leave relief on 2 of 12 triangles"));
+    must_fail(s, "surface mesh materials=lid",
+              "materials=lid: the mesh has no such material; it has 1 ");
+    must_run(s, "surface mesh projection=box blend=0.2");
+    assert_null(strstr(wr_text_get(&notes), "does not run on"));
+    wr_session_free(s);
+    wr_text_fini(&notes);
+}
+
 static void hostile_projections_are_refused(void **state)
 {
     (void)state;
@@ -632,6 +696,12 @@ static void hostile_projections_are_refused(void **state)
         { "unit=mile", "unit=mile" },
         { "crease=-1", "crease=-1: must be" },
         { "crease=180.5", "crease=180.5: must be" },
+        { "blend=1.1", "blend=1.1: must be" },
+        { "facing=up", "facing=up" },
+        { "facing=x angle=181", "angle=181: must be" },
+        { "soft=nan", "soft=nan: must be" },
+        { "materials=,", "has no such material" },
+        { "materials=0", "has no such material" },
         { "projection=box cell=1um unit=m", "reaches over more than 65536 cells" },
         { "projection=planar at=1e9,0,0", "reaches over more than 65536 cells" },
         { "projection=spherical cell=1e-300", "reaches over more than 65536 cells" },
@@ -679,6 +749,8 @@ int main(void)
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(objects_have_their_own_projections, enter_own_folder,
                                         leave_own_folder),
+        cmocka_unit_test_setup_teardown(masks_are_kept, enter_own_folder, leave_own_folder),
+        cmocka_unit_test_setup_teardown(masks_are_told_of, enter_own_folder, leave_own_folder),
         cmocka_unit_test_setup_teardown(hostile_projections_are_refused, enter_own_folder,
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(a_far_mesh_returns_to_its_place, enter_own_folder,

@@ -16,6 +16,8 @@
 #include "image/mesh.h"
 #include "scene/scene.h"
 #include "surface/data.h"
+#include "surface/projection.h"
+#include "surface/relief_weights.h"
 #include "surface/triangles.h"
 
 /* ---- documents ---- */
@@ -717,12 +719,17 @@ static void add_torus(Quads *q)
 static void set_mesh(WrDocument *document, Quads *q, int without)
 {
     WrError err = { "" };
-    const WrTrianglesSource source = { .points = (const float(*)[3])q->points,
+    const int32_t count = 2 * q->count - without, half = q->count;
+    const WrTrianglePart parts[2] = { { .name = "one", .count = half },
+                                      { .name = "two", .first = half, .count = count - half } };
+    const WrTrianglesSource source = { .parts = parts,
+                                       .part_count = 2,
+                                       .points = (const float(*)[3])q->points,
                                        .normals = (const float(*)[3])q->normals,
                                        .uv = (const float(*)[2])q->uv,
                                        .corners = (const int32_t(*)[3])q->corners,
                                        .point_count = 4 * q->count,
-                                       .triangle_count = 2 * q->count - without };
+                                       .triangle_count = count };
     WrTriangles *mesh = wr_triangles_new(&source, &err);
     if (!mesh) fail_msg("%s", err.text);
     wr_scene_set_triangles(document->scene, mesh, "test", NULL);
@@ -954,6 +961,91 @@ static void a_gltf_has_the_relief_as_geometry(void **state)
     }
 }
 
+/* ---- masks and blended planes ---- */
+
+static void project_mesh(WrDocument *document, const WrProjection *projection)
+{
+    WrError err = { "" };
+    if (!wr_scene_project(document->scene, projection, &err)) fail_msg("%s", err.text);
+}
+
+/* The box's top alone moves up; its sides follow in their planes. */
+static void a_masked_box_grows_upwards(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        WrExportReport report;
+        WrDocument *document = document_of(7, 11, 0, WR_WRAP_PERIODIC);
+        Quads *q = new_quads();
+        WrProjection p = wr_projection_default;
+        add_box(q, 3.7);
+        set_mesh(document, q, 0);
+        if (k == 2) p.kind = WR_PROJECTION_BOX, p.cell[0] = p.cell[1] = 0.37, p.blend = 0.3;
+        p.facing = WR_FACING_Z, p.facing_soft_deg = k == 1 ? 40 : 0;
+        project_mesh(document, &p);
+        const double volume = box[0] * box[1] * (box[2] + height_of(document));
+        Body body = export_body(document, "stl", "error=0.003", &report);
+        assert_int_equal(check_closed(&body.mesh, "box"), 2);
+        assert_near(body.volume, volume, 2e-6 * volume);
+        assert_near(report.solid_size[0], box[0], 1e-5);
+        wr_mesh_fini(&body.mesh);
+        wr_document_free(document);
+    }
+}
+
+/* Half of a torus; a soft belt; whole triangles that look down: closed, on the mesh where the mask ends, and elsewhere
+   within the error of the exact surface, away from the step at a hard border. */
+static void masked_relief_ends_at_its_border(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        WrExportReport report;
+        WrDocument *document = document_of(13, 9, 0.6, WR_WRAP_PERIODIC);
+        Quads *q = new_quads();
+        WrProjection p = { .cell = { 1.371, 2.113 }, .crease_deg = 180, .facing_deg = 50 };
+        const double e = 0.0087, deep = document->scene->height;
+        int inside = 0, outside = 0;
+        add_torus(q);
+        set_mesh(document, q, 0);
+        p.kind = k == 1 || k == 3 ? WR_PROJECTION_BOX : WR_PROJECTION_UV;
+        if (k == 0) strcpy(p.materials, "two");
+        if (k == 1) p.facing = WR_FACING_OUT, p.facing_soft_deg = 47.7, p.blend = 0.41;
+        if (k == 2) p.facing = WR_FACING_MINUS_Z;
+        if (k == 3) p.blend = 0.77;
+        project_mesh(document, &p);
+        const WrTriangles *mesh = document->scene->triangles;
+        Body body = export_body(document, "stl", "error=0.0087", &report);
+        assert_int_equal(check_closed(&body.mesh, "torus"), 0);
+        assert_true(report.solid_error <= e && report.solid_error > 0.5 * e);
+        for (int i = 0; i < 3000; i++) {
+            const int32_t t = (int32_t)(test_random(&random_state) * mesh->triangle_count);
+            double b = test_random(&random_state), c = test_random(&random_state), f = 0;
+            if (b + c > 1) b = 1 - b, c = 1 - c;
+            const double weight[3] = { 1 - b - c, b, c };
+            WrVec3 place = { 0, 0, 0 }, n = place;
+            for (int m = 0; m < 3; m++) {
+                const WrTriangleCorner *at = &mesh->corners[mesh->triangles[t].corner[m]];
+                place = v3_mad(place, (WrVec3){ at->p[0], at->p[1], at->p[2] }, weight[m]);
+                n = v3_mad(n, (WrVec3){ at->n[0], at->n[1], at->n[2] }, weight[m]);
+            }
+            WrReliefTap taps[WR_RELIEF_TAPS];
+            const int count = wr_relief_taps(mesh, t, b, c, taps);
+            for (int m = 0; m < count; m++)
+                f += taps[m].weight * bilinear(document->layers[0].heights, taps[m].u, taps[m].v) *
+                     deep;
+            const bool hard = k == 0 || k == 2;
+            if (hard && fmin(weight[0], fmin(b, c)) < 0.1) continue;
+            const double away = distance(&body.mesh, v3_mad(place, v3_unit(n, n), f));
+            if (away > (hard && count == 0 ? 1e-6 : e * 1.02))
+                fail_msg("case %d: %g mm, error=%g, %d terms", k, away, e, count);
+            inside += count > 0, outside += count == 0;
+        }
+        assert_true(inside > 300 && (outside > 300) == (k != 3));
+        wr_mesh_fini(&body.mesh);
+        wr_document_free(document);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -972,6 +1064,8 @@ int main(void)
         cmocka_unit_test(an_stl_says_millimetres),
         cmocka_unit_test(a_box_grows_on_all_sides),
         cmocka_unit_test(relief_on_a_mesh_keeps_to_the_error),
+        cmocka_unit_test(a_masked_box_grows_upwards),
+        cmocka_unit_test(masked_relief_ends_at_its_border),
         cmocka_unit_test(an_edge_of_three_faces_has_no_gap),
         cmocka_unit_test(relief_in_an_inner_corner_folds),
         cmocka_unit_test(relief_stays_within_its_wall),

@@ -7,6 +7,7 @@
 
 #include "render/kernels/kern.h"
 #include "render/reference/reference.h"
+#include "surface/projection.h"
 #include "surface/triangles.h"
 
 /* ---- meshes ---- */
@@ -300,6 +301,108 @@ static void the_reference_agrees(void **state)
     wr_field_free(field);
 }
 
+/* ---- masks and blended planes ---- */
+
+/* An egg of unequal sides, tilted. */
+static void on_egg(double u, double v, float p[3], float n[3])
+{
+    float q[3];
+    on_sphere(u, v, q, n);
+    p[0] = 1.3f * q[0] + 0.2f * q[2], p[1] = 0.9f * q[1], p[2] = 1.1f * q[2] - 0.3f * q[1];
+    n[0] = q[0], n[1] = q[1], n[2] = q[2];
+}
+
+#define WEIGHTED 5
+
+/* Soft and hard masks, blended planes, and both; heights over 0 make the mask's own slopes count. */
+static WrScene *weighted_scene(int i)
+{
+    WrScene *scene = scene_with(mesh_grid(on_egg, 24, 13, true));
+    WrProjection p = { .kind = i == 1 ? WR_PROJECTION_CYLINDRICAL : WR_PROJECTION_BOX,
+                       .cell = { 0.671, 0.913 },
+                       .turn_deg = { 11.7, -31.3, 48.9 },
+                       .crease_deg = WR_CREASE_NONE,
+                       .facing_deg = 37.7 };
+    WrError err = { "" };
+    scene->replicate_u = scene->replicate_v = 1;
+    if (i != 1) p.blend = i == 4 ? 1 : 0.43;
+    if (i == 1 || i == 2) p.facing = WR_FACING_Z, p.facing_soft_deg = 33.3;
+    if (i == 3) p.facing = WR_FACING_OUT;
+    if (i == 4) p.facing = WR_FACING_OUT, p.facing_soft_deg = 60.3;
+    if (!wr_scene_project(scene, &p, &err)) fail_msg("%s", err.text);
+    assert_non_null(scene->triangles->weights);
+    return scene;
+}
+
+static void weighted_meshes_are_the_reference(void **state)
+{
+    (void)state;
+    const int w = 100, h = 80;
+    WrField *field = bumpy_field(32, 20);
+    for (int j = 0; j < 20; j++)
+        for (int i = 0; i < 32; i++) wr_field_set(field, i, j, wr_field_get(field, i, j) + 1.7f);
+    for (int i = 0; i < 3 * WEIGHTED; i++) {
+        WrScene *scene = weighted_scene(i % WEIGHTED);
+        take_way(&ways[i / WEIGHTED % 2], scene);
+        scene->displaced = i >= 2 * WEIGHTED;
+        scene->height *= 2;
+        scene->dials.dice = 0.0625;
+        scene->scheme = WR_SCHEME_BSPLINE_FIT;
+        Shot got = shoot(scene, field, w, h, 2, NULL, false);
+        float *rgba = true_picture(scene, field, w, h);
+        double worst;
+        int apart;
+        const int other = scene->displaced ? adopt_outlines(rgba, got.frame.rgba, w * h) : 0;
+        const double rms = difference(got.frame.rgba, rgba, w * h, &worst, &apart);
+        if (!(rms < 4e-3 && apart < 30 && other < w * h / 100))
+            fail_msg("case %d: rms %g, %d apart, %d other", i, rms, apart, other);
+        wr_free(rgba);
+        put_away(&got);
+        wr_scene_free(scene);
+    }
+    wr_field_free(field);
+}
+
+static void weighted_meshes_have_the_same_bits(void **state)
+{
+    (void)state;
+    WrField *field = random_field(33, 20, 8);
+    for (int i = 0; i < WEIGHTED * WAYS; i++) {
+        WrScene *scene = weighted_scene(i % WEIGHTED);
+        take_way(&ways[i / WEIGHTED], scene);
+        scene->displaced = i % 2;
+        Shot first = shoot(scene, field, 71, 60, 1, "ref", false);
+        Shot other = shoot(scene, field, 71, 60, 2, NULL, i % 3 == 0);
+        assert_true(first.frame.covered > 500);
+        if (!same_picture(&first, &other))
+            fail_msg("case %d differs by %g", i, (double)worst_difference(&first, &other));
+        put_away(&first);
+        put_away(&other);
+        if (i < WEIGHTED && !scene->displaced) expect_refreshed(scene, i);
+        wr_scene_free(scene);
+    }
+    wr_field_free(field);
+}
+
+/* A table of one height has no slopes; the soft mask's edge has. Where the mask ends the picture is that of the bare mesh. */
+static void the_edge_of_a_mask_shows(void **state)
+{
+    (void)state;
+    WrField *level = level_field(16, 16, 3);
+    WrScene *scene = weighted_scene(1);
+    Shot masked = shoot(scene, level, 160, 120, 2, NULL, false);
+    scene->bump = WR_BUMP_NONE;
+    Shot bare = shoot(scene, level, 160, 120, 2, NULL, false);
+    int other = 0;
+    for (int i = 0; i < 160 * 120; i++)
+        other += memcmp(masked.frame.rgba + 4 * i, bare.frame.rgba + 4 * i, 16) != 0;
+    assert_true(other > 1000 && other < masked.frame.covered / 2);
+    put_away(&masked);
+    put_away(&bare);
+    wr_scene_free(scene);
+    wr_field_free(level);
+}
+
 /* ---- edges ---- */
 
 /* A fan around the centre: every `step`-th of `count` triangles, starting at number `from`. */
@@ -473,6 +576,9 @@ int main(void)
         cmocka_unit_test(a_raised_cut_plane_is_the_raised_plane),
         cmocka_unit_test(cut_spheres_tend_to_the_sphere),
         cmocka_unit_test(the_reference_agrees),
+        cmocka_unit_test(weighted_meshes_are_the_reference),
+        cmocka_unit_test(weighted_meshes_have_the_same_bits),
+        cmocka_unit_test(the_edge_of_a_mask_shows),
         cmocka_unit_test(each_sample_has_one_owner),
         cmocka_unit_test(mirrored_and_thin_maps_are_bent),
         cmocka_unit_test(no_mesh_makes_nonsense),

@@ -1,4 +1,4 @@
-/* Texture coordinates and normals of an imported mesh: rows of the scene panel. */
+/* Texture coordinates, normals and relief masks of an imported mesh: rows of the scene panel. */
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/line.h"
 #include "ui/app/state/scene_line.h"
@@ -113,6 +113,15 @@ static void place_rows(WrApp *app)
     take(app, moved, &is, "at", is.at, 3);
 }
 
+/* A row for one number of the projection, which is a member of *is; name: of its argument. */
+static void number_row(WrApp *app, const char *label, const char *name, const WrNumber *spec,
+                       WrProjection *is, double *value)
+{
+    wr_gui_label(label);
+    const WrEdit edit = wr_gui_number(name, 0, spec, value);
+    take(app, edit, is, name, value, 1);
+}
+
 static void normals_row(WrApp *app)
 {
     WrProjection is = wr_app_scene(app)->projection;
@@ -122,9 +131,48 @@ static void normals_row(WrApp *app)
                             .decimals = 0,
                             .tip = "Edges of a larger angle are sharp, others smooth; 180: the "
                                    "normals of the file" };
-    wr_gui_label("Crease");
-    const WrEdit edit = wr_gui_number("crease", 0, &spec, &is.crease_deg);
-    take(app, edit, &is, "crease", &is.crease_deg, 1);
+    number_row(app, "Crease", "crease", &spec, &is, &is.crease_deg);
+}
+
+static void blend_row(WrApp *app)
+{
+    WrProjection is = wr_app_scene(app)->projection;
+    const WrNumber spec = {
+        .low = 0,
+        .high = 1,
+        .decimals = 2,
+        .tip = "Mixes the box's planes near their borders, so that the relief runs on; 0: "
+               "each triangle has one plane"
+    };
+    number_row(app, "Blend", "blend", &spec, &is, &is.blend);
+}
+
+static void facing_rows(WrApp *app)
+{
+    static const char *const labels[WR_FACINGS] = { "Everywhere", "X",  "Y",        "Z",      "-X",
+                                                    "-Y",         "-Z", "Outwards", "Inwards" };
+    WrProjection is = wr_app_scene(app)->projection;
+    const WrNumber angle = { .low = 0,
+                             .high = 180,
+                             .reset = wr_projection_default.facing_deg,
+                             .decimals = 0,
+                             .tip =
+                                 "Largest angle between the mesh and that direction, in degrees" };
+    const WrNumber soft = { .low = 0,
+                            .high = 180,
+                            .decimals = 0,
+                            .tip = "Fades the relief out over so many degrees more; 0: whole "
+                                   "triangles have it or not" };
+    int facing = (int)is.facing;
+    wr_gui_label("Relief on");
+    if (wr_gui_choice("facing", 0, labels, WR_FACINGS, &facing))
+        run_word(app, "facing", wr_facing_names[facing]);
+    wr_gui_tip(
+        "Limits relief to faces of that direction, along the projection's axes; outwards and "
+        "inwards: from and to its z axis");
+    if (is.facing == WR_FACING_ANY) return;
+    number_row(app, "Angle", "angle", &angle, &is, &is.facing_deg);
+    number_row(app, "Soft", "soft", &soft, &is, &is.facing_soft_deg);
 }
 
 /* Choice of the UDIM tile that shows the table, for a mesh with several. */
@@ -173,6 +221,7 @@ void wr_projection_rows(WrApp *app)
     wr_gui_tip("How the table is laid on the mesh");
     if (scene->projection.kind != WR_PROJECTION_UV) {
         cell_row(app);
+        if (scene->projection.kind == WR_PROJECTION_BOX) blend_row(app);
         place_rows(app);
         wr_gui_label("Unit");
         if (wr_gui_choice("mesh unit", 0, units, WR_UNIT_COUNT, &unit) && unit > 0)
@@ -182,4 +231,8 @@ void wr_projection_rows(WrApp *app)
         tile_row(app);
     }
     normals_row(app);
+    facing_rows(app);
+    if (scene->projection.kind == WR_PROJECTION_UV && scene->projection.facing != WR_FACING_ANY)
+        place_rows(app);
+    wr_mesh_parts_row(app);
 }

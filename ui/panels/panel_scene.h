@@ -32,3 +32,4 @@ typedef struct WrApp WrApp;
 void wr_surface_run(WrApp *app, const WrShape *shape, const char *const *text);
 void wr_profile_row(WrApp *app);     /* for a surface with a profile */
 void wr_projection_rows(WrApp *app); /* for a mesh of a file */
+void wr_mesh_parts_row(WrApp *app);  /* for one of several materials */

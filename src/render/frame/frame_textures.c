@@ -43,7 +43,8 @@ static bool update_copies(WrRenderer *renderer, const WrFrameRequest *request, b
     const bool gradient = wr_plan_runs(plan, WR_EFFECT_GRADIENT);
     const bool looked = plan->source == WR_SOURCE_TABLE;
     const bool fitted = looked && wr_schemes[plan->scheme].taps == WR_TAPS_FITTED;
-    const bool read = wr_plan_runs(plan, WR_EFFECT_EXACT) || wr_plan_runs(plan, WR_EFFECT_PARALLAX);
+    const bool read = wr_plan_runs(plan, WR_EFFECT_EXACT) ||
+                      wr_plan_runs(plan, WR_EFFECT_PARALLAX) || wr_plan_is_weighted(request->scene);
     const bool heights = looked && !fitted && (!gradient || read);
     if (!gradient && !slope_free && !hold) wr_table_drop(table, WR_COPY_GRADIENT);
     if (!fitted && !hold) wr_table_drop(table, WR_COPY_FITTED);

@@ -64,6 +64,7 @@ static void note_looks(const WrTileJob *job, const Rays *rays, const Strip *stri
 #include "render/pipeline/stage_half_precision_body.h"
 #include "render/pipeline/stage_fetch_body.h"
 #include "render/pipeline/stage_normal_map_body.h"
+#include "render/pipeline/stage_relief_weights_body.h"
 
 /* Closed-form kernels of the surface; NULL: it has none. */
 static const WR_T(WrRound) * round_of(const WrTileJob *job)
@@ -163,7 +164,7 @@ static void bend_strip(const WrTileJob *job, const Rays *rays, bool level, const
     REAL side[WR_SPAN];
     memcpy(side, strip->s, (size_t)strip->count * sizeof *side); /* footprints overwrite it */
     if (bump != WR_BUMP_NONE && job->plan->source != WR_SOURCE_NONE)
-        look(job, rays, strip, scratch, watch);
+        look_relief(job, rays, strip, scratch, watch);
     if (bump != WR_BUMP_NONE && runs(job, WR_EFFECT_NORMALS))
         look_map(job, rays, strip, scratch, watch);
     if (bump != WR_BUMP_NONE && runs(job, WR_EFFECT_HORIZON)) ease_slopes(job, rays, strip);

@@ -10,6 +10,7 @@
 #include "render/frame/tile_internal.h"
 #include "scene/normal_map.h"
 #include "scene/scene.h"
+#include "surface/relief_weights.h"
 #include "surface/triangles.h"
 #include "shade/slope.h"
 #include "system/clock.h"

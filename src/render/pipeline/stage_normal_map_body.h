@@ -125,27 +125,31 @@ static void shares_of(const WrTriangleLook *look, const int32_t *corner, const S
     share[0] = (REAL)1 - share[1] - share[2];
 }
 
+/* The face of the mesh at the sample, and the shares of its corners. */
+static size_t face_at(const WrTriangleLook *look, const Strip *strip, int i, REAL share[3])
+{
+    const size_t triangle = (size_t)strip->triangle[i];
+    const int32_t *corner = look->triangles + 3 * triangle;
+    shares_of(look, corner, strip, i, share);
+    if (!look->base_of) return triangle;
+    const REAL own[3] = { share[0], share[1], share[2] }; /* of a triangle of the relief */
+    share[1] = share[2] = (REAL)0;
+    for (int k = 0; k < 3; k++)
+        for (int c = 1; c < 3; c++)
+            share[c] += own[k] * (REAL)look->corners[8 * (size_t)corner[k] + 5 + (size_t)c];
+    share[0] = (REAL)1 - share[1] - share[2];
+    return (size_t)look->base_of[triangle];
+}
+
 /* Tangent frame of a triangle: interpolated from its corners. As in MikkTSpace, B is the cross product of the
    interpolated vectors, not normalised. */
 static Axes triangle_axes(const WrTileJob *job, const Strip *strip, int i)
 {
     const WrTriangleLook *look = &job->triangle_look;
-    size_t triangle = (size_t)strip->triangle[i];
-    const int32_t *corner = look->triangles + 3 * triangle;
-    const float *corners = look->corners;
     REAL share[3];
-    shares_of(look, corner, strip, i, share);
-    if (look->base_of) { /* on to the face of the mesh */
-        const REAL own[3] = { share[0], share[1], share[2] };
-        share[1] = share[2] = (REAL)0;
-        for (int k = 0; k < 3; k++)
-            for (int c = 1; c < 3; c++)
-                share[c] += own[k] * (REAL)corners[8 * (size_t)corner[k] + 5 + (size_t)c];
-        share[0] = (REAL)1 - share[1] - share[2];
-        triangle = (size_t)look->base_of[triangle];
-        corner = look->base_triangles + 3 * triangle;
-        corners = look->base_corners;
-    }
+    const size_t triangle = face_at(look, strip, i, share);
+    const int32_t *corner = (look->base_of ? look->base_triangles : look->triangles) + 3 * triangle;
+    const float *corners = look->base_of ? look->base_corners : look->corners;
     const float *frames = job->frames->corner + 3 * triangle * WR_CORNER_FRAME;
     Axes out = { { 0, 0, 0 }, { 0, 0, 0 }, { 0, 0, 0 } };
     for (int k = 0; k < 3; k++) {

@@ -150,7 +150,8 @@ static void meet(const WrTileJob *job, const Rays *rays, bool mapped, Strip *str
     const bool smooth = runs(job, WR_EFFECT_SMOOTH);
     const bool sloped =
         runs(job, WR_EFFECT_TANGENTS) || runs(job, WR_EFFECT_TINT) || job->plan->facets_filtered;
-    for (int i = 0; i < strip->count && (job->dice || turns_map(job) || runs(job, WR_EFFECT_CAST));
+    for (int i = 0; i < strip->count &&
+                    (job->dice || turns_map(job) || is_weighted(job) || runs(job, WR_EFFECT_CAST));
          i++)
         strip->triangle[i] = (int)strip->u[i];
     KERNELS_OF(job)->meet(rays, &job->triangle_look, smooth, mapped || sloped, sloped, strip);

@@ -24,6 +24,7 @@ static const char *no_bump(const WrPlan *plan, const WrPlanRequest *ask)
     if (scene->height == 0) return "height is 0";
     if (table && facts->zero) return "the table is 0 everywhere";
     if (wr_plan_normal(plan, ask) == WR_BUMP_EXACT && !surface_of(ask)->flat) return NULL;
+    if (wr_plan_is_weighted(scene)) return NULL;
     if (still(scene)) return "replication is 0,0: F is constant";
     if (table && facts->flat) return "every texel of the table is equal";
     if (table && facts->slope_free) return "the scheme has no slope anywhere in the table";

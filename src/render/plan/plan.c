@@ -32,11 +32,13 @@ static bool is_forced(const WrPlan *plan, WrEffect effect)
 /* Reason why bump cannot be skipped in runs whose slopes are 0, or NULL if it can.
    E63 holds if n' depends on Fu, Fv of the tile alone: every case here reads something beyond the tile, or F
    itself, or the tangents that the skipped stage would have computed. */
-static const char *no_ground(const WrPlan *plan)
+static const char *no_ground(const WrPlan *plan, const WrPlanRequest *ask)
 {
     if (is_forced(plan, WR_EFFECT_BUMP)) return "bump is forced: it runs everywhere";
     if (runs(plan, WR_EFFECT_NORMALS)) return "a normal map has slopes where the table has none";
     if (plan->bump == WR_BUMP_EXACT) return "the exact normal turns with heights, not slopes alone";
+    if (wr_plan_is_weighted(ask->scene))
+        return "the relief's mask has slopes where the table has none";
     if (wr_schemes[plan->scheme].taps == WR_TAPS_FITTED)
         return "this scheme's coefficients each reach over the whole table";
     if (runs(plan, WR_EFFECT_FILTER)) return "a footprint may reach over any of the table";
@@ -51,7 +53,7 @@ static const char *no_ground(const WrPlan *plan)
 WrVerdict wr_decide_ground(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "no table is looked up");
-    const char *reason = no_ground(plan);
+    const char *reason = no_ground(plan, ask);
     if (reason) return say(WR_VERDICT_RUN, why, reason);
     const double sloped = ask->facts.sloped;
     if (!(sloped >= 0 && sloped < MOSTLY_SLOPED))
@@ -65,13 +67,15 @@ WrVerdict wr_decide_ground(const WrPlan *plan, const WrPlanRequest *ask, const c
 /* Reason why the bound on bump's rotation of the normal cannot be used to skip light, or NULL if it can.
    E18: n' stays within the cone of slopes up to the tile's largest. Every case here bends the normal by an
    amount without such a bound. */
-static const char *no_cone(const WrPlan *plan)
+static const char *no_cone(const WrPlan *plan, const WrPlanRequest *ask)
 {
     if (runs(plan, WR_EFFECT_DISPLACED)) return "facets of a displaced surface face anywhere";
     if (runs(plan, WR_EFFECT_PARALLAX))
         return "the points that parallax shows may be on either "
                "side";
     if (runs(plan, WR_EFFECT_EMBOSSED)) return "no bound is known of a solid texture's slopes";
+    if (wr_plan_is_weighted(ask->scene))
+        return "no bound is known of the slopes of the relief's mask";
     if (plan->bump == WR_BUMP_NONE) return NULL;
     if (is_forced(plan, WR_EFFECT_BUMP)) return "bump is forced: it runs everywhere";
     if (runs(plan, WR_EFFECT_NORMALS)) return "no bound is known of a normal map's slopes";
@@ -96,7 +100,7 @@ static const char *no_dark(const WrPlan *plan, const WrPlanRequest *ask)
     if (shines && !ask->scene->material.gate) return "a highlight without gate shows there too";
     if (runs(plan, WR_EFFECT_BOUND)) return "a bound of the light's change is wanted everywhere";
     if (runs(plan, WR_EFFECT_HALF)) return "the dial is set to light in half precision";
-    return no_cone(plan);
+    return no_cone(plan, ask);
 }
 
 WrVerdict wr_decide_dark(const WrPlan *plan, const WrPlanRequest *ask, const char **why)

@@ -3,6 +3,7 @@
 #pragma once
 #include "render/plan/plan.h"
 #include "scene/scene.h"
+#include "surface/triangles.h"
 
 /* Above this, r u loses more than 1e-3 texel of a 64-texel table in single precision (HC40). */
 #define WR_WIDE_FROM 1024.0
@@ -83,6 +84,13 @@ static inline bool lit(const WrPlan *plan, const WrPlanRequest *ask)
 static inline bool still(const WrScene *scene)
 {
     return scene->replicate_u == 0 && scene->replicate_v == 0;
+}
+
+/* True if F is weighted over the mesh, by masks or blended planes (relief_weights.h): it has slopes where the table has
+   none, and is read at other (u,v) than the surface's. */
+static inline bool wr_plan_is_weighted(const WrScene *scene)
+{
+    return scene->triangles && scene->triangles->weights;
 }
 
 /* Functions of WrEffectInfo's rows. They are in plan.c, plan_light.c, plan_textures.c and plan_visibility.c. */

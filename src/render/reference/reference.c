@@ -126,6 +126,17 @@ static int samples_of(const WrDials *dials)
     return dials->aa == WR_AA_SUPERSAMPLE || dials->aa == WR_AA_ADAPTIVE ? dials->samples : 1;
 }
 
+static void height_by_scheme(const Looker *looker, const WrReferenceHit *hit, double *f, double *fu,
+                             double *fv)
+{
+    const WrScene *scene = looker->stage.scene;
+    const WrTriangles *mesh = scene->triangles;
+    if (mesh && mesh->weights)
+        wr_scene_weighted_height(scene, looker->field, mesh, hit->triangle, hit->share[0],
+                                 hit->share[1], f, fu, fv);
+    else wr_scene_height(scene, looker->field, hit->u, hit->v, f, fu, fv);
+}
+
 /* The probe uses the scene's own approximations (scheme, mode), and shows the exact normal beside them. */
 bool wr_reference_probe(const WrField *field, const WrScene *scene, int width, int height,
                         double turn_deg, double x, double y, WrProbe *out, WrError *err)
@@ -143,7 +154,7 @@ bool wr_reference_probe(const WrField *field, const WrScene *scene, int width, i
         WrSurfacePoint *at = &probe.at;
         probe.u = hit.u, probe.v = hit.v, probe.face = hit.face;
         wr_reference_surface_point(view, &hit, at);
-        wr_scene_height(scene, field, hit.u, hit.v, &probe.f, &probe.fu, &probe.fv);
+        height_by_scheme(&looker, &hit, &probe.f, &probe.fu, &probe.fv);
         wr_reference_add_map(&looker.stage, &hit, at, &probe.fu, &probe.fv);
         probe.d = wr_bump_d(at->n_unit, at->pu, at->pv, probe.fu, probe.fv);
         probe.a = wr_bump_axis(at->pu, at->pv, probe.fu, probe.fv);
@@ -181,10 +192,11 @@ typedef struct MapJob {
 
 /* Fetch by the scene's scheme; bspline-fit from coefficients in double, computed once.
    57 x 57 texels a coefficient would be summed for every pixel otherwise. */
-static void look_up(const Looker *looker, double u, double v, double *f, double *fu, double *fv)
+static void look_up(const Looker *looker, const WrReferenceHit *hit, double *f, double *fu,
+                    double *fv)
 {
-    if (looker->stage.table.c) wr_reference_height(&looker->stage, u, v, f, fu, fv);
-    else wr_scene_height(looker->stage.scene, looker->field, u, v, f, fu, fv);
+    if (looker->stage.table.c) wr_reference_height_at(&looker->stage, hit, f, fu, fv);
+    else height_by_scheme(looker, hit, f, fu, fv);
 }
 
 /* Code of a unit vector's coordinate. */
@@ -210,7 +222,7 @@ static float level_at(const Looker *looker, const WrSurfacePoint *base, const Wr
 {
     double pixel[4], f = 0, fu = 0, fv = 0;
     const double s = hit->s;
-    if (is_raised(looker)) wr_reference_height(&looker->stage, hit->u, hit->v, &f, &fu, &fv);
+    if (is_raised(looker)) wr_reference_height_at(&looker->stage, hit, &f, &fu, &fv);
     const WrSurfacePoint there = seen_at(looker, base, f, fu, fv), *at = &there;
     footprint(looker, at, ray, s, &looker->per_x, pixel);
     footprint(looker, at, ray, s, &looker->per_y, pixel + 2);
@@ -238,7 +250,7 @@ static void map_row(int y, int worker, void *ctx)
             continue;
         }
         double f, fu, fv;
-        look_up(looker, hit.u, hit.v, &f, &fu, &fv);
+        look_up(looker, &hit, &f, &fu, &fv);
         wr_reference_add_map(&looker->stage, &hit, &at, &fu, &fv);
         out[x] = quantity(job, &at, f, fu, fv);
     }

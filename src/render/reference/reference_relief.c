@@ -939,7 +939,7 @@ static void note(const Walk *walk, const WrReferenceRay *ray, const WrReferenceH
     WrSurfacePoint at;
     double f, fu, fv, from[2], to[2], bumped[3], displaced[3];
     wr_reference_surface_point(&stage->view, hit, &at);
-    wr_reference_height(stage, hit->u, hit->v, &f, &fu, &fv);
+    wr_reference_height_at(stage, hit, &f, &fu, &fv);
     wr_reference_add_map(stage, hit, &at, &fu, &fv);
     light_of(stage, at, hit, wr_reference_normal(stage->scene->bump, &at, f, fu, fv), bumped);
     pixel_of(&stage->view, at.p, from);

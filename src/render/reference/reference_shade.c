@@ -15,6 +15,7 @@
 #include "shade/reflection.h"
 #include "shade/reflection_models.h"
 #include "shade/solid_texture.h"
+#include "surface/relief_weights.h"
 #include "surface/triangles.h"
 
 #include <math.h>
@@ -997,6 +998,25 @@ void wr_reference_height(const WrReferenceStage *stage, double u, double v, doub
     else wr_reference_table_at(&stage->table, stage->scene, u, v, f, fu, fv);
 }
 
+void wr_reference_height_at(const WrReferenceStage *stage, const WrReferenceHit *hit, double *f,
+                            double *fu, double *fv)
+{
+    const WrTriangles *mesh = stage->scene->triangles;
+    WrReliefTap taps[WR_RELIEF_TAPS];
+    WrReliefSum sum = { 0 };
+    if (!mesh || !mesh->weights) {
+        wr_reference_height(stage, hit->u, hit->v, f, fu, fv);
+        return;
+    }
+    const int count = wr_relief_taps(mesh, hit->triangle, hit->share[0], hit->share[1], taps);
+    for (int k = 0; k < count; k++) {
+        wr_reference_height(stage, taps[k].u, taps[k].v, f, fu, fv);
+        wr_relief_add(&sum, &taps[k], *f, *fu, *fv);
+    }
+    *f = sum.f;
+    wr_relief_slopes(mesh, hit->triangle, &sum, fu, fv);
+}
+
 void wr_reference_add_map(const WrReferenceStage *stage, const WrReferenceHit *hit,
                           const WrSurfacePoint *at, double *fu, double *fv)
 {
@@ -1234,7 +1254,7 @@ bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrRe
     WrSurfacePoint at;
     double f = 0, fu = 0, fv = 0, side;
     if (!hit_stage(stage, &ray, &hit, &at, &side)) return false;
-    if (stage->scene->height != 0) wr_reference_height(stage, hit.u, hit.v, &f, &fu, &fv);
+    if (stage->scene->height != 0) wr_reference_height_at(stage, &hit, &f, &fu, &fv);
     wr_reference_add_map(stage, &hit, &at, &fu, &fv);
     const double eased = eased_at(stage, &ray, &hit, &at, &out->cover);
     fu *= eased, fv *= eased;

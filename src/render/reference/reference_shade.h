@@ -92,6 +92,9 @@ void wr_reference_stage_fini(WrReferenceStage *stage); /* also for a zeroed one 
 /* F with height and replication: the formula, or the spline of the stage's table. */
 void wr_reference_height(const WrReferenceStage *stage, double u, double v, double *f, double *fu,
                          double *fv);
+/* F at a hit, with the weights of a mesh (surface/relief_weights.h). */
+void wr_reference_height_at(const WrReferenceStage *stage, const WrReferenceHit *hit, double *f,
+                            double *fu, double *fv);
 /* Adds the slopes of the scene's normal map. */
 void wr_reference_add_map(const WrReferenceStage *stage, const WrReferenceHit *hit,
                           const WrSurfacePoint *at, double *fu, double *fv);

@@ -25,6 +25,7 @@
 #include "field/scheme_list.h"
 #include "render/tessellation/facet.h"
 #include "scene/scene.h"
+#include "surface/relief_weights.h"
 #include "surface/triangles.h"
 
 #include <math.h>
@@ -64,7 +65,7 @@ WrMeshReliefPlace wr_mesh_relief_place(const WrTriangles *mesh, int32_t face, do
 {
     const WrTriangleCorner *c[3];
     const double w[3] = { 1.0 - b1 - b2, b1, b2 };
-    WrMeshReliefPlace at = { 0 };
+    WrMeshReliefPlace at = { .face = face, .b1 = b1, .b2 = b2 };
     for (int k = 0; k < 3; k++) {
         c[k] = corner_of(mesh, face, k);
         at.p = v3_mad(at.p, vec_of(c[k]->p), w[k]);
@@ -76,11 +77,68 @@ WrMeshReliefPlace wr_mesh_relief_place(const WrTriangles *mesh, int32_t face, do
     return at;
 }
 
+/* False where F is 0 on the whole face. */
 static bool is_mapped(const WrMeshRelief *r, int32_t face)
 {
     int i = 0;
+    if (!wr_relief_covers(r->request.mesh, face)) return false;
     while (face >= r->request.mesh->parts[i].first + r->request.mesh->parts[i].count) i++;
     return r->request.mesh->parts[i].mapped;
+}
+
+/* True where a mask takes all relief. */
+static bool is_outside(const WrMeshRelief *r, const Location *l)
+{
+    WrReliefTap taps[WR_RELIEF_TAPS];
+    return r->request.mesh->weights &&
+           wr_relief_taps(r->request.mesh, l->face, (double)l->b[0], (double)l->b[1], taps) == 0;
+}
+
+/* Heights of the table that are fetched together; each is added to one of the sums. */
+typedef struct Fetch {
+    double u[WR_HEIGHTS_RUN], v[WR_HEIGHTS_RUN], weight[WR_HEIGHTS_RUN];
+    int of[WR_HEIGHTS_RUN], count;
+} Fetch;
+
+static void add_fetched(const WrMeshRelief *r, Fetch *fetch, double *sums)
+{
+    double t[WR_HEIGHTS_RUN];
+    wr_scene_heights(r->request.scene, r->request.field, fetch->count, fetch->u, fetch->v, t);
+    for (int i = 0; i < fetch->count; i++) sums[fetch->of[i]] += fetch->weight[i] * t[i];
+    fetch->count = 0;
+}
+
+static void weighted_heights_at(const WrMeshRelief *r, const WrMeshReliefPlace *at, int count,
+                                double *f)
+{
+    Fetch fetch;
+    fetch.count = 0;
+    for (int i = 0; i < count; i++) {
+        WrReliefTap taps[WR_RELIEF_TAPS];
+        const int terms = wr_relief_taps(r->request.mesh, at[i].face, at[i].b1, at[i].b2, taps);
+        f[i] = 0.0;
+        for (int k = 0; k < terms; k++) {
+            if (!(taps[k].weight > 0.0)) continue;
+            fetch.u[fetch.count] = taps[k].u, fetch.v[fetch.count] = taps[k].v;
+            fetch.weight[fetch.count] = taps[k].weight;
+            fetch.of[fetch.count++] = i;
+            if (fetch.count == WR_HEIGHTS_RUN) add_fetched(r, &fetch, f);
+        }
+    }
+    if (fetch.count > 0) add_fetched(r, &fetch, f);
+}
+
+/* F at places of mapped faces; count: up to WR_HEIGHTS_RUN. */
+static void heights_at(const WrMeshRelief *r, const WrMeshReliefPlace *at, int count, double *f)
+{
+    double u[WR_HEIGHTS_RUN], v[WR_HEIGHTS_RUN];
+    const WrMeshReliefRequest *ask = &r->request;
+    if (ask->mesh->weights) {
+        weighted_heights_at(r, at, count, f);
+        return;
+    }
+    for (int i = 0; i < count; i++) u[i] = at[i].u, v[i] = at[i].v;
+    wr_scene_heights(ask->scene, ask->field, count, u, v, f);
 }
 
 WrVec3 wr_mesh_relief_position(const WrMeshRelief *r, WrVec3 p)
@@ -123,6 +181,21 @@ static WrVec3 least_squares(const WrVec3 *n, const double *f, int count)
     return d;
 }
 
+/* Relief ends at the border of a mask, and faces beyond it stay as they are: f becomes 0 on faces whose normal is that
+   of a face without relief. Faces at a crease are bound by their own planes, and stay in them anyway; edges that are rounded
+   have one normal. Returns the mean of f. */
+static double end_at_mask(const WrMeshRelief *r, const WrVec3 *n, const bool *outside, int count,
+                          double *f)
+{
+    double mean = 0.0;
+    for (int i = 0; i < count; i++) {
+        for (int k = 0; k < count; k++)
+            if (outside[k] && (r->request.rounded || v3_dot(n[i], n[k]) >= ONE_NORMAL)) f[i] = 0.0;
+        mean += f[i] / count;
+    }
+    return mean;
+}
+
 static void displace(WrMeshRelief *r, const Location *locations, int count,
                      WrMeshReliefPoint *point)
 {
@@ -130,14 +203,16 @@ static void displace(WrMeshRelief *r, const Location *locations, int count,
     double mean = 0.0;
     WrVec3 few_n[FEW], *n = count <= FEW ? few_n : wr_alloc((size_t)count, sizeof *n);
     double few_f[FEW], *f = count <= FEW ? few_f : wr_alloc((size_t)count, sizeof *f);
+    bool few_outside[FEW],
+        *outside = count <= FEW ? few_outside : wr_alloc((size_t)count, sizeof *outside);
     for (int i = 0; i < count; i++) {
         const Location *l = &locations[i];
         const WrMeshReliefPlace at =
             wr_mesh_relief_place(r->request.mesh, l->face, (double)l->b[0], (double)l->b[1]);
         n[i] = at.n;
         f[i] = 0.0;
-        if (is_mapped(r, l->face))
-            wr_scene_height(r->request.scene, r->request.field, at.u, at.v, &f[i], NULL, NULL);
+        outside[i] = is_outside(r, l);
+        if (is_mapped(r, l->face)) heights_at(r, &at, 1, &f[i]);
         r->low = fmin(r->low, f[i]);
         r->high = fmax(r->high, f[i]);
         sum = v3_add(sum, n[i]);
@@ -149,11 +224,13 @@ static void displace(WrMeshRelief *r, const Location *locations, int count,
         crease |= v3_dot(n[i], middle) < ONE_NORMAL;
         heights |= fabs(f[i] - mean) * r->request.scale > SHARE * r->request.error;
     }
+    if (r->request.mesh->weights) mean = end_at_mask(r, n, outside, count, f);
     point->d = crease && !r->request.rounded ? least_squares(n, f, count) : v3_scale(middle, mean);
     point->crease = crease || heights;
     point->part = 1.0;
     if (n != few_n) wr_free(n);
     if (f != few_f) wr_free(f);
+    if (outside != few_outside) wr_free(outside);
 }
 
 void wr_mesh_relief_move(WrMeshRelief *r, int32_t i)
@@ -413,6 +490,9 @@ typedef struct Samples {
     const WrMeshReliefTriangle *triangle;
     WrFacet facet;
     WrMeshReliefPlace corner[3];
+    double uv[WR_RELIEF_TAPS][3]
+             [2]; /* [planes] of the corners; one plane unless they are blended */
+    int planes;
     bool mapped;
     double error;   /* largest allowed distance */
     double worst;   /* squared distance of the farthest */
@@ -424,9 +504,9 @@ typedef struct Samples {
 static bool measure(Samples *s)
 {
     const WrMeshRelief *r = s->relief;
-    double u[WR_HEIGHTS_RUN], v[WR_HEIGHTS_RUN], f[WR_HEIGHTS_RUN];
-    for (int i = 0; i < s->count; i++) u[i] = s->at[i].u, v[i] = s->at[i].v, f[i] = 0.0;
-    if (s->mapped) wr_scene_heights(r->request.scene, r->request.field, s->count, u, v, f);
+    double f[WR_HEIGHTS_RUN];
+    for (int i = 0; i < s->count; i++) f[i] = 0.0;
+    if (s->mapped) heights_at(r, s->at, s->count, f);
     for (int i = 0; i < s->count; i++) {
         const WrVec3 p = v3_mad(s->at[i].p, s->at[i].n, f[i]);
         const double d = wr_facet_distance2(&s->facet, wr_mesh_relief_position(r, p));
@@ -457,29 +537,29 @@ static double lattice(const WrMeshRelief *r, double texels, double low, double h
     return (ceil(low / *step - 0.5) + 0.5) * *step;
 }
 
-static bool sample_texels(Samples *s)
+/* uv: of the corners. */
+static bool sample_texels(Samples *s, const double (*uv)[2])
 {
-    const WrMeshReliefPlace *c = s->corner;
-    const double du[2] = { c[1].u - c[0].u, c[2].u - c[0].u };
-    const double dv[2] = { c[1].v - c[0].v, c[2].v - c[0].v };
+    const double du[2] = { uv[1][0] - uv[0][0], uv[2][0] - uv[0][0] };
+    const double dv[2] = { uv[1][1] - uv[0][1], uv[2][1] - uv[0][1] };
     const double det = du[0] * dv[1] - du[1] * dv[0], fine = s->relief->fine;
     if (!(fabs(det) > 1e-9 * (fabs(du[0] * dv[1]) + fabs(du[1] * dv[0])))) return true;
-    const double low = fmin(c[0].v, fmin(c[1].v, c[2].v)),
-                 high = fmax(c[0].v, fmax(c[1].v, c[2].v));
+    const double low = fmin(uv[0][1], fmin(uv[1][1], uv[2][1])),
+                 high = fmax(uv[0][1], fmax(uv[1][1], uv[2][1]));
     double step_u, step_v;
     for (double v = lattice(s->relief, fine * s->relief->texels[1], low, high, &step_v); v < high;
          v += step_v) {
         double from = INFINITY, to = -INFINITY; /* the row's part in the triangle */
         for (int k = 0; k < 3; k++) {
-            const WrMeshReliefPlace *p = &c[k], *q = &c[(k + 1) % 3];
-            if ((p->v <= v) == (q->v <= v)) continue;
-            const double u = p->u + (q->u - p->u) * (v - p->v) / (q->v - p->v);
+            const double *p = uv[k], *q = uv[(k + 1) % 3];
+            if ((p[1] <= v) == (q[1] <= v)) continue;
+            const double u = p[0] + (q[0] - p[0]) * (v - p[1]) / (q[1] - p[1]);
             from = fmin(from, u);
             to = fmax(to, u);
         }
         for (double u = lattice(s->relief, fine * s->relief->texels[0], from, to, &step_u); u < to;
              u += step_u) {
-            const double x = u - c[0].u, y = v - c[0].v;
+            const double x = u - uv[0][0], y = v - uv[0][1];
             if (!add_sample(s, (x * dv[1] - y * du[1]) / det, (y * du[0] - x * dv[0]) / det))
                 return false;
         }
@@ -511,16 +591,45 @@ static bool sample_sides(Samples *s)
 {
     const double *texels = s->relief->texels;
     for (int k = 0; k < 3; k++) {
-        const WrMeshReliefPlace *p = &s->corner[k], *q = &s->corner[(k + 1) % 3];
         const int steps = s->relief->request.fine ? 4 : 2;
         for (int i = 1; i < steps; i++)
             if (!add_on_side(s, k, (double)i / steps)) return false;
-        if (steps > 2 && s->mapped &&
-            (!sample_crossings(s, k, texels[0], p->u, q->u) ||
-             !sample_crossings(s, k, texels[1], p->v, q->v)))
-            return false;
+        for (int j = 0; j < s->planes && steps > 2 && s->mapped; j++) {
+            const double *p = s->uv[j][k], *q = s->uv[j][(k + 1) % 3];
+            if (!sample_crossings(s, k, texels[0], p[0], q[0]) ||
+                !sample_crossings(s, k, texels[1], p[1], q[1]))
+                return false;
+        }
     }
     return add_sample(s, 1.0 / 3, 1.0 / 3) && measure(s);
+}
+
+/* The planes of which F has a part in the triangle; a plane's u jumps where the surface turns to its other side, and
+   its part is 0 there. */
+static void find_planes(Samples *s)
+{
+    WrReliefTap taps[4][WR_RELIEF_TAPS];
+    const WrMeshReliefPlace *c = s->corner;
+    const bool blended = wr_relief_is_blended(s->relief->request.mesh);
+    for (int k = 0; k < 3; k++) s->uv[0][k][0] = c[k].u, s->uv[0][k][1] = c[k].v;
+    s->planes = 1;
+    if (!blended || !s->mapped) return;
+    bool covered = true;
+    for (int i = 0; i < 4; i++) {
+        const double b1 = i < 3 ? c[i].b1 : (c[0].b1 + c[1].b1 + c[2].b1) / 3;
+        const double b2 = i < 3 ? c[i].b2 : (c[0].b2 + c[1].b2 + c[2].b2) / 3;
+        covered &= wr_relief_taps(s->relief->request.mesh, c[0].face, b1, b2, taps[i]) > 0;
+    }
+    if (!covered) return; /* where a mask ends: the face's own plane */
+    s->planes = 0;
+    for (int j = 0; j < WR_RELIEF_TAPS; j++) {
+        double part = 0.0;
+        for (int i = 0; i < 4; i++) part += taps[i][j].weight;
+        if (!(part > 0.0)) continue;
+        for (int k = 0; k < 3; k++)
+            s->uv[s->planes][k][0] = taps[k][j].u, s->uv[s->planes][k][1] = taps[k][j].v;
+        s->planes++;
+    }
 }
 
 /* False for a triangle over so many texels that sampling it would take long: it is bisected first. */
@@ -562,7 +671,11 @@ static double error_of(const WrMeshRelief *r, const WrMeshReliefTriangle *t)
         s.corner[k] =
             wr_mesh_relief_place(r->request.mesh, t->face, (double)t->b[k][0], (double)t->b[k][1]);
     if (r->request.fine && s.mapped && !fits_span(r, s.corner)) return INFINITY;
-    if (sample_sides(&s) && (!s.mapped || sample_texels(&s))) measure(&s);
+    find_planes(&s);
+    bool good = sample_sides(&s);
+    for (int k = 0; k < s.planes && s.mapped && good; k++)
+        good = sample_texels(&s, (const double(*)[2])s.uv[k]);
+    if (good) measure(&s);
     return sqrt(s.worst);
 }
 
@@ -645,6 +758,7 @@ static double texels_of(const WrMeshRelief *r)
         const WrTriangleCorner *a = corner_of(r->request.mesh, i, 0),
                                *b = corner_of(r->request.mesh, i, 1),
                                *c = corner_of(r->request.mesh, i, 2);
+        if (!wr_relief_covers(r->request.mesh, i)) continue;
         sum += fabs((double)(b->u - a->u) * (double)(c->v - a->v) -
                     (double)(c->u - a->u) * (double)(b->v - a->v)) /
                2;

@@ -64,6 +64,8 @@ typedef struct WrMeshRelief {
 typedef struct WrMeshReliefPlace {
     WrVec3 p, n;
     double u, v;
+    int32_t face;
+    double b1, b2;
 } WrMeshReliefPlace;
 
 /* relief: zero-initialised; call fini even after a failure. Errors: no memory, cancelled. With more than `most`
