@@ -1,5 +1,6 @@
 /* panel_scene.h - state of the scene panel. */
 #pragma once
+#include "surface/projection.h"
 #include "surface/surface.h"
 #include "ui/panels/profile_edit.h"
 
@@ -20,6 +21,8 @@ typedef struct WrSurfaceState {
     char file[4096];
     double file_key; /* key of the mesh that the file name was read from */
     WrProfileState profile;
+    WrTextureSeams seams; /* of the mesh with this key, at which the table breaks */
+    uint64_t seams_key;
 } WrSurfaceState;
 
 typedef struct WrApp WrApp;
