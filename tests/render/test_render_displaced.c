@@ -210,6 +210,25 @@ static void kept_facets_make_the_same_picture(void **state)
     }
 }
 
+/* Noise of 512 x 512 texels needs more facets than there may be: the limit is used, instead of an error so large that
+   the relief is lost. */
+static void a_rough_moving_mesh_has_as_many_facets_as_there_may_be(void **state)
+{
+    (void)state;
+    WrField *field = random_field(128, 128, 7);
+    WrScene *scene = displaced_of("sphere", 0.3);
+    wr_scene_set_triangles(scene, mesh_grid(on_plane, 1, 1, true), "m.ply", "");
+    scene->replicate_u = scene->replicate_v = 4;
+    Shot shot = { .pool = wr_pool_new(2) };
+    shot.renderer = wr_renderer_new(shot.pool, "auto", NULL);
+    render_turned(&shot, scene, field, 20, true);
+    const int facets = shot.renderer->dice.triangles->triangle_count;
+    assert_true(facets > WR_DICE_MOVING_MAX && facets < WR_DICE_MOVING_MAX + 1000);
+    put_away(&shot);
+    wr_scene_free(scene);
+    wr_field_free(field);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -219,6 +238,7 @@ int main(void)
         cmocka_unit_test(what_nobody_sees_is_bump),
         cmocka_unit_test(the_bits_are_the_same),
         cmocka_unit_test(kept_facets_make_the_same_picture),
+        cmocka_unit_test(a_rough_moving_mesh_has_as_many_facets_as_there_may_be),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

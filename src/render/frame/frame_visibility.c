@@ -106,7 +106,11 @@ static bool prepare_dice(WrRenderer *renderer, const WrFrameRequest *request, Wr
     choose_dice(renderer, request->moving);
     if (!wr_dice_update(&renderer->dice, &ask, err)) return false;
     view->nearest -= renderer->dice.rise * request->scene->size;
-    if (renderer->dice.epsilon > plan->dice)
+    if (request->moving)
+        snprintf(renderer->plan.rows[WR_EFFECT_DISPLACED].reason,
+                 sizeof renderer->plan.rows[WR_EFFECT_DISPLACED].reason,
+                 "the view moves: facets are few, and kept for all directions");
+    else if (renderer->dice.epsilon > plan->dice)
         snprintf(renderer->plan.rows[WR_EFFECT_DISPLACED].reason,
                  sizeof renderer->plan.rows[WR_EFFECT_DISPLACED].reason,
                  "facets are as many as there may be: they are within %.3g pixels, not %.3g",

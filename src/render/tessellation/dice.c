@@ -793,7 +793,8 @@ static bool dice_mesh(WrDice *dice, const WrDiceRequest *request, double even, d
                                                   : WR_DICE_MAX,
                                       .cancel = request->cancel };
     bool good = wr_mesh_relief_make(&relief, &ask, err);
-    while (good && relief.full && dicing.epsilon < 1e30) {
+    /* Of a moving view the first facets up to that number are kept: to search for an error takes longer than a frame. */
+    while (good && relief.full && !request->moving && dicing.epsilon < 1e30) {
         dicing.epsilon *= 2;
         wr_mesh_relief_fini(&relief);
         good = wr_mesh_relief_make(&relief, &ask, err);

@@ -58,9 +58,8 @@ typedef struct WrScene WrScene;
 typedef struct WrView WrView;
 
 #define WR_DICE_FACES 6
-#define WR_DICE_MAX 3000000 /* maximum triangles; beyond it facets are coarser (HC125) */
-#define WR_DICE_MOVING_MAX                                                                         \
-    200000 /* as WR_DICE_MAX, in addition to a mesh's own, while the view moves */
+#define WR_DICE_MAX 3000000       /* maximum triangles; beyond it facets are coarser (HC125) */
+#define WR_DICE_MOVING_MAX 100000 /* of a moving view, in addition to a mesh's own */
 
 typedef struct WrDice {
     WrTriangles *triangles;     /* owned; corners have u and v, no normals; NULL: not built */
@@ -81,8 +80,8 @@ typedef struct WrDiceRequest {
     const WrView *view;
     double epsilon; /* pixels */
     /* The view moves: facets are even and do not depend on its direction. Their error is twice epsilon or less at the
-       nearest point of the bounding sphere, where a pixel is rounded down to a power of two of the unit: facets
-       remain until the distance has doubled or halved. */
+       nearest point of the bounding sphere, unless they would be too many. A pixel is rounded down there to a power of
+       two of the unit: facets remain until the distance has doubled or halved. */
     bool moving;
     WrPool *pool;
     const volatile int *cancel; /* may be NULL; read for meshes only */
