@@ -320,11 +320,15 @@ static bool look_for_cracks(WrHardMeasurement *g, const WrFrameRequest *request,
     WrHardShot shot;
     WrView view = { 0 };
     WrDice made = { 0 };
+    const WrDiceRequest ask = { .scene = scene,
+                                .field = request->field,
+                                .view = &view,
+                                .epsilon = scene->dials.dice,
+                                .pool = g->pool };
     if (!wr_hard_shoot(g, request, &shot, err)) return false;
-    const bool good =
-        wr_view_init(&view, scene, wr_shape_radius(&scene->shape), shot.frame.plan,
-                     request->turn_deg, SIDE, SIDE, err) &&
-        wr_dice_make(&made, scene, request->field, &view, scene->dials.dice, g->pool, err);
+    const bool good = wr_view_init(&view, scene, wr_shape_radius(&scene->shape), shot.frame.plan,
+                                   request->turn_deg, SIDE, SIDE, err) &&
+                      wr_dice_update(&made, &ask, err);
     if (good) wr_hard_record_error(g, WR_HARD_FLOAT, cracks(made.triangles));
     wr_dice_fini(&made);
     wr_view_fini(&view);

@@ -529,26 +529,63 @@ static double edge_length(const WrTriangles *mesh, int32_t half, WrVec3 *mid)
     return v3_len(v3_sub(a, b));
 }
 
-static void find_longest(const WrTriangles *mesh, const WrMeshEdges *edges, const int32_t *first,
-                         int32_t *run, double *length, WrTextureSeams *out)
+/* The longest runs, by the point that stands for each; of equal ones the first. Returns their number. */
+static int longest_runs(const double *length, int32_t places, WrTextureSeams *out,
+                        int32_t root[WR_TEXTURE_SEAMS])
 {
-    double longest = 0;
-    int32_t best = 0;
+    int count = 0;
+    for (int32_t i = 0; i < places; i++) {
+        if (!(length[i] > 0)) continue;
+        out->runs++;
+        int k = count;
+        for (; k > 0 && length[i] > length[root[k - 1]]; k--)
+            if (k < WR_TEXTURE_SEAMS) root[k] = root[k - 1];
+        if (k < WR_TEXTURE_SEAMS) root[k] = i;
+        if (count < WR_TEXTURE_SEAMS) count++;
+    }
+    for (int k = 0; k < count; k++) out->run[k].length = length[root[k]];
+    return count;
+}
+
+/* The run of a seam's half-edge among those listed, or -1. */
+static int listed(const WrTriangles *mesh, const WrMeshEdges *edges, int32_t half, int32_t *run,
+                  const int32_t *root, int count)
+{
+    const int32_t own = root_of(run, edges->place[mesh->triangles[half / 3].corner[half % 3]]);
+    for (int k = 0; k < count; k++)
+        if (root[k] == own) return k;
+    return -1;
+}
+
+static void find_runs(const WrTriangles *mesh, const WrMeshEdges *edges, const int32_t *first,
+                      int32_t *run, double *length, WrTextureSeams *out)
+{
+    int32_t root[WR_TEXTURE_SEAMS], edge[WR_TEXTURE_SEAMS];
+    double longest[WR_TEXTURE_SEAMS] = { 0 };
+    int count = 0;
     WrVec3 mid;
     for (int pass = 0; pass < 2; pass++) {
         for (int32_t e = 0; e < edges->count; e++) {
             if (first[e] >= 0) continue;
             const int32_t half = -first[e] - 1;
-            const int32_t own =
-                root_of(run, edges->place[mesh->triangles[half / 3].corner[half % 3]]);
+            const int k = listed(mesh, edges, half, run, root, count);
             const double l = edge_length(mesh, half, &mid);
-            if (pass == 0) length[own] += l;
-            if (pass == 1 && own == best && l > longest) longest = l, out->at = mid;
+            if (pass == 0)
+                length[root_of(run, edges->place[mesh->triangles[half / 3].corner[half % 3]])] += l;
+            if (k >= 0 && l > longest[k]) longest[k] = l, out->run[k].at = mid, edge[k] = e;
         }
-        for (int32_t i = 0; i < edges->places && pass == 0; i++)
-            if (length[i] > length[best]) best = i;
+        if (pass == 0) count = longest_runs(length, edges->places, out, root);
     }
-    out->length = length[best];
+    for (int32_t h = 0; h < 3 * mesh->triangle_count; h++) {
+        const WrVec3 none = { 0, 0, 0 };
+        if (first[edges->edge[h]] >= 0) continue;
+        const int k = listed(mesh, edges, h, run, root, count);
+        if (k >= 0 && edge[k] == edges->edge[h])
+            out->run[k].n = v3_add(out->run[k].n, v3_unit(face_cross(mesh, h / 3), none));
+    }
+    for (int k = 0; k < count; k++) out->run[k].n = v3_unit(out->run[k].n, (WrVec3){ 0, 0, 1 });
+    out->length = out->run[0].length;
+    out->at = out->run[0].at;
 }
 
 bool wr_triangles_seams(const WrTriangles *mesh, WrTextureSeams *out, WrError *err)
@@ -563,7 +600,7 @@ bool wr_triangles_seams(const WrTriangles *mesh, WrTextureSeams *out, WrError *e
         run ? wr_try_alloc((size_t)edges.places, sizeof *length, "a mesh's seams", err) : NULL;
     if (length) {
         out->edges = mark_seams(mesh, &edges, first, run);
-        if (out->edges > 0) find_longest(mesh, &edges, first, run, length, out);
+        if (out->edges > 0) find_runs(mesh, &edges, first, run, length, out);
     }
     wr_free(length);
     wr_free(run);

@@ -87,12 +87,21 @@ WrTriangles *wr_triangles_project(const WrTriangles *mesh, const WrProjection *p
 /* n and R of the formulas above, for reports; n is 0 for projections without an axis. */
 int wr_projection_round(const WrTriangles *mesh, const WrProjection *projection, double *radius_mm);
 
+#define WR_TEXTURE_SEAMS 8 /* runs that are listed */
+
+/* A connected run of seam edges. */
+typedef struct WrTextureSeam {
+    double length;
+    WrVec3 at, n; /* the middle of its longest edge; the mean normal of the faces there, unit */
+} WrTextureSeam;
+
 /* Edges of a mesh at which the (u,v) of the two faces differ by more than whole numbers; none if the relief is
  * blended there. */
 typedef struct WrTextureSeams {
-    int32_t edges;
-    double length; /* of the longest connected run of them */
-    WrVec3 at;     /* the middle of that run's longest edge */
+    int32_t edges, runs;
+    double length;                       /* of the longest run */
+    WrVec3 at;                           /* the middle of that run's longest edge */
+    WrTextureSeam run[WR_TEXTURE_SEAMS]; /* the longest runs, in the order of their lengths */
 } WrTextureSeams;
 
 bool wr_triangles_seams(const WrTriangles *mesh, WrTextureSeams *out, WrError *err);

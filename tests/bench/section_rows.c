@@ -275,6 +275,11 @@ static void shadowed(WrScene *scene)
     scene->material.shadow = true;
 }
 
+static void raised(WrScene *scene)
+{
+    scene->displaced = true;
+}
+
 static void supersampled(WrScene *scene)
 {
     scene->dials.aa = WR_AA_SUPERSAMPLE;
@@ -584,11 +589,25 @@ static bool fill_relit(WrBenchSections *all, WrError *err)
     return true;
 }
 
+static bool fill_raised(WrBenchSections *all, WrError *err)
+{
+    const int base = all->count;
+    for (int i = 0; i < 2; i++) {
+        WrBenchPicture *p =
+            add(all, i ? "displaced torus, turning in the window" : "displaced torus, turning",
+                base, "torus", WR_BENCH_BUMP, err);
+        if (!p) return false;
+        raised(p->scene);
+        p->view = i ? WR_BENCH_MOVES : WR_BENCH_TURNS;
+    }
+    return true;
+}
+
 static bool fill_still(WrBenchSections *all, WrError *err)
 {
     static const WrBenchView views[] = { WR_BENCH_TURNS, WR_BENCH_RESTS, WR_BENCH_PAINTS };
     static const char *const names[] = { "turning", "at rest", "at rest, a dab each time" };
-    return fill_views(all, views, names, 3, err) && fill_relit(all, err);
+    return fill_views(all, views, names, 3, err) && fill_relit(all, err) && fill_raised(all, err);
 }
 
 static bool fill_first(WrBenchSections *all, WrError *err)

@@ -332,6 +332,7 @@ static bool draw(const WrBenchSections *all, WrBenchPicture *p, Lane *lane, int 
                                      .height = all->height,
                                      .turn_deg = rests ? 0 : 7.3 * round,
                                      .keep = rests,
+                                     .moving = p->view == WR_BENCH_MOVES,
                                      .force = p->force,
                                      .full = p->full,
                                      .staged = p->staged,

@@ -13,6 +13,7 @@ typedef struct WrScene WrScene;
 
 typedef enum WrBenchView {
     WR_BENCH_TURNS,  /* a new view in each round */
+    WR_BENCH_MOVES,  /* as TURNS, a picture of the window */
     WR_BENCH_RESTS,  /* the same view, nothing changed */
     WR_BENCH_PAINTS, /* the same view after a dab of 64 x 64 texels */
     WR_BENCH_RELIT,  /* the same view with another material */

@@ -2,7 +2,9 @@
 #include "test.h"
 #include "field/scheme_list.h"
 #include "render_scenes.h"
+#include "mesh_grids.h"
 
+#include "render/frame/frame_internal.h"
 #include "render/kernels/kern.h"
 #include "render/plan/plan.h"
 #include "scene/objects.h"
@@ -126,6 +128,107 @@ static void the_bits_are_the_same(void **state)
     wr_field_free(field);
 }
 
+/* ---- kept facets ---- */
+
+/* A sphere, a torus, a cube, and a mesh of a sphere. */
+static WrScene *kept_scene(int which)
+{
+    static const char *const kinds[] = { "sphere", "torus", "cube", "sphere" };
+    WrScene *scene = displaced_of(kinds[which], 0.11);
+    scene->scheme = which == 1 ? WR_SCHEME_BSPLINE_FIT : WR_SCHEME_CENTRAL;
+    if (which == 3) wr_scene_set_triangles(scene, mesh_grid(on_sphere, 24, 17, true), "m.ply", "");
+    return scene;
+}
+
+static void render_turned(Shot *shot, const WrScene *scene, const WrField *field, double turn_deg,
+                          bool moving)
+{
+    WrError err = { "" };
+    const WrFrameRequest request = { .field = field,
+                                     .scene = scene,
+                                     .width = 133,
+                                     .height = 118,
+                                     .turn_deg = turn_deg,
+                                     .moving = moving };
+    if (!wr_renderer_frame(shot->renderer, &request, &shot->frame, &err)) fail_msg("%s", err.text);
+}
+
+/* Compares with the picture of a new renderer. */
+static void expect_fresh(const Shot *kept, const WrScene *scene, const WrField *field,
+                         double turn_deg, bool moving, int which)
+{
+    Shot fresh = { .pool = wr_pool_new(2) };
+    fresh.renderer = wr_renderer_new(fresh.pool, "auto", NULL);
+    render_turned(&fresh, scene, field, turn_deg, moving);
+    if (!same_picture(kept, &fresh)) fail_msg("scene %d, turn %g", which, turn_deg);
+    put_away(&fresh);
+}
+
+static void kept_facets_make_the_same_picture(void **state)
+{
+    (void)state;
+    for (int which = 0; which < 4; which++) {
+        WrField *field = random_field(45, 32, 5);
+        WrScene *scene = kept_scene(which);
+        Shot kept = shoot(scene, field, 133, 118, 2, "auto", false);
+        const WrDice *dice = &kept.renderer->dice;
+        assert_true(wr_plan_runs(kept.frame.plan, WR_EFFECT_DISPLACED));
+        render_turned(&kept, scene, field, 20, true);
+        const WrTriangles *few = dice->triangles;
+        const int64_t covered = kept.frame.covered;
+        render_turned(&kept, scene, field, 71, true);
+        assert_ptr_equal(dice->triangles, few); /* turning makes no new ones */
+        expect_fresh(&kept, scene, field, 71, true, which);
+        render_turned(&kept, scene, field, 71, false);
+        expect_fresh(&kept, scene, field, 71, false, which);
+        const WrTriangles *fine = dice->triangles;
+        assert_ptr_not_equal(fine, few);
+        assert_true(fine->triangle_count != few->triangle_count);
+        render_turned(&kept, scene, field, 20, false);
+        assert_ptr_not_equal(dice->triangles, fine); /* they belong to one view */
+        /* outlines are within two dials of the surface, a pixel: the perimeter of a disc of that area */
+        assert_near((double)kept.frame.covered, (double)covered, 2 * sqrt(WR_PI * (double)covered));
+
+        fine = dice->triangles;
+        WrScene *other = wr_scene_clone(scene);
+        other->material.diffuse *= 0.5;
+        render_turned(&kept, other, field, 20, false);
+        assert_ptr_equal(dice->triangles, fine); /* material leaves them */
+        expect_fresh(&kept, other, field, 20, false, which);
+        WrScene *higher = wr_scene_clone(other);
+        higher->height *= 1.25;
+        render_turned(&kept, higher, field, 20, true);
+        expect_fresh(&kept, higher, field, 20, true, which);
+        wr_field_set(field, 22, 15, 2.5f);
+        render_turned(&kept, higher, field, 20, true);
+        expect_fresh(&kept, higher, field, 20, true, which);
+        put_away(&kept);
+        wr_scene_free(higher);
+        wr_scene_free(other);
+        wr_scene_free(scene);
+        wr_field_free(field);
+    }
+}
+
+/* Noise of 512 x 512 texels needs more facets than there may be: the limit is used, instead of an error so large that
+   the relief is lost. */
+static void a_rough_moving_mesh_has_as_many_facets_as_there_may_be(void **state)
+{
+    (void)state;
+    WrField *field = random_field(128, 128, 7);
+    WrScene *scene = displaced_of("sphere", 0.3);
+    wr_scene_set_triangles(scene, mesh_grid(on_plane, 1, 1, true), "m.ply", "");
+    scene->replicate_u = scene->replicate_v = 4;
+    Shot shot = { .pool = wr_pool_new(2) };
+    shot.renderer = wr_renderer_new(shot.pool, "auto", NULL);
+    render_turned(&shot, scene, field, 20, true);
+    const int facets = shot.renderer->dice.triangles->triangle_count;
+    assert_true(facets > WR_DICE_MOVING_MAX && facets < WR_DICE_MOVING_MAX + 1000);
+    put_away(&shot);
+    wr_scene_free(scene);
+    wr_field_free(field);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -134,6 +237,8 @@ int main(void)
         cmocka_unit_test(no_heights_make_nonsense),
         cmocka_unit_test(what_nobody_sees_is_bump),
         cmocka_unit_test(the_bits_are_the_same),
+        cmocka_unit_test(kept_facets_make_the_same_picture),
+        cmocka_unit_test(a_rough_moving_mesh_has_as_many_facets_as_there_may_be),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

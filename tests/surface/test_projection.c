@@ -353,6 +353,12 @@ static void a_box_has_seams_at_its_edges(void **state)
     assert_int_equal(seams.edges, 12);
     assert_near(seams.length, 4 * (4.1 + 5.3 + 6.7), 1e-4);
     assert_near(seams.at.z, 3 + 6.7 / 2, 1e-5); /* the middle of an upright edge, the longest */
+    assert_int_equal(seams.runs, 1);
+    const WrVec3 n = seams.run[0].n; /* the mean of two of the four sides' normals */
+    assert_near(fabs(n.x), sqrt(0.5), 1e-6);
+    assert_near(fabs(n.y), sqrt(0.5), 1e-6);
+    assert_near(n.z, 0, 1e-6);
+    assert_true(n.x * (seams.at.x - (1 + 4.1 / 2)) > 0 && n.y * (seams.at.y - (2 + 5.3 / 2)) > 0);
     wr_triangles_free(t);
     wr_triangles_free(mesh);
     /* a whole number of cells from the centre to each side: the table runs on around the upright edges, from the
@@ -362,6 +368,9 @@ static void a_box_has_seams_at_its_edges(void **state)
     t = project(mesh, &p);
     assert_true(wr_triangles_seams(t, &seams, NULL));
     assert_int_equal(seams.edges, 6);
+    assert_int_equal(seams.runs, 2); /* three edges of the top, and three of the bottom */
+    for (int k = 0; k < 2; k++) assert_near(seams.run[k].length, 4 + 6 + 6, 1e-5);
+    assert_near(fabs(seams.run[0].at.z - seams.run[1].at.z), 2, 1e-5);
     wr_triangles_free(t);
     p.kind = WR_PROJECTION_PLANAR;
     t = project(mesh, &p);

@@ -13,6 +13,7 @@ if(TARGET wrinkle AND TARGET wr_ui)
     # One of them in German: what is pressed is found by what it is, not by what it is called.
     set_tests_properties(window_objects PROPERTIES ENVIRONMENT "LANGUAGE=de;LC_ALL=;LC_MESSAGES=de_DE.UTF-8")
     wr_window(window_mesh window_mesh.sh)
+    wr_window(window_projection window_projection.sh)
     wr_window(window_stage window_stage.sh)
     wr_window(window_tour window_tour.sh)
     set_tests_properties(window_tour PROPERTIES LABELS "window;slow")

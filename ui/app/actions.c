@@ -21,6 +21,7 @@
 #include "ui/panels/panel_tablet.h"
 #include "ui/patch/patch.h"
 #include "ui/patch/patch_paint.h"
+#include "ui/patch/patch_projection.h"
 #include "ui/canvas/tools/preset_browser.h"
 #include "ui/canvas/tools/stroke_input.h"
 #include "ui/canvas/tools/tool.h"
@@ -80,6 +81,7 @@ DIALOG(grid, WR_DIALOG_GRID)
 DIALOG(import, WR_DIALOG_IMPORT)
 DIALOG(export, WR_DIALOG_EXPORT)
 DIALOG(maps, WR_DIALOG_SHEET)
+DIALOG(bake, WR_DIALOG_BAKE)
 DIALOG(render, WR_DIALOG_RENDER)
 DIALOG(film, WR_DIALOG_FILM)
 DIALOG(help, WR_DIALOG_HELP)
@@ -338,6 +340,8 @@ const WrAction wr_actions[] = {
     ROW(straight_line, "Straight lines", wr_act_straight_line, NULL, wr_is_straight_line),
     ROW(paint_patch, "Paint on the patch", wr_act_paint_patch, NULL, wr_is_painting_patch),
     ROW(paint_round, "Paint faces turned away too", wr_act_paint_round, NULL, wr_is_painting_round),
+    ROW(projection_handle, "Projection handle", wr_act_projection_handle, wr_can_project,
+        wr_is_projecting),
     ROW(pressure_up, "Press the mouse harder", wr_act_pressure_up, NULL, NULL),
     ROW(pressure_down, "Press the mouse less", wr_act_pressure_down, NULL, NULL),
     ROW(pressure_speed, "Mouse presses by its speed", wr_act_pressure_speed, NULL,
@@ -390,9 +394,7 @@ const WrAction wr_actions[] = {
     PAINT(grid, "Grid...", grid, NULL, NULL),
     EDIT(import, "Import heights...", import, NULL, NULL),
     EDIT(gltf, "Materials of a glTF...", wr_app_choose_gltf, NULL, NULL),
-    EDIT(bake_relief, "Bake relief of a mesh...", wr_app_choose_bake_relief, wr_app_can_bake, NULL),
-    EDIT(bake_normals, "Bake normals of a mesh...", wr_app_choose_bake_normals, wr_app_can_bake,
-         NULL),
+    EDIT(bake, "Bake a detailed mesh...", bake, wr_app_can_bake, NULL),
     ROW(zoom_in, "Zoom in", zoom_in, NULL, NULL),
     ROW(zoom_out, "Zoom out", zoom_out, NULL, NULL),
     ROW(zoom_100, "100 %", zoom_100, NULL, NULL),

@@ -126,7 +126,9 @@ bool wr_app_begin(WrApp *app, WrError *err)
                              .high = 1,
                              .fresh = { .width = 512, .height = 512, .surface = WR_SURFACE_sphere },
                              .solid_size = 100,
-                             .solid_error = 0.05 };
+                             .solid_error = 0.05,
+                             .bake_samples = 2,
+                             .bake_padding = 8 };
     app->visible = true;
     wr_app_read_keys(app);
     wr_preset_browser_start(app);

@@ -60,6 +60,7 @@ static const WrDialogRow dialogs[] = {
     [WR_ROW(WR_DIALOG_DYNAMICS)] = { wr_dialog_dynamics, true },
     [WR_ROW(WR_DIALOG_REPLACE)] = { wr_dialog_replace, false },
     [WR_ROW(WR_DIALOG_TABLET)] = { wr_dialog_tablet, false },
+    [WR_ROW(WR_DIALOG_BAKE)] = { wr_dialog_bake, false },
     [WR_ROW(WR_DIALOG_CASES)] = { wr_dialog_cases, false },
     [WR_ROW(WR_DIALOG_HELP)] = { wr_dialog_help, false },
     [WR_ROW(WR_DIALOG_ABOUT)] = { wr_dialog_help, false },
@@ -105,8 +106,7 @@ static WrFileTake *const takes[] = {
     [WR_ROW(WR_FILE_PATCHES)] = wr_surface_take_patches,
     [WR_ROW(WR_FILE_TERRAIN)] = wr_surface_terrain_file_chosen,
     [WR_ROW(WR_FILE_GLTF)] = wr_file_take_gltf,
-    [WR_ROW(WR_FILE_BAKE_RELIEF)] = wr_file_take_bake_relief,
-    [WR_ROW(WR_FILE_BAKE_NORMALS)] = wr_file_take_bake_normals,
+    [WR_ROW(WR_FILE_BAKE)] = wr_file_take_bake,
     [WR_ROW(WR_FILE_PRESET)] = wr_preset_browser_overwrite,
 };
 WR_ROWS_END(takes, WR_FILE_PURPOSES);

@@ -3,11 +3,21 @@
 #include "ui/app/state/line.h"
 #include "ui/app/state/scene_line.h"
 #include "ui/app/state/session_view.h"
+#include "ui/patch/patch.h"
+#include "ui/patch/patch_projection.h"
+#include "ui/patch/preview/rotation.h"
 #include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
+#include "ui/app/state/action.h"
+#include "ui/app/state/action_list.h"
+#include "ui/app/state/background_command.h"
+#include "ui/app/state/layout.h"
+#include "ui/app/state/settings.h"
 #include "ui/panels/panel_scene.h"
 #include "ui/panels/param_row.h"
 
+#include "base/exactmath.h"
 #include "base/text.h"
 #include "scene/scene.h"
 #include "surface/projection.h"
@@ -18,7 +28,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define LIVE_MOST 20000 /* triangles that are projected anew during a drag */
+#define SEAMS_MOST 200000 /* triangles whose seams are listed without being asked for */
 
 static void run(WrApp *app, const char *name, const double *values, int count)
 {
@@ -43,25 +53,14 @@ static void take(WrApp *app, WrEdit edit, const WrProjection *is, const char *na
                  const double *values, int count)
 {
     if (edit == WR_EDIT_NONE) return;
-    WrScene *live = wr_app_live_begin(app);
-    const bool small = live->triangles && live->triangles->triangle_count <= LIVE_MOST;
-    if (!small || !wr_scene_project(live, is, NULL)) live->projection = *is;
+    wr_projection_live(app, is);
     if (edit == WR_EDIT_DONE) run(app, name, values, count);
-}
-
-/* Size of the mesh, to the projection's origin, mm. Rows are limited by it, so that the mesh stays within
-   WR_PROJECTION_CELLS: about an axis it is up to two pi times as wide. */
-static double reach_mm(const WrTriangles *mesh, const WrProjection *is)
-{
-    double away = 2 * mesh->radius;
-    for (int k = 0; k < 3 && is->placed; k++) away += fabs(is->at[k] - mesh->centre[k]);
-    return away * wr_length_unit_mm(is->unit);
 }
 
 static void cell_row(WrApp *app)
 {
     WrProjection is = wr_app_scene(app)->projection;
-    const double least = 8 * reach_mm(wr_app_scene(app)->triangles, &is) / WR_PROJECTION_CELLS;
+    const double least = wr_projection_least_cell(wr_app_scene(app), &is);
     const WrNumber spec = { .low = 0.1,
                             .high = 1000,
                             .hard_low = least,
@@ -206,6 +205,100 @@ static void tile_row(WrApp *app)
         "one table: paint each tile in a document of its own");
 }
 
+static void handle_row(WrApp *app)
+{
+    bool on = wr_is_projecting(app);
+    if (wr_gui_check("Handle in the view", &on)) wr_action_run(app, WR_ACT(projection_handle));
+    wr_gui_tip("The disc moves the projection, the ring turns it, the square scales its cell");
+}
+
+/* ---- seams ---- */
+
+/* Turns the object so that its direction n faces the camera, by the shortest way: the light stays where it is. */
+static void face(WrScene *scene, const WrPlacement *place, double turn_deg, WrVec3 n)
+{
+    WrRotation object;
+    memcpy(object.m, place->rotation, sizeof object.m);
+    const WrVec3 from = wr_rotation_apply(&object, n), to = v3_scale(place->forward, -1);
+    const WrVec3 axis = v3_cross(from, to);
+    const double deg = atan2(v3_len(axis), v3_dot(from, to)) * WR_DEG_PER_RAD;
+    const WrRotation by = wr_rotation_axis(v3_unit(axis, place->up), deg);
+    const WrRotation back = wr_rotation_axis((WrVec3){ 0, 1, 0 }, -turn_deg);
+    const WrRotation world = wr_rotation_times(&by, &object);
+    const WrRotation own = wr_rotation_times(&back, &world);
+    scene->posed = true;
+    scene->rotate_deg = wr_line_round_vec(wr_rotation_to_deg(&own), 2);
+}
+
+/* Looks at the seam along the mean normal of its faces, from near enough to see it among its surroundings: a single
+   object turns, among several the camera goes there. */
+static void go_to(WrApp *app, const WrTextureSeam *seam)
+{
+    const SDL_Rect *room = &app->layout->patch;
+    const double turn_deg = app->patch->turn_deg, radius = wr_app_scene(app)->triangles->radius;
+    WrPlacement place;
+    WrText line = { 0 }, turn = { 0 };
+    app->settings->turning = false;
+    if (!wr_patch_place(app, &place)) return;
+    WrScene *scene = wr_scene_clone(wr_app_scene(app));
+    const bool single = scene->other_count == 0;
+    if (single) face(scene, &place, turn_deg, seam->n);
+    if (single && wr_scene_place(scene, turn_deg, (double)room->w / room->h, &place, NULL)) {
+        wr_text_add(&turn, "rotate ");
+        wr_line_plain_vec(&turn, scene->rotate_deg);
+    }
+    const WrVec3 at = wr_object_to_world(&place, seam->at);
+    const WrVec3 out = wr_object_to_world(&place, v3_mad(seam->at, seam->n, radius));
+    const WrVec3 n = v3_unit(v3_sub(out, at), v3_scale(place.forward, -1));
+    const double away = 2 * radius * place.size;
+    wr_text_addf(&line, "camera %s", wr_camera_names[scene->camera.orthographic]);
+    wr_line_vec(&line, "eye", wr_line_round_vec(v3_mad(at, n, away), 4));
+    wr_line_vec(&line, "target", wr_line_round_vec(at, 4));
+    if (scene->camera.orthographic) wr_line_number(&line, "size", wr_line_round(away, 4));
+    wr_scene_free(scene);
+    if (turn.length > 0) wr_scene_run(app, &turn);
+    wr_scene_run(app, &line);
+}
+
+static void seam_rows(WrApp *app)
+{
+    const WrTextureSeams *seams = &app->surface->seams;
+    char text[160];
+    if (seams->edges == 0) return;
+    snprintf(text, sizeof text, wr_words("The table breaks along %d edges, in %d runs:"),
+             (int)seams->edges, (int)seams->runs);
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
+    for (int i = 0; i < WR_TEXTURE_SEAMS && i < seams->runs; i++) {
+        snprintf(text, sizeof text, wr_words("%.4g long"), seams->run[i].length);
+        wr_gui_push_id(i);
+        wr_gui_as_it_is(true);
+        wr_gui_label(text);
+        wr_gui_as_it_is(false);
+        if (wr_gui_chip(NULL, "Go there")) go_to(app, &seams->run[i]);
+        wr_gui_tip("Looks at the middle of the run's longest edge");
+        wr_gui_pop_id();
+    }
+}
+
+/* Where the relief steps because the table does not run on. Of large meshes only when asked for: it takes a moment. */
+static void seams_of(WrApp *app)
+{
+    const WrTriangles *mesh = wr_app_scene(app)->triangles;
+    WrSurfaceState *state = app->surface;
+    const bool small = mesh->triangle_count <= SEAMS_MOST;
+    if (app->live) {
+        seam_rows(app);
+        return;
+    }
+    if (state->seams_key != mesh->key && !small) {
+        wr_gui_label("");
+        if (!wr_gui_chip(NULL, "Find the seams")) return;
+    }
+    if (state->seams_key != mesh->key) wr_triangles_seams(mesh, &state->seams, NULL);
+    state->seams_key = mesh->key;
+    seam_rows(app);
+}
+
 void wr_projection_rows(WrApp *app)
 {
     static const char *const labels[WR_PROJECTIONS] = { "Of the file", "Planar", "Box",
@@ -227,6 +320,7 @@ void wr_projection_rows(WrApp *app)
         if (wr_gui_choice("mesh unit", 0, units, WR_UNIT_COUNT, &unit) && unit > 0)
             run_word(app, "unit", wr_length_units[unit - WR_UNIT_MM]);
         wr_gui_tip("Unit of the mesh's coordinates");
+        handle_row(app);
     } else {
         tile_row(app);
     }
@@ -235,4 +329,5 @@ void wr_projection_rows(WrApp *app)
     if (scene->projection.kind == WR_PROJECTION_UV && scene->projection.facing != WR_FACING_ANY)
         place_rows(app);
     wr_mesh_parts_row(app);
+    if (scene->triangles->mapped) seams_of(app);
 }

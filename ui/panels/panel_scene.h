@@ -1,5 +1,6 @@
 /* panel_scene.h - state of the scene panel. */
 #pragma once
+#include "surface/projection.h"
 #include "surface/surface.h"
 #include "ui/panels/profile_edit.h"
 
@@ -25,6 +26,8 @@ typedef struct WrSurfaceState {
     uint64_t tiles_key;              /* key of the mesh that the tiles were read from */
     int tiles[WR_SURFACE_TILES_MAX]; /* UDIM numbers of the mesh, the first ones */
     int tile_count;
+    WrTextureSeams seams; /* of the mesh with this key, at which the table breaks */
+    uint64_t seams_key;
 } WrSurfaceState;
 
 typedef struct WrApp WrApp;

@@ -42,6 +42,8 @@ void wr_dialog_fill(WrApp *app);
 void wr_dialog_grid(WrApp *app);
 void wr_dialog_import(WrApp *app);
 void wr_dialog_export(WrApp *app);
+void wr_dialog_bake(WrApp *app);
+void wr_file_take_bake(WrApp *app, const char *path);
 void wr_dialog_render(WrApp *app);
 void wr_dialog_film(WrApp *app);
 void wr_file_take_film(WrApp *app, const char *path);

@@ -9,6 +9,7 @@
 
 #include "document/object_tables.h"
 #include "scene/camera.h"
+#include "surface/projection.h"
 
 #include <SDL.h>
 #include <stdbool.h>
@@ -55,10 +56,12 @@ typedef struct WrPatch {
     double from_size;
     WrVec3 from_sizes;
     WrCamera from_camera; /* camera at the start */
-    WrHandle handle;      /* dragged handle of the active object */
-    bool pans;            /* the drag pans the camera */
-    bool rounds;          /* the drag orbits the camera around its target */
-    int light;            /* index of the dragged light */
+    WrHandle handle;      /* dragged handle of the active object, or of its projection */
+    WrProjection from_projection;
+    bool projecting; /* the projection's handle is on */
+    bool pans;       /* the drag pans the camera */
+    bool rounds;     /* the drag orbits the camera around its target */
+    int light;       /* index of the dragged light */
     double light_x, light_y;
     double from_turn;      /* environment rotation at the start */
     double zoom_commit_at; /* clock at which a wheel zoom becomes a command; 0: none */

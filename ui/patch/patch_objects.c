@@ -8,6 +8,7 @@
 #include "ui/toolkit/theme.h"
 #include "ui/patch/patch.h"
 #include "ui/patch/patch_paint.h"
+#include "ui/patch/patch_projection.h"
 #include "ui/patch/preview/rotation.h"
 
 #include "base/text.h"
@@ -80,34 +81,32 @@ bool wr_patch_choose(WrApp *app, const WrPointer *at)
 
 /* ---- handles ---- */
 
-/* The active object's bounding sphere in the view. */
-typedef struct Ball {
-    WrPlacement at;
-    double x, y, radius; /* pixels of the window; radius at least that of a handle */
-    double pixel;        /* world units per pixel at the depth of its centre */
-} Ball;
-
-static bool find_ball(const WrApp *app, Ball *ball)
+static bool find_ball(const WrApp *app, WrPatchBall *ball)
 {
     const SDL_Rect *r = &app->layout->patch;
     const WrScene *scene = wr_app_scene(app);
-    if (scene->other_count == 0 || r->w <= 0 || app->settings->turning) return false;
+    const bool projects = wr_patch_projects(app);
+    if ((!projects && scene->other_count == 0) || r->w <= 0 || app->settings->turning) return false;
     if (!wr_scene_place(scene, app->patch->turn_deg, (double)r->w / r->h, &ball->at, NULL))
         return false;
     const WrPlacement *at = &ball->at;
-    const WrVec3 from = v3_sub(at->position, at->eye);
+    const WrVec3 middle =
+        projects ? wr_object_to_world(at, wr_projection_origin(scene)) : at->position;
+    const WrVec3 from = v3_sub(middle, at->eye);
     const double depth = v3_dot(from, at->forward);
     if (!(depth > 0)) return false;
     const double half = at->orthographic ? at->half_height : at->half_height * depth;
     ball->pixel = 2 * half / r->h;
     ball->x = r->x + r->w / 2.0 + v3_dot(from, at->right) / ball->pixel;
     ball->y = r->y + r->h / 2.0 - v3_dot(from, at->up) / ball->pixel;
-    ball->radius = fmax(at->radius * at->size / ball->pixel, 3 * REACH * wr_gui_scale());
+    /* The ring of a projection is inside that of its object. */
+    ball->radius = fmax((projects ? 0.6 : 1) * at->radius * at->size / ball->pixel,
+                        3 * REACH * wr_gui_scale());
     return true;
 }
 
 /* The square is at the lower right. */
-static void size_spot(const Ball *ball, double *x, double *y)
+static void size_spot(const WrPatchBall *ball, double *x, double *y)
 {
     *x = ball->x + ball->radius * sqrt(0.5);
     *y = ball->y + ball->radius * sqrt(0.5);
@@ -115,7 +114,7 @@ static void size_spot(const Ball *ball, double *x, double *y)
 
 WrHandle wr_patch_handle_under(const WrApp *app, const WrPointer *at)
 {
-    Ball ball;
+    WrPatchBall ball;
     double x, y;
     const double reach = REACH * wr_gui_scale();
     if (!find_ball(app, &ball)) return WR_HANDLE_NONE;
@@ -140,6 +139,9 @@ void wr_patch_handle_press(WrApp *app, const WrPointer *at)
     app->patch->from_at = scene->at;
     app->patch->from_size = scene->size;
     app->patch->from_sizes = scene->sizes;
+    if (!wr_patch_projects(app)) return;
+    app->patch->from_projection = scene->projection;
+    app->patch->from_at = wr_projection_origin(scene);
 }
 
 /* Rotate from world space to the space before the turntable rotation. */
@@ -154,8 +156,12 @@ void wr_patch_handle_drag(WrApp *app, const WrPointer *at)
     const WrPatch *p = app->patch;
     const SDL_Rect *r = &app->layout->patch;
     const double dx = at->x - app->hand->start.x, dy = at->y - app->hand->start.y;
-    Ball ball;
+    WrPatchBall ball;
     if (!find_ball(app, &ball)) return;
+    if (wr_patch_projects(app)) {
+        wr_patch_projection_drag(app, &ball, at);
+        return;
+    }
     WrScene *scene = wr_app_live_begin(app);
     if (p->handle == WR_HANDLE_MOVE) {
         WrVec3 by = v3_mad(v3_scale(ball.at.right, dx * ball.pixel), ball.at.up, -dy * ball.pixel);
@@ -177,16 +183,23 @@ void wr_patch_handle_drag(WrApp *app, const WrPointer *at)
     }
 }
 
+static void object_line(const WrApp *app, WrText *line)
+{
+    const WrScene *live = app->live;
+    wr_text_add(line, "object set");
+    if (app->patch->handle == WR_HANDLE_MOVE) wr_line_vec(line, "at", live->at);
+    else if (app->patch->handle == WR_HANDLE_SIZE && v3_len(live->sizes) > 0)
+        wr_line_vec(line, "size", live->sizes);
+    else if (app->patch->handle == WR_HANDLE_SIZE) wr_line_number(line, "size", live->size);
+    else wr_line_vec(line, "turn", live->rotate_deg);
+}
+
 void wr_patch_handle_release(WrApp *app)
 {
     if (!app->live) return;
     WrText line = { 0 };
-    wr_text_add(&line, "object set");
-    if (app->patch->handle == WR_HANDLE_MOVE) wr_line_vec(&line, "at", app->live->at);
-    else if (app->patch->handle == WR_HANDLE_SIZE && v3_len(app->live->sizes) > 0)
-        wr_line_vec(&line, "size", app->live->sizes);
-    else if (app->patch->handle == WR_HANDLE_SIZE) wr_line_number(&line, "size", app->live->size);
-    else wr_line_vec(&line, "turn", app->live->rotate_deg);
+    if (wr_patch_projects(app)) wr_patch_projection_line(app, &line);
+    else object_line(app, &line);
     wr_app_live_end(app);
     wr_app_run_line(app, wr_text_get(&line));
     wr_text_fini(&line);
@@ -194,7 +207,7 @@ void wr_patch_handle_release(WrApp *app)
 
 void wr_patch_handles_draw(const WrApp *app)
 {
-    Ball ball;
+    WrPatchBall ball;
     double x, y;
     const double s = wr_gui_scale();
     const WrInputRouter *hand = app->hand;
@@ -203,6 +216,7 @@ void wr_patch_handles_draw(const WrApp *app)
     const WrHandle over =
         hand->grab == WR_GRAB_HANDLE ? app->patch->handle : wr_patch_handle_under(app, &hand->at);
     size_spot(&ball, &x, &y);
+    if (wr_patch_projects(app)) wr_patch_projection_draw(app, &ball);
     const WrColour ring = over == WR_HANDLE_TURN ? WR_COLOUR_ACCENT : 0xa0f0f0f0u;
     wr_gui_draw_circle(ball.x, ball.y, ball.radius, 0x60000000u, 3.0 * s);
     wr_gui_draw_circle(ball.x, ball.y, ball.radius, ring, 1.3 * s);

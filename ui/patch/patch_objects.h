@@ -5,6 +5,8 @@
 #include "ui/app/state/pointer_state.h"
 #include "ui/patch/preview/patch_pick.h"
 
+#include "scene/scene.h"
+
 #include <stdbool.h>
 
 typedef enum WrHandle {
@@ -13,6 +15,13 @@ typedef enum WrHandle {
     WR_HANDLE_SIZE, /* square on the ring: resizes */
     WR_HANDLE_TURN  /* ring: rotates like a trackball */
 } WrHandle;
+
+/* The place of a handle in the view: the active object's bounding sphere, or the origin of its projection. */
+typedef struct WrPatchBall {
+    WrPlacement at;
+    double x, y, radius; /* pixels of the window; radius at least that of a handle */
+    double pixel;        /* world units per pixel at the depth of its centre */
+} WrPatchBall;
 
 /* Pick buffers for the displayed picture, rebuilt for another picture. NULL: none. Borrowed. */
 const WrObjectPicks *wr_patch_picks(WrApp *app);

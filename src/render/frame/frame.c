@@ -412,6 +412,7 @@ void wr_renderer_forget(WrRenderer *renderer)
     wr_frame_drop_meshes(renderer, NULL);
     wr_view_triangles_fini(&renderer->triangles);
     wr_dice_fini(&renderer->dice);
+    wr_dice_fini(&renderer->dice_aside);
     wr_triangles_free(renderer->square);
     renderer->square = NULL;
     wr_uv_cache_fini(&renderer->uv_cache);
@@ -568,8 +569,8 @@ static bool same_view(const WrRenderer *renderer, const WrFrameRequest *request)
 {
     const WrFrameRequest *last = &renderer->last;
     return renderer->seen && renderer->scene == request->scene && last->staged == request->staged &&
-           last->turn_deg == request->turn_deg && last->width == request->width &&
-           last->height == request->height;
+           last->moving == request->moving && last->turn_deg == request->turn_deg &&
+           last->width == request->width && last->height == request->height;
 }
 
 /* Bounding radius, cached while the shape is unchanged.
@@ -689,6 +690,7 @@ static bool prepare_view(WrRenderer *renderer, const WrFrameRequest *request,
     }
     if (!wr_progress_stopped()) return true;
     wr_frame_drop_meshes(renderer, NULL); /* drops half-built meshes */
+    wr_dice_fini(&renderer->dice);
     wr_view_triangles_fini(&renderer->triangles);
     forget_view(renderer);
     return wr_fail(err, "cancelled");

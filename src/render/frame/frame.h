@@ -60,6 +60,9 @@ typedef struct WrFrameRequest {
        dials renders only the tiles that an edit of the table reaches (E29). The bits are the same. Such a frame
        ignores `cancel`. */
     bool keep;
+    /* The view moves: a displaced surface has coarser facets, which are kept for other views of the same scale
+       (dice.h). */
+    bool moving;
     /* Keep table copies that this frame does not use, because the next one is known to need them: memory for
        time. */
     bool hold;

@@ -38,7 +38,9 @@ struct WrRenderer {
     WrViewMesh meshes[WR_HELD_MESHES], *mesh;
     WrViewTriangles triangles; /* of a mesh file */
     WrTriangles *square; /* replacement shown while the scene's mesh is missing; owned; or NULL */
-    WrDice dice;         /* of a displaced surface: the source of `triangles` */
+    /* facets of a displaced surface: the source of `triangles`; and those kept for the other kind of view */
+    WrDice dice, dice_aside;
+    bool dice_moving; /* `dice` is for moving views */
     WrColorMips tint, facets[WR_FACET_KINDS];
     WrNormalMips relief;
     WrEnvLookup mirror;

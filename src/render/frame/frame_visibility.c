@@ -71,14 +71,17 @@ const WrTriangles *wr_frame_triangles(WrRenderer *renderer, const WrScene *scene
     return renderer->square;
 }
 
-static bool make_dice(WrRenderer *renderer, const WrScene *scene, WrError *err)
+/* Chooses the facets to keep: those of moving views are few, and remain while it rests; the others are freed while
+   it moves. */
+static void choose_dice(WrRenderer *renderer, bool moving)
 {
-    WrRaised raised;
-    const bool good = wr_raised_init(&raised, scene, renderer->looked, err) &&
-                      wr_dice_make(&renderer->dice, raised.scene, raised.field, &renderer->view,
-                                   renderer->plan.dice, renderer->pool, err);
-    wr_raised_fini(&raised);
-    return good;
+    const WrDice before = renderer->dice;
+    if (renderer->dice_moving != moving) {
+        renderer->dice = renderer->dice_aside;
+        renderer->dice_aside = before;
+        renderer->dice_moving = moving;
+    }
+    if (moving) wr_dice_fini(&renderer->dice_aside);
 }
 
 /* Prepares a displaced surface. Whatever lies nearer than the base's bounding sphere is known to the comparison
@@ -88,11 +91,26 @@ static bool prepare_dice(WrRenderer *renderer, const WrFrameRequest *request, Wr
 {
     const WrPlan *plan = &renderer->plan;
     WrView *view = &renderer->view;
-    wr_dice_fini(&renderer->dice);
-    if (!wr_plan_runs(plan, WR_EFFECT_DISPLACED)) return true;
-    if (!make_dice(renderer, request->scene, err)) return false;
+    const WrDiceRequest ask = { .scene = request->scene,
+                                .field = renderer->looked,
+                                .view = view,
+                                .epsilon = plan->dice,
+                                .moving = request->moving,
+                                .pool = renderer->pool,
+                                .cancel = request->cancel };
+    if (!wr_plan_runs(plan, WR_EFFECT_DISPLACED)) {
+        wr_dice_fini(&renderer->dice);
+        wr_dice_fini(&renderer->dice_aside);
+        return true;
+    }
+    choose_dice(renderer, request->moving);
+    if (!wr_dice_update(&renderer->dice, &ask, err)) return false;
     view->nearest -= renderer->dice.rise * request->scene->size;
-    if (renderer->dice.epsilon > plan->dice)
+    if (request->moving)
+        snprintf(renderer->plan.rows[WR_EFFECT_DISPLACED].reason,
+                 sizeof renderer->plan.rows[WR_EFFECT_DISPLACED].reason,
+                 "the view moves: facets are few, and kept for all directions");
+    else if (renderer->dice.epsilon > plan->dice)
         snprintf(renderer->plan.rows[WR_EFFECT_DISPLACED].reason,
                  sizeof renderer->plan.rows[WR_EFFECT_DISPLACED].reason,
                  "facets are as many as there may be: they are within %.3g pixels, not %.3g",

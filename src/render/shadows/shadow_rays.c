@@ -636,27 +636,6 @@ void wr_shadow_rays_body_fini(WrShadowRaysBody *body)
     *body = (WrShadowRaysBody){ 0 };
 }
 
-/* Hash of F, for a displaced surface.
-   Everything that changes the displaced shape, and nothing else, so that material edits keep the facets. */
-static WrHash relief_of(const WrScene *scene, const WrField *field)
-{
-    const WrAnalytic *formula = &scene->analytic;
-    WrHash hash;
-    const bool table = formula->kind == WR_ANALYTIC_OFF;
-    const uint64_t key = table ? wr_field_key(field) : 0;
-    const double by[3] = { scene->height, scene->replicate_u, scene->replicate_v };
-    const int how[2] = { (int)scene->scheme, (int)formula->kind };
-    hash = wr_hash_bytes(&key, sizeof key, (WrHash){ 1, 1 });
-    hash = wr_hash_bytes(by, sizeof by, hash);
-    hash = wr_hash_bytes(how, sizeof how, hash);
-    for (int k = 0; k < formula->count && !table; k++) {
-        const WrAnalyticTerm *term = &formula->terms[k];
-        const double terms[5] = { term->i, term->j, term->a, term->phase_u_deg, term->phase_v_deg };
-        hash = wr_hash_bytes(terms, sizeof terms, hash);
-    }
-    return hash;
-}
-
 /* Keeps the built geometry if shape, relief and mesh are those of the last frame; otherwise frees it, and it
    is rebuilt on demand. */
 static void shadow_rays_body_size(WrShadowRaysBody *body, const WrScene *scene,
@@ -664,7 +643,7 @@ static void shadow_rays_body_size(WrShadowRaysBody *body, const WrScene *scene,
 {
     const WrTriangles *held = scene->triangles;
     const bool moved = moves && wr_is_raised(scene);
-    const WrHash raised = moved ? relief_of(scene, field) : (WrHash){ 0, 0 };
+    const WrHash raised = moved ? wr_raised_key(scene, field) : (WrHash){ 0, 0 };
     const bool same = body->radius > 0 && wr_hash_equal(body->raised, raised) &&
                       memcmp(&body->shape, &scene->shape, sizeof body->shape) == 0;
     if (same && (!body->triangles || !held || moved || held->key == body->triangles->key)) return;

@@ -63,6 +63,25 @@ bool wr_is_raised(const WrScene *scene)
     return scene->displaced && scene->height != 0 && !wr_shape_unmoved(&scene->shape);
 }
 
+WrHash wr_raised_key(const WrScene *scene, const WrField *field)
+{
+    const WrAnalytic *formula = &scene->analytic;
+    const bool table = formula->kind == WR_ANALYTIC_OFF;
+    const uint64_t key = table ? wr_field_key(field) : 0;
+    const double by[3] = { scene->height, scene->replicate_u, scene->replicate_v };
+    const int how[2] = { (int)scene->scheme, (int)formula->kind };
+    WrHash hash = wr_hash_bytes(&scene->shape, sizeof scene->shape, (WrHash){ 1, 1 });
+    hash = wr_hash_bytes(&key, sizeof key, hash);
+    hash = wr_hash_bytes(by, sizeof by, hash);
+    hash = wr_hash_bytes(how, sizeof how, hash);
+    for (int k = 0; k < formula->count && !table; k++) {
+        const WrAnalyticTerm *term = &formula->terms[k];
+        const double terms[5] = { term->i, term->j, term->a, term->phase_u_deg, term->phase_v_deg };
+        hash = wr_hash_bytes(terms, sizeof terms, hash);
+    }
+    return hash;
+}
+
 /* A spline through a table's entries exceeds them by less than their range. */
 double wr_raised_most(const WrScene *scene, const WrField *field)
 {
@@ -106,6 +125,7 @@ typedef struct WrDicing {
     const WrScene *scene;
     const WrField *field;
     const WrView *view;
+    double even;          /* pixels per object unit everywhere; 0: by the view */
     double epsilon, size; /* pixels; the base's radius */
     bool straight;        /* F is bilinear between texels */
     WrDiceFace face[WR_DICE_FACES];
@@ -342,12 +362,27 @@ static void differ(WrDiceCell *c, const Heights *h, double *slope_u, double *slo
     *most = fmax(fabs(low), fabs(high));
 }
 
+/* Pixels per object unit at distance 1 of kernel space. */
+static double pixels_per_unit(const WrView *view)
+{
+    return view->grid_h / (2.0 * view->half_h) / view->samples * view->scale;
+}
+
+/* Pixels per object unit for a moving view: at the nearest point of the bounding sphere, rounded up to a power of
+   two. From the sphere's surface to half its radius above it, all distances count as the latter. */
+static double even_pixels(const WrView *view)
+{
+    const double away = fmax(v3_len(view->eye) - view->radius, 0.5 * view->radius);
+    return exp2(ceil(log2(pixels_per_unit(view) / (view->perspective ? away : 1.0))));
+}
+
 /* Pixels per object unit at the nearest point of a sphere around p; 0: it is outside the picture.
    The sphere is tested against the sides of the view pyramid: distance from a side is (x - z w) / sqrt(1 +
    w^2). */
-static double pixels_at(const WrView *view, WrVec3 p, double radius)
+static double pixels_at(const WrView *view, double even, WrVec3 p, double radius)
 {
-    const double k = view->scale, per = view->grid_h / (2.0 * view->half_h) / view->samples * k;
+    if (even > 0) return even;
+    const double k = view->scale, per = pixels_per_unit(view);
     const WrVec3 w = v3_sub(v3_scale(p, k), view->eye);
     const double x = fabs(v3_dot(w, view->right)), y = fabs(v3_dot(w, view->up));
     const double z = v3_dot(w, view->forward), r = radius * k;
@@ -384,7 +419,7 @@ static void measure_base(const WrDicing *d, WrDiceCell *c, double slope_u, doubl
     }
     c->bend_u = uu * du * du / 8;
     c->bend_v = vv * dv * dv / 8;
-    c->pixels = pixels_at(d->view, at[4].p, 1.5 * radius + most);
+    c->pixels = pixels_at(d->view, d->even, at[4].p, 1.5 * radius + most);
 }
 
 static void measure_cell(int index, int worker, void *ctx)
@@ -726,35 +761,40 @@ static void fini(WrDicing *d)
 
 typedef struct WrMeshDicing {
     const WrView *view;
-    double epsilon, rise; /* pixels; largest |F| */
+    double even, epsilon, rise; /* as in WrDicing; largest |F| */
 } WrMeshDicing;
 
 static double mesh_error(const void *ctx, WrVec3 centre, double radius)
 {
     const WrMeshDicing *d = ctx;
-    const double pixels = pixels_at(d->view, centre, radius + d->rise);
+    const double pixels = pixels_at(d->view, d->even, centre, radius + d->rise);
     return pixels > 0 ? d->epsilon / pixels : INFINITY;
 }
 
-static bool dice_mesh(WrDice *dice, const WrScene *scene, const WrField *field, const WrView *view,
-                      double epsilon, WrPool *pool, WrError *err)
+static bool dice_mesh(WrDice *dice, const WrDiceRequest *request, double even, double epsilon,
+                      WrError *err)
 {
+    const WrScene *scene = request->scene;
     const WrTriangles *own = scene->triangles;
-    WrMeshDicing dicing = { view, epsilon, wr_raised_most(scene, field) };
+    WrMeshDicing dicing = { request->view, even, epsilon, wr_raised_most(scene, request->field) };
     WrMeshRelief relief = { 0 };
     *dice = (WrDice){ .faces = 1, .base = own ? wr_triangles_share(own) : wr_triangles_square() };
     const WrMeshReliefRequest ask = { .scene = scene,
-                                      .field = field,
-                                      .pool = pool,
+                                      .field = request->field,
+                                      .pool = request->pool,
                                       .mesh = dice->base,
                                       .stretch = { 1, 1, 1 },
                                       .scale = 1,
                                       .error = 1e-6 * dice->base->radius,
                                       .error_at = mesh_error,
                                       .ctx = &dicing,
-                                      .most = WR_DICE_MAX };
+                                      .most = request->moving
+                                                  ? dice->base->triangle_count + WR_DICE_MOVING_MAX
+                                                  : WR_DICE_MAX,
+                                      .cancel = request->cancel };
     bool good = wr_mesh_relief_make(&relief, &ask, err);
-    while (good && relief.full && dicing.epsilon < 1e30) {
+    /* Of a moving view the first facets up to that number are kept: to search for an error takes longer than a frame. */
+    while (good && relief.full && !request->moving && dicing.epsilon < 1e30) {
         dicing.epsilon *= 2;
         wr_mesh_relief_fini(&relief);
         good = wr_mesh_relief_make(&relief, &ask, err);
@@ -771,35 +811,69 @@ static bool dice_mesh(WrDice *dice, const WrScene *scene, const WrField *field, 
 
 /* Too many triangles: epsilon grows by at least 1.5 and is chosen again. Cells are measured once, only the
    choice is repeated. */
-bool wr_dice_make(WrDice *dice, const WrScene *scene, const WrField *field, const WrView *view,
-                  double epsilon, WrPool *pool, WrError *err)
+static bool dice_cells(WrDice *dice, const WrDiceRequest *request, double even, double epsilon,
+                       WrError *err)
 {
+    const WrScene *scene = request->scene;
+    const int most = request->moving ? WR_DICE_MOVING_MAX : WR_DICE_MAX;
     WrDicing d = { .scene = scene,
-                   .field = field,
-                   .view = view,
+                   .field = request->field,
+                   .view = request->view,
+                   .even = even,
                    .epsilon = epsilon,
                    .size = wr_shape_radius(&scene->shape),
                    .straight =
                        scene->analytic.kind == WR_ANALYTIC_OFF &&
                        (scene->scheme == WR_SCHEME_BILINEAR || scene->scheme == WR_SCHEME_CENTRAL),
                    .faces = wr_surfaces[scene->shape.kind]->faces };
-    wr_dice_fini(dice);
-    if (wr_surfaces[scene->shape.kind]->held)
-        return dice_mesh(dice, scene, field, view, epsilon, pool, err);
-    dice_lay(&d, pool);
+    dice_lay(&d, request->pool);
     dice_choose(&d);
-    while (d.triangle_count > WR_DICE_MAX && d.epsilon < 1e30) {
-        d.epsilon *= fmax(1.5, 0.5 * (double)d.triangle_count / WR_DICE_MAX);
+    while (d.triangle_count > most && d.epsilon < 1e30) {
+        d.epsilon *= fmax(1.5, 0.5 * (double)d.triangle_count / most);
         dice_choose(&d);
     }
     const bool room = allocate(&d, err);
     if (room) {
-        wr_pool_run(pool, d.cell_count, make_cell, &d);
+        wr_pool_run(request->pool, d.cell_count, make_cell, &d);
         weld_all(&d);
         hand_over(&d, dice);
     }
     fini(&d);
     return room;
+}
+
+/* ---- kept facets ---- */
+
+/* Of a moving view only the scale counts, else everything that pixels_at reads. */
+static WrHash key_of(const WrDiceRequest *request, double even)
+{
+    const WrView *view = request->view;
+    const WrVec3 axes[4] = { view->eye, view->right, view->up, view->forward };
+    const double numbers[] = { request->epsilon,      even,         view->scale,
+                               pixels_per_unit(view), view->half_w, view->half_h,
+                               view->perspective,     view->radius };
+    const WrHash hash = wr_raised_key(request->scene, request->field);
+    if (even > 0) return wr_hash_bytes(numbers, 2 * sizeof *numbers, hash);
+    return wr_hash_bytes(axes, sizeof axes, wr_hash_bytes(numbers, sizeof numbers, hash));
+}
+
+bool wr_dice_update(WrDice *dice, const WrDiceRequest *request, WrError *err)
+{
+    const double even = request->moving ? even_pixels(request->view) : 0.0;
+    const double epsilon = request->moving ? 2 * request->epsilon : request->epsilon;
+    const WrHash key = key_of(request, even);
+    WrDiceRequest own = *request;
+    WrRaised raised;
+    if (dice->triangles && wr_hash_equal(dice->key, key)) return true;
+    wr_dice_fini(dice);
+    bool good = wr_raised_init(&raised, request->scene, request->field, err);
+    own.scene = raised.scene, own.field = raised.field;
+    if (good && wr_surfaces[own.scene->shape.kind]->held)
+        good = dice_mesh(dice, &own, even, epsilon, err);
+    else good = good && dice_cells(dice, &own, even, epsilon, err);
+    wr_raised_fini(&raised);
+    dice->key = key;
+    return good;
 }
 
 void wr_dice_fini(WrDice *dice)

@@ -1,6 +1,7 @@
 /* dice.h - dicing of displaced surfaces into facets, and their F prepared for many single evaluations.
    Private to the renderer. */
 #pragma once
+#include "base/hash.h"
 #include "scene/scene.h"
 #include "surface/triangles.h"
 
@@ -29,6 +30,8 @@ void wr_raised_fini(WrRaised *raised);
 bool wr_is_raised(const WrScene *scene);
 /* Upper bound of |F|, object units. field: not read with a formula. */
 double wr_raised_most(const WrScene *scene, const WrField *field);
+/* Hash of everything that changes the displaced shape, and of nothing else: material edits keep its facets. */
+WrHash wr_raised_key(const WrScene *scene, const WrField *field);
 
 /* ---- dicing ---- */
 
@@ -55,7 +58,8 @@ typedef struct WrScene WrScene;
 typedef struct WrView WrView;
 
 #define WR_DICE_FACES 6
-#define WR_DICE_MAX 3000000 /* maximum triangles; beyond it facets are coarser (HC125) */
+#define WR_DICE_MAX 3000000       /* maximum triangles; beyond it facets are coarser (HC125) */
+#define WR_DICE_MOVING_MAX 100000 /* of a moving view, in addition to a mesh's own */
 
 typedef struct WrDice {
     WrTriangles *triangles;     /* owned; corners have u and v, no normals; NULL: not built */
@@ -67,9 +71,23 @@ typedef struct WrDice {
     int32_t *base_of;  /* [triangles] the face of each; owned */
     double epsilon;    /* largest error of the facets in pixels: the requested one, or more */
     double rise;       /* largest |F|, object units */
+    WrHash key;        /* of everything that the facets depend on */
 } WrDice;
 
-/* Builds the triangles. field: NULL with a formula. epsilon: pixels. Errors: no memory. */
-bool wr_dice_make(WrDice *dice, const WrScene *scene, const WrField *field, const WrView *view,
-                  double epsilon, WrPool *pool, WrError *err);
+typedef struct WrDiceRequest {
+    const WrScene *scene;
+    const WrField *field; /* not read with a formula */
+    const WrView *view;
+    double epsilon; /* pixels */
+    /* The view moves: facets are even and do not depend on its direction. Their error is twice epsilon or less at the
+       nearest point of the bounding sphere, unless they would be too many. A pixel is rounded down there to a power of
+       two of the unit: facets remain until the distance has doubled or halved. */
+    bool moving;
+    WrPool *pool;
+    const volatile int *cancel; /* may be NULL; read for meshes only */
+} WrDiceRequest;
+
+/* Builds the triangles, or keeps those of an equal request. dice: zero-initialised before the first. Errors: no memory,
+   cancelled. */
+bool wr_dice_update(WrDice *dice, const WrDiceRequest *request, WrError *err);
 void wr_dice_fini(WrDice *dice);

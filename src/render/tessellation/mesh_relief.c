@@ -49,6 +49,11 @@ typedef struct Location {
     float b[2];
 } Location;
 
+static bool is_stopped(const WrMeshRelief *r)
+{
+    return wr_progress_stopped() || wr_cancel_requested(r->request.cancel);
+}
+
 /* ---- the exact surface ---- */
 
 static WrVec3 vec_of(const float x[3])
@@ -514,7 +519,7 @@ static bool measure(Samples *s)
     }
     s->count = 0;
     if (s->run < WR_HEIGHTS_RUN) s->run *= 2;
-    return s->worst <= s->error * s->error && !wr_progress_stopped();
+    return s->worst <= s->error * s->error && !is_stopped(r);
 }
 
 /* w1, w2: weights of the triangle's corners 1 and 2. */
@@ -718,7 +723,7 @@ static int32_t refine_bad(WrMeshRelief *r, const int32_t *fresh, int32_t count)
         if (!(t->error > t->allowed) || !can_bisect(r, t)) continue;
         refine(r, fresh[i]);
         r->full = r->triangles.count > r->request.most;
-        if (++done % 4096 == 0 && wr_progress_stopped()) return 0;
+        if (++done % 4096 == 0 && is_stopped(r)) return 0;
     }
     return done;
 }
@@ -741,9 +746,10 @@ static bool refine_all(WrMeshRelief *r, WrError *err)
         if (!fresh) return false;
         RefineWork work = { r, fresh, find_fresh(r, fresh) };
         wr_pool_run(r->request.pool, (work.count + PIECE - 1) / PIECE, measure_piece, &work);
-        done = wr_progress_stopped() ? 0 : refine_bad(r, fresh, work.count);
+        done = is_stopped(r) ? 0 : refine_bad(r, fresh, work.count);
         wr_free(fresh);
-        if (!wr_progress_report(1.0 - 8.0 / (8.0 + round))) return wr_fail(err, "cancelled");
+        if (!wr_progress_report(1.0 - 8.0 / (8.0 + round)) || is_stopped(r))
+            return wr_fail(err, "cancelled");
     }
     return true;
 }

@@ -30,7 +30,8 @@ typedef struct WrMeshReliefRequest {
     double (*error_at)(const void *ctx, WrVec3 centre, double radius);
     const void *ctx;
     bool fine; /* nine samples in each texel and all kinks along sides, else centres and middles */
-    int32_t most; /* triangles */
+    int32_t most;               /* triangles */
+    const volatile int *cancel; /* may be NULL: only the thread's progress stops it */
 } WrMeshReliefRequest;
 
 /* Side k runs from corner k to the next one. Sides of all triangles on the same two points form a ring. */

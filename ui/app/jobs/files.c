@@ -82,8 +82,7 @@ static const struct {
     [WR_ROW(WR_FILE_PATCHES)] = { "Choose a set of patches", "Choose", NULL },
     [WR_ROW(WR_FILE_TERRAIN)] = { "Choose a picture of elevations", "Choose", NULL },
     [WR_ROW(WR_FILE_GLTF)] = { "Take the materials of a glTF", "Take", NULL },
-    [WR_ROW(WR_FILE_BAKE_RELIEF)] = { "Bake the relief of a mesh", "Bake", NULL },
-    [WR_ROW(WR_FILE_BAKE_NORMALS)] = { "Bake the normals of a mesh", "Bake", NULL },
+    [WR_ROW(WR_FILE_BAKE)] = { "Choose a detailed mesh", "Choose", NULL },
     [WR_ROW(WR_FILE_PRESET)] = { NULL, NULL, NULL }, /* typed name, no file dialog */
 };
 WR_ROWS_END(purposes, WR_FILE_PURPOSES);
@@ -513,9 +512,7 @@ static const char *const *file_endings(WrFilePurpose purpose)
         return NULL;
     if (purpose == WR_FILE_STAMP) return stamps;
     if (purpose == WR_FILE_GLTF) return models;
-    if (purpose == WR_FILE_MESH || purpose == WR_FILE_BAKE_RELIEF ||
-        purpose == WR_FILE_BAKE_NORMALS)
-        return meshes;
+    if (purpose == WR_FILE_MESH || purpose == WR_FILE_BAKE) return meshes;
     if (purpose == WR_FILE_PATCHES) return patches;
     if (purpose == WR_FILE_TERRAIN) return grounds;
     return purpose == WR_FILE_OPEN || purpose == WR_FILE_TABLE ? documents : pictures;

@@ -24,11 +24,10 @@ typedef enum WrFilePurpose {
     WR_FILE_SURROUND,
     WR_FILE_MESH, /* mesh surface of the active object */
     WR_FILE_PATCHES,
-    WR_FILE_TERRAIN,     /* terrain heights of the active object */
-    WR_FILE_GLTF,        /* materials and pictures of a glTF */
-    WR_FILE_BAKE_RELIEF, /* a detailed mesh for the active object's */
-    WR_FILE_BAKE_NORMALS,
-    WR_FILE_PRESET, /* not used in a dialog: a preset's name is typed */
+    WR_FILE_TERRAIN, /* terrain heights of the active object */
+    WR_FILE_GLTF,    /* materials and pictures of a glTF */
+    WR_FILE_BAKE,    /* a detailed mesh for the active object's */
+    WR_FILE_PRESET,  /* not used in a dialog: a preset's name is typed */
     WR_FILE_PURPOSES
 } WrFilePurpose;
 

@@ -73,6 +73,7 @@
     X(straight_line, "V")                                                                          \
     X(paint_patch, "A")                                                                            \
     X(paint_round, "")                                                                             \
+    X(projection_handle, "")                                                                       \
     X(pressure_up, "Alt+Shift+S")                                                                  \
     X(pressure_down, "Alt+Shift+A")                                                                \
     X(pressure_speed, "")                                                                          \
@@ -119,8 +120,7 @@
     X(fill, "")                                                                                    \
     X(grid, "")                                                                                    \
     X(gltf, "")                                                                                    \
-    X(bake_relief, "")                                                                             \
-    X(bake_normals, "")                                                                            \
+    X(bake, "")                                                                                    \
     X(import, "")                                                                                  \
     X(zoom_in, "+ = Shift+= Ctrl++ Ctrl+= Keypad_+")                                               \
     X(zoom_out, "- Ctrl+- Keypad_-")                                                               \

@@ -29,6 +29,7 @@ typedef enum WrDialog {
     WR_DIALOG_DYNAMICS, /* curve editor of the brush */
     WR_DIALOG_REPLACE,  /* question before an existing file is overwritten */
     WR_DIALOG_TABLET,
+    WR_DIALOG_BAKE, /* maps of a detailed mesh */
     WR_DIALOG_CASES,
     WR_DIALOG_HELP,
     WR_DIALOG_ABOUT,

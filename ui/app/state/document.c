@@ -531,26 +531,6 @@ void wr_app_choose_gltf(WrApp *app)
     choose(app, WR_FILE_GLTF);
 }
 
-void wr_file_take_bake_relief(WrApp *app, const char *path)
-{
-    run_on_file(app, "bake ", path, "");
-}
-
-void wr_file_take_bake_normals(WrApp *app, const char *path)
-{
-    run_on_file(app, "bake ", path, " map=normal samples=2");
-}
-
-void wr_app_choose_bake_relief(WrApp *app)
-{
-    choose(app, WR_FILE_BAKE_RELIEF);
-}
-
-void wr_app_choose_bake_normals(WrApp *app)
-{
-    choose(app, WR_FILE_BAKE_NORMALS);
-}
-
 bool wr_app_can_bake(const WrApp *app)
 {
     const WrScene *scene = wr_app_scene(app);

@@ -30,8 +30,12 @@ typedef struct WrForms { /* values of open dialogs */
     double mesh_size;                                /* mm; 0: the file's unit */
     int mesh_round, mesh_limited;                    /* of a mesh as a solid: 0 or 1 */
     char export_more[200];                           /* further options of the line, as typed */
-    int film_kind;                                   /* index into wr_film_kinds */
-    int wrap, kind, range;                           /* range: a WR_RANGE_ value */
+    char bake_file[4096];                            /* detailed mesh to bake; "": none */
+    int bake_map, bake_match, bake_size; /* WrBakeKind; 0 or 1; texels a side, 0: as the table */
+    double bake_cage;                    /* 0: automatic */
+    double bake_samples, bake_padding;
+    int film_kind;         /* index into wr_film_kinds */
+    int wrap, kind, range; /* range: a WR_RANGE_ value */
     bool fit;
     WrNewForm fresh; /* new document */
 } WrForms;
@@ -75,12 +79,7 @@ void wr_file_take_open(WrApp *app, const char *path);
 void wr_file_take_save(WrApp *app, const char *path);
 void wr_file_take_import(WrApp *app, const char *path);
 void wr_file_take_gltf(WrApp *app, const char *path);
-void wr_app_choose_gltf(WrApp *app); /* choose a file whose material the active object gets */
-/* Bake a detailed mesh, or choose its file. */
-void wr_file_take_bake_relief(WrApp *app, const char *path);
-void wr_file_take_bake_normals(WrApp *app, const char *path);
-void wr_app_choose_bake_relief(WrApp *app);
-void wr_app_choose_bake_normals(WrApp *app);
+void wr_app_choose_gltf(WrApp *app);    /* choose a file whose material the active object gets */
 bool wr_app_can_bake(const WrApp *app); /* the active object is a mesh of a file */
 void wr_file_take_export(WrApp *app, const char *path);
 void wr_file_take_history(WrApp *app, const char *path);

@@ -221,6 +221,7 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
                                .turn_deg = wish->turn_deg,
                                .dials = &dials,
                                .keep = level > WR_PREVIEW_MOVING,
+                               .moving = level == WR_PREVIEW_MOVING,
                                .cancel = &preview->cancel };
     request.codes =
         wr_frame_codes_of(wish->scene, wish->scene->background.kind != WR_BACKGROUND_NONE);
