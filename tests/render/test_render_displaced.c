@@ -202,6 +202,14 @@ static void kept_facets_make_the_same_picture(void **state)
         wr_field_set(field, 22, 15, 2.5f);
         render_turned(&kept, higher, field, 20, true);
         expect_fresh(&kept, higher, field, 20, true, which);
+        if (which == 3) { /* the same file with a mask */
+            WrProjection masked = higher->projection;
+            masked.facing = WR_FACING_Z;
+            assert_true(wr_surfaces[higher->shape.kind]->held);
+            assert_true(wr_scene_project(higher, &masked, NULL));
+            render_turned(&kept, higher, field, 20, true);
+            expect_fresh(&kept, higher, field, 20, true, which);
+        }
         put_away(&kept);
         wr_scene_free(higher);
         wr_scene_free(other);
