@@ -78,7 +78,7 @@ static void check_list(WrWordList list, const void *ctx, Ask ask, const void *as
     char typed[WORD_MAX + 2], word[WORD_MAX + 1];
     for (int i = 0; list(ctx, i); i++) {
         snprintf(word, sizeof word, "%s", list(ctx, i));
-        for (int k = 0; strlen(word) > 1 && typo(word, k, typed); k++) {
+        for (int k = 0; strlen(word) > 2 && typo(word, k, typed); k++) {
             bool another = false;
             for (int j = 0; list(ctx, j); j++) another |= strcasecmp(list(ctx, j), typed) == 0;
             if (another || !isalpha((unsigned char)*typed)) continue;
