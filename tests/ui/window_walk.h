@@ -25,7 +25,7 @@
 #include "ui/app/state/document.h"
 #include "ui/app/state/pointer_state.h"
 #include "ui/app/state/layout.h"
-#include "ui/app/state/replace.h"
+#include "ui/app/state/overwrite_question.h"
 #include "ui/app/state/registry.h"
 #include "ui/app/state/session_view.h"
 #include "ui/app/state/settings.h"
@@ -276,6 +276,16 @@ static inline bool walk_open_recover(Walk *walk, int which)
     return walk_name(walk, "dialog %s", "recover");
 }
 
+/* It needs an object with a mesh. */
+static inline bool walk_open_bake(Walk *walk, int which)
+{
+    if (which > 0) return false;
+    walk_run(walk, "surface mesh file=" WR_SOURCE_DIR "/samples/accuracy/knot.ply");
+    wr_action_run(walk->app, "bake");
+    assert_int_equal(walk->app->dialog->now, WR_DIALOG_BAKE);
+    return walk_name(walk, "dialog of %s", "bake");
+}
+
 static inline void walk_dialogs(Walk *walk)
 {
     WrApp *app = walk->app;
@@ -294,6 +304,8 @@ static inline void walk_dialogs(Walk *walk)
     walk_each(walk, walk_open_file, walk_close_dialog);
     walk_each(walk, walk_open_replace, walk_close_dialog);
     walk_each(walk, walk_open_recover, walk_close_dialog);
+    walk_each(walk, walk_open_bake, walk_close_dialog);
+    walk_run(walk, "undo");
 }
 
 static inline bool walk_open_generator(Walk *walk, int which)

@@ -299,22 +299,27 @@ static void seams_of(WrApp *app)
     seam_rows(app);
 }
 
+static WrProjectionKind kind_of(const WrApp *app)
+{
+    return wr_app_scene(app)->projection.kind;
+}
+
 void wr_projection_rows(WrApp *app)
 {
     static const char *const labels[WR_PROJECTIONS] = { "Of the file", "Planar", "Box",
                                                         "Cylindrical", "Spherical" };
     static const char *const units[WR_UNIT_COUNT] = { "mm (assumed)", "mm",   "cm",         "m",
                                                       "inches",       "feet", "micrometres" };
-    const WrScene *scene = wr_app_scene(app);
+    const WrScene *scene = wr_app_scene(app); /* each row may make another */
     if (scene->shape.kind != WR_SURFACE_mesh || !scene->triangles) return;
     int kind = (int)scene->projection.kind, unit = (int)scene->projection.unit;
     wr_gui_label("Projection");
     if (wr_gui_choice("projection", 0, labels, WR_PROJECTIONS, &kind))
         run_word(app, "projection", wr_projection_names[kind]);
     wr_gui_tip("How the table is laid on the mesh");
-    if (scene->projection.kind != WR_PROJECTION_UV) {
+    if (kind_of(app) != WR_PROJECTION_UV) {
         cell_row(app);
-        if (scene->projection.kind == WR_PROJECTION_BOX) blend_row(app);
+        if (kind_of(app) == WR_PROJECTION_BOX) blend_row(app);
         place_rows(app);
         wr_gui_label("Unit");
         if (wr_gui_choice("mesh unit", 0, units, WR_UNIT_COUNT, &unit) && unit > 0)
@@ -326,8 +331,8 @@ void wr_projection_rows(WrApp *app)
     }
     normals_row(app);
     facing_rows(app);
-    if (scene->projection.kind == WR_PROJECTION_UV && scene->projection.facing != WR_FACING_ANY)
+    if (kind_of(app) == WR_PROJECTION_UV && wr_app_scene(app)->projection.facing != WR_FACING_ANY)
         place_rows(app);
     wr_mesh_parts_row(app);
-    if (scene->triangles->mapped) seams_of(app);
+    if (wr_app_scene(app)->triangles->mapped) seams_of(app);
 }
