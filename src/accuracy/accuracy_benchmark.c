@@ -337,8 +337,8 @@ double wr_bench_now(const WrBench *bench)
 
 /* The first frame after a change of setting builds the data that it needs (tables, meshes, pyramids). It is not
    timed, because a user pays it only once. */
-bool wr_bench_time(const WrBench *bench, const WrScene *scene, double *seconds, int64_t *shaded,
-                   WrError *err)
+bool wr_bench_frame_seconds(const WrBench *bench, const WrScene *scene, double *seconds,
+                            int64_t *shaded, WrError *err)
 {
     WrFrame frame;
     if (!wr_bench_frame(bench, scene, NULL, &frame, err)) return false;
@@ -411,8 +411,8 @@ static bool time_rungs(const WrBench *bench, WrScene **scenes, WrAccuracyBenchma
             WrRung *rung = &benchmark->rungs[i];
             good = tell(request, 0.4 + 0.6 * (done + (double)i / benchmark->count) / runs, err);
             if (good && !rung->note.text[0])
-                good = wr_bench_time(bench, scenes[i], &times[i * RUNS_MAX + done], &rung->shaded,
-                                     err);
+                good = wr_bench_frame_seconds(bench, scenes[i], &times[i * RUNS_MAX + done],
+                                              &rung->shaded, err);
         }
     }
     for (int i = 0; good && i < benchmark->count; i++)
@@ -537,7 +537,7 @@ static bool measure_claim(const WrBench *bench, WrAccuracyBenchmark *benchmark, 
     }
     for (int run = 0; good && run < WR_ACCURACY_BENCHMARK_RUNS; run++)
         for (int k = 0; good && k < 3; k++)
-            good = wr_bench_time(bench, kinds[k], &times[k][run], &shaded, err);
+            good = wr_bench_frame_seconds(bench, kinds[k], &times[k][run], &shaded, err);
     double median[3] = { 1, 1, 1 };
     for (int k = 0; k < 3; k++) {
         if (good)
@@ -550,8 +550,8 @@ static bool measure_claim(const WrBench *bench, WrAccuracyBenchmark *benchmark, 
     return good;
 }
 
-bool wr_bench_reference(const WrAccuracyBenchmarkRequest *request, WrPool *pool, WrReference *out,
-                        WrError *err)
+bool wr_bench_render_reference(const WrAccuracyBenchmarkRequest *request, WrPool *pool,
+                               WrReference *out, WrError *err)
 {
     WrReferenceRequest wanted = { .field = request->field,
                                   .fields = request->fields,
@@ -619,7 +619,7 @@ bool wr_accuracy_benchmark_measure(const WrAccuracyBenchmarkRequest *request,
     WrPool *all = wr_pool_new(0), *one = wr_pool_new(1);
     WrPin pin;
     WrBench bench = { .request = request, .pool = request->threads == 1 ? one : all };
-    bool good = wr_bench_reference(request, all, &benchmark.reference, err);
+    bool good = wr_bench_render_reference(request, all, &benchmark.reference, err);
     bench.renderer = good ? wr_renderer_new(bench.pool, NULL, err) : NULL;
     good = bench.renderer != NULL;
     if (good) {

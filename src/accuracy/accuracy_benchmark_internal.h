@@ -16,12 +16,12 @@ typedef struct WrBench {
 bool wr_bench_frame(const WrBench *bench, const WrScene *scene, float *normals, WrFrame *frame,
                     WrError *err);
 /* Seconds of one frame, after an untimed one. */
-bool wr_bench_time(const WrBench *bench, const WrScene *scene, double *seconds, int64_t *shaded,
-                   WrError *err);
+bool wr_bench_frame_seconds(const WrBench *bench, const WrScene *scene, double *seconds,
+                            int64_t *shaded, WrError *err);
 /* On one thread the thread's own work, else wall time. */
 double wr_bench_now(const WrBench *bench);
 void wr_bench_sort(double *times, int count);
 /* Quantile `part`, 0..1, of sorted numbers, interpolated between neighbours. */
 double wr_bench_quantile(const double *sorted, int count, double part);
-bool wr_bench_reference(const WrAccuracyBenchmarkRequest *request, WrPool *pool, WrReference *out,
-                        WrError *err);
+bool wr_bench_render_reference(const WrAccuracyBenchmarkRequest *request, WrPool *pool,
+                               WrReference *out, WrError *err);

@@ -74,7 +74,7 @@ bool wr_choice_fits(const WrChoice *choice, const WrFrameRequest *request);
 /* "whole picture: scheme=... mode=... aa=adaptive samples=4 ..." and a newline. */
 void wr_choice_print(const WrChoice *choice, WrText *text);
 
-/* ---- text form: tolerance_text.c ---- */
+/* ---- text form: choice_text.c ---- */
 
 /* Identity of the table and scene, tolerance included, that a choice was made for; its size and turn are in the
    choice. */

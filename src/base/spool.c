@@ -42,7 +42,7 @@ static bool copy(const WrSpool *spool, int64_t from, int64_t end, const WrByteSi
 static bool move_up_to(WrSpool *spool, int64_t end, const WrByteSink *to)
 {
     if (!copy(spool, spool->moved, end, to)) return false;
-    wr_fd_forget(spool->fd, spool->moved, end - spool->moved);
+    wr_fd_punch_hole(spool->fd, spool->moved, end - spool->moved);
     spool->moved = end;
     return true;
 }

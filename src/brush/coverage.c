@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 #include "base/pool.h"
-#include "brush/scan_convert.h"
+#include "brush/footprint_scan.h"
 #include "field/field.h"
 #include "system/clock.h"
 

@@ -6,7 +6,7 @@
 #pragma once
 #include "base/array.h"
 #include "brush/mode.h"
-#include "brush/scan_convert.h"
+#include "brush/footprint_scan.h"
 
 #include <stdbool.h>
 

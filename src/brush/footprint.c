@@ -1,4 +1,4 @@
-#include "brush/shape.h"
+#include "brush/footprint.h"
 
 #include "base/exactmath.h"
 #include "field/field.h"

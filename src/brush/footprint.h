@@ -1,4 +1,4 @@
-/* shape.h - the footprint of one dab or motion: affected texels and their coverage.
+/* footprint.h - the footprint of one dab or motion: affected texels and their coverage.
    Private to this module.
    Texel coordinates as in capsule.h. */
 #pragma once

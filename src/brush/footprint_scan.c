@@ -1,4 +1,4 @@
-#include "brush/scan_convert.h"
+#include "brush/footprint_scan.h"
 
 #include "base/memory.h"
 #include "base/pool.h"

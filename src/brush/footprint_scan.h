@@ -1,7 +1,7 @@
-/* scan_convert.h - scan conversion of a shape to runs of texels, tile by tile.
+/* footprint_scan.h - scan conversion of a shape to runs of texels, tile by tile.
    Private to this module. */
 #pragma once
-#include "brush/shape.h"
+#include "brush/footprint.h"
 #include "field/wrap.h"
 
 #include <stdbool.h>

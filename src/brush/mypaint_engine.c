@@ -11,7 +11,7 @@
    - The number of dabs per step depends on values that curves can make arbitrarily large: after
      DABS_PER_STEP the callback reduces its count (a radius of 1000 pixels, one dab per radius), which
      ends the step. */
-#include "brush/engine.h"
+#include "brush/mypaint_engine.h"
 
 #include "base/array.h"
 #include "base/exactmath.h"

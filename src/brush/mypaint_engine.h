@@ -1,4 +1,4 @@
-/* engine.h - generation of a preset's dabs by libmypaint.
+/* mypaint_engine.h - generation of a preset's dabs by libmypaint.
    Private to this module.
 
    The engine is driven in fixed steps of WR_ENGINE_STEP seconds, interpolated from the samples, so that

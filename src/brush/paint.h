@@ -4,7 +4,7 @@
 #include "brush/coverage.h"
 #include "brush/displace_modes.h"
 #include "brush/mesh_dab.h"
-#include "brush/shape.h"
+#include "brush/footprint.h"
 
 #include <stdbool.h>
 

@@ -3,7 +3,7 @@
 #include "brush/brush.h"
 #include "brush/dab.h"
 #include "brush/paint.h"
-#include "brush/engine.h"
+#include "brush/mypaint_engine.h"
 #include "brush/mesh_dab.h"
 #include "brush/tip.h"
 #include "field/field.h"

@@ -127,7 +127,7 @@ static bool update_start(Replay *r, WrError *err)
     } else if (start->kind == WR_JOURNAL_DOCUMENT) {
         WrText kept = { 0 };
         bool copy = start->sha256 &&
-                    wr_journal_kept_file(r->journal, start->sha256, start->path, &kept, NULL);
+                    wr_journal_find_input_copy(r->journal, start->sha256, start->path, &kept, NULL);
         bool good = wr_session_load(r->session, copy ? wr_text_get(&kept) : start->path, err);
         wr_text_fini(&kept);
         if (!good) return false;
@@ -200,7 +200,7 @@ static char *with_copies(const char *journal, const char *line)
         const char *sha256 = wr_call_arg(call, hash)->text;
         if (wr_input_sha256(name, hex, NULL) && strcmp(hex, sha256) == 0) continue;
         wr_text_clear(&copy);
-        if (wr_journal_kept_file(journal, sha256, name, &copy, NULL))
+        if (wr_journal_find_input_copy(journal, sha256, name, &copy, NULL))
             wr_call_set_text(call, call->specs[i].name, wr_text_get(&copy));
     }
     wr_call_print(call, &text);
@@ -482,8 +482,8 @@ static void add_start(const char *journal, const WrJournalRead *read, WrText *te
         wr_text_add(text, "# its first line is damaged: what it began with is a guess\n");
     if (start->kind == WR_JOURNAL_SNAPSHOT) add_open(text, start->snapshot, NULL);
     if (start->kind == WR_JOURNAL_DOCUMENT) {
-        bool copy =
-            start->sha256 && wr_journal_kept_file(journal, start->sha256, start->path, &kept, NULL);
+        bool copy = start->sha256 &&
+                    wr_journal_find_input_copy(journal, start->sha256, start->path, &kept, NULL);
         if (copy) wr_text_addf(text, "# this was %s\n", start->path);
         add_open(text, copy ? wr_text_get(&kept) : start->path, start->sha256);
     }

@@ -218,7 +218,7 @@ static void session_note_view(WrSession *session)
     if (wr_views_number(views) != before) session->view_top = wr_views_number(views);
 }
 
-int wr_session_undoable_views(const WrSession *session)
+int wr_session_view_undo_count(const WrSession *session)
 {
     return wr_views_back(session->state.views);
 }

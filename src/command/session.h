@@ -177,7 +177,7 @@ bool wr_session_history_go(WrSession *session, int position, WrError *err);
 
 /* Numbers of views that can be undone and redone. Views are not edits: they have their own history (commands
    `camera`, `rotate` and `view`) and do not make a document unsaved. */
-int wr_session_undoable_views(const WrSession *session);
+int wr_session_view_undo_count(const WrSession *session);
 int wr_session_redoable_views(const WrSession *session);
 
 /* Memory of all kept steps, memory of one step (0 if dropped), and the budget in bytes: 1 GiB by default. The oldest

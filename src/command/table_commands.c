@@ -182,7 +182,7 @@ static WrField *heights_of_map(WrSession *session, const WrImageLabel *label, co
 static void note_range(WrSession *session, const WrImage *image, const char *path)
 {
     const WrImageLabel *label = &image->label;
-    const double last = wr_pixel_last(image->type);
+    const double last = wr_pixel_type_max(image->type);
     wr_session_note(session,
                     "%s: its label tells that codes 0 to %g are heights %g to %g: so they are read "
                     "(labels=ignore reads 0 to 1)",

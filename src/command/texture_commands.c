@@ -255,7 +255,7 @@ static void print_normals_content(const WrScene *scene, WrText *text)
 
 static void note_codes(WrText *text, const WrImage *file, const WrNormalMapReport *report)
 {
-    const double last = wr_pixel_last(file->type);
+    const double last = wr_pixel_type_max(file->type);
     wr_text_addf(text, "%dx%d, %d channels of ", file->width, file->height, report->channels);
     if (last > 0) wr_text_addf(text, "%d bits", last > 255 ? 16 : 8);
     else

@@ -1068,7 +1068,7 @@ static bool write_archive(Saving *to, WrFileTarget *target, WrError *err)
    encoded. */
 static bool verify_archive(const Saving *to, const char *name, int fd, WrError *err)
 {
-    int again = wr_fd_again(fd);
+    int again = wr_fd_reopen(fd);
     if (again < 0) return wr_fail(err, "%s", strerror(errno));
     WrOraZip *zip = wr_ora_zip_take(name, again, err);
     bool good = zip != NULL;

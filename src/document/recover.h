@@ -113,8 +113,8 @@ bool wr_journal_claim_remove(WrJournalClaim *claim, WrError *err);
 /* Path of the kept copy of a file that a command of the journal at `journal_path` reads, by its SHA-256. named:
    the file's name in the command, for the copy with that extension if there are several; may be NULL. False if
    there is none. */
-bool wr_journal_kept_file(const char *journal_path, const char *sha256, const char *named,
-                          WrText *path, WrError *err);
+bool wr_journal_find_input_copy(const char *journal_path, const char *sha256, const char *named,
+                                WrText *path, WrError *err);
 
 typedef enum WrProbeEnd {
     WR_PROBE_TRUE,    /* the function returned true */

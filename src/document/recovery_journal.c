@@ -619,8 +619,8 @@ static bool journal_keep_as_named(const char *files, const char *path, WrError *
     return ok;
 }
 
-bool wr_journal_kept_file(const char *journal_path, const char *sha256, const char *named,
-                          WrText *path, WrError *err)
+bool wr_journal_find_input_copy(const char *journal_path, const char *sha256, const char *named,
+                                WrText *path, WrError *err)
 {
     if (!journal_is_sha256(sha256))
         return wr_fail(err, "'%.70s': a SHA-256 must be 64 lower-case hex digits", sha256);

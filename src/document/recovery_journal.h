@@ -152,7 +152,7 @@ WrJournalState wr_journal_state(const WrJournal *journal);
 const char *wr_journal_path(const WrJournal *journal); /* of NAME.wj; "" without a folder */
 
 /* Keeps a copy of a file that a command reads, named by its content's SHA-256 (64 lower-case hex digits) and the
-   extension of its name, for wr_journal_kept_file. If the content differs from the hash the copy is refused. A
+   extension of its name, for wr_journal_find_input_copy. If the content differs from the hash the copy is refused. A
    failure does not harm the journal: a replay then depends on the file itself. */
 bool wr_journal_keep_file(WrJournal *journal, const char *path, const char *sha256, WrError *err);
 

@@ -251,7 +251,7 @@ static double limited(double slope, bool *steep)
 static void decode_texel(const WrImage *image, const float *pixel, bool as_is, size_t k,
                          WrNormals *out)
 {
-    double most = wr_pixel_last(image->type), z;
+    double most = wr_pixel_type_max(image->type), z;
     double x = axis_of((double)pixel[0], most, as_is), y = axis_of((double)pixel[1], most, as_is);
     if (image->channels == 2) {
         /* Two channels hold x and y of a unit vector; z is the positive root (BC5 and similar formats). */

@@ -22,7 +22,7 @@ static double wrapped(double x, double size)
 }
 
 /* The mean over one texel, summed in a fixed order. Samples lie at (a + 1/2) / n - 1/2 texels from the centre: an n x n box
-   filter for patterns with edges that have no closed-form filter. wr_edge already filters straight edges, so most patterns
+   filter for patterns with edges that have no closed-form filter. wr_edge_height already filters straight edges, so most patterns
    take one sample. */
 static double texel(const Drawing *d, double x, double y)
 {
@@ -87,7 +87,7 @@ WrCells wr_cells_of(const WrParams *params, const WrField *like)
                              wr_param_whole(params, "rows"));
 }
 
-WrCells wr_cells_along(const WrParams *params, const WrField *like)
+WrCells wr_cells_directed(const WrParams *params, const WrField *like)
 {
     if (wr_param_whole(params, "along") == WR_ALONG_U) return wr_cells_of(params, like);
     WrCells turned = cells(wr_field_height(like), wr_field_width(like),
@@ -166,7 +166,7 @@ double wr_piece_roughness(const WrNoise grain[2], const WrPieces *pieces, double
    with random c of the piece (i, j) and noise n. At least 0.05 remains, so that joints are the lowest places. */
 double wr_piece(const WrPieces *p, double d, double px, double py, int i, int j, double x, double y)
 {
-    double e = wr_edge(&p->edge, d);
+    double e = wr_edge_height(&p->edge, d);
     if (e <= 0.0) return 0.0;
     double top = 1.0 - p->uneven * wr_chance(p->seed, i, j, 0);
     double lean_x = wr_chance(p->seed, i, j, 1) - 0.5, lean_y = wr_chance(p->seed, i, j, 2) - 0.5;

@@ -37,7 +37,7 @@ WrCells wr_cell_grid_make(const WrField *like, int across, int rows);
 /* From the parameters across and rows. */
 WrCells wr_cells_of(const WrParams *params, const WrField *like);
 /* wr_cells_of for patterns with a direction, the parameter along. */
-WrCells wr_cells_along(const WrParams *params, const WrField *like);
+WrCells wr_cells_directed(const WrParams *params, const WrField *like);
 /* Exchanges x and y if the pattern is turned. */
 static inline void wr_cells_turn(const WrCells *cells, double *x, double *y)
 {
@@ -97,7 +97,7 @@ WrEdge wr_edge_of(const WrParams *params);
 
 /* The height at d texels inside an edge (below 0: outside), averaged over one texel across the edge, in
  * closed form: for a straight edge along the table's axes an exact box filter. */
-double wr_edge(const WrEdge *edge, double d);
+double wr_edge_height(const WrEdge *edge, double d);
 
 /* Distance of (dx, dy) inside a rectangle of those half sides with rounded corners, texels. */
 double wr_inside_box(double dx, double dy, double half_x, double half_y, double corner);

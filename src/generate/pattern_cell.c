@@ -84,7 +84,8 @@ static double dot_at(const void *ctx, double x, double y)
             double radius = d->radius * (1.0 - smaller);
             if (dx * dx + dy * dy >= (radius + 1.0) * (radius + 1.0)) continue;
             const WrEdge edge = { radius * d->bevel, d->profile };
-            double h = wr_edge(&edge, radius - sqrt(dx * dx + dy * dy)) * (1.0 - 0.5 * smaller);
+            double h =
+                wr_edge_height(&edge, radius - sqrt(dx * dx + dy * dy)) * (1.0 - 0.5 * smaller);
             best = h > best ? h : best;
         }
     }

@@ -143,7 +143,7 @@ bool wr_pattern_rope(const WrParamValue *values, const WrGenerateJob *job, WrRel
                      WrError *err)
 {
     const WrParams params = { wr_params_rope, values };
-    Rope r = { .cells = wr_cells_along(&params, job->like),
+    Rope r = { .cells = wr_cells_directed(&params, job->like),
                .width = wr_param_number(&params, "width"),
                .lay = wr_param_number(&params, "lay"),
                .groove = wr_param_number(&params, "groove"),

@@ -87,7 +87,7 @@ static double shingle_at(const void *ctx, double x, double y)
         double length = 2.5 * cells->cell_height; /* far below the rows above */
         double middle = (up - low) * cells->cell_height - 0.5 * length;
         double d = wr_inside_box(dx, middle, half, 0.5 * length, c->corner);
-        double cover = wr_edge(&c->pieces.edge, d);
+        double cover = wr_edge_height(&c->pieces.edge, d);
         if (cover > 0.0) h = laid(h, shingle_top(c, dx, half, i, j, x, y, up - low), cover);
     }
     return h;
@@ -161,7 +161,7 @@ static double scale_at(const void *ctx, double x, double y)
         int near = nearest_column(c, row, x, &dx), j = wr_modulo(row, cells->rows);
         for (int side = -1; side <= 1; side++) { /* its left and right neighbours may overlap it */
             double ex = dx - side * cells->cell_width;
-            double cover = wr_edge(&c->pieces.edge, inside_scale(c, ex, dy));
+            double cover = wr_edge_height(&c->pieces.edge, inside_scale(c, ex, dy));
             int i = wr_modulo(near + side, cells->across);
             if (cover <= 0.0) continue;
             double top = scale_top(c, ex, dy, i, j, x, y) * cover;

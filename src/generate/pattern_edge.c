@@ -42,7 +42,7 @@ static double area(const WrEdge *edge, double d)
 
 /* Profile h(d) of the distance d inside the edge, filtered by a box of one texel: the integral of h from d - 1/2 to d + 1/2,
    as a difference of antiderivatives. Exact for straight edges along an axis, and free of steps for all others. */
-double wr_edge(const WrEdge *edge, double d)
+double wr_edge_height(const WrEdge *edge, double d)
 {
     if (d <= -0.5) return 0.0;
     if (d >= edge->bevel + 0.5) return 1.0;

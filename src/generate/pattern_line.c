@@ -35,7 +35,8 @@ static double grid_at(const void *ctx, double x, double y)
     const Lines *l = ctx;
     double dx = to_whole(x / l->cells.cell_width) * l->cells.cell_width;
     double dy = to_whole(y / l->cells.cell_height) * l->cells.cell_height;
-    double a = wr_edge(&l->edge, 0.5 * l->width - dx), b = wr_edge(&l->edge, 0.5 * l->width - dy);
+    double a = wr_edge_height(&l->edge, 0.5 * l->width - dx),
+           b = wr_edge_height(&l->edge, 0.5 * l->width - dy);
     return 1.0 - (1.0 - a) * (1.0 - b);
 }
 
@@ -65,7 +66,7 @@ const WrParam wr_params_checks[] = {
 static double field_sign(const WrEdge *edge, double place, double size)
 {
     double cell = floor(place), d = (0.5 - fabs(place - cell - 0.5)) * size;
-    double rise = 2.0 * wr_edge(edge, d + 0.5 * edge->bevel) - 1.0;
+    double rise = 2.0 * wr_edge_height(edge, d + 0.5 * edge->bevel) - 1.0;
     return cell - 2.0 * floor(0.5 * cell) == 0.0 ? rise : -rise;
 }
 
@@ -130,7 +131,7 @@ const WrParam wr_params_stripes[] = { DIRECTION(6, 4, "stripes"),
 static double stripe_at(const void *ctx, double x, double y)
 {
     const Lines *l = ctx;
-    return wr_edge(&l->edge, (0.5 * l->width - to_whole(phase_at(l, x, y))) / l->steep);
+    return wr_edge_height(&l->edge, (0.5 * l->width - to_whole(phase_at(l, x, y))) / l->steep);
 }
 
 bool wr_pattern_stripes(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,

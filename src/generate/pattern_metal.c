@@ -67,7 +67,7 @@ bool wr_pattern_chain(const WrParamValue *values, const WrGenerateJob *job, WrRe
                       WrError *err)
 {
     const WrParams params = { wr_params_chain, values };
-    Chain c = { .cells = wr_cells_along(&params, job->like) };
+    Chain c = { .cells = wr_cells_directed(&params, job->like) };
     double width = wr_param_number(&params, "width") * c.cells.cell_height;
     double pitch = 0.5 * c.cells.cell_width; /* distance between links */
     c.wire = 0.5 * width * wr_param_number(&params, "wire");

@@ -355,7 +355,7 @@ bool wr_pattern_planks(const WrParamValue *values, const WrGenerateJob *job, WrR
                        WrError *err)
 {
     const WrParams params = { wr_params_planks, values };
-    Planks p = { .cells = wr_cells_along(&params, job->like),
+    Planks p = { .cells = wr_cells_directed(&params, job->like),
                  .joint = wr_param_number(&params, "joint"),
                  .wood = wr_param_number(&params, "wood"),
                  .rings = wr_param_whole(&params, "rings") };

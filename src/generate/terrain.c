@@ -122,7 +122,7 @@ static bool read_picture(const WrParams *p, const char *path, const WrWrap wrap[
     if (!image) return false;
     bool good = wr_sheet_init(&out->sheet, image->width, image->height, wrap, err);
     out->labelled = good && apply_label(p, image, job);
-    out->most = out->labelled ? 0.0 : wr_pixel_last(image->type);
+    out->most = out->labelled ? 0.0 : wr_pixel_type_max(image->type);
     out->least = 0.0;
     out->can_lack = image->type == WR_PIXEL_F32;
     size_t count = (size_t)image->width * (size_t)image->height;

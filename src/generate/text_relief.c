@@ -1150,7 +1150,7 @@ static double profile(const WrTextFinish *f, double d)
     WrEdge edge = { f->bevel, f->profile == WR_TEXT_ROUND ? WR_PROFILE_ROUND : WR_PROFILE_CHAMFER };
     if (f->profile == WR_TEXT_RIDGE)
         return roof_area(f->bevel, d + 0.5) - roof_area(f->bevel, d - 0.5);
-    return wr_edge(&edge, d);
+    return wr_edge_height(&edge, d);
 }
 
 /* On a partly covered texel, the profile's mean applies only to the covered part. */

@@ -14,7 +14,7 @@
    so that a move by whole texels preserves every bit. */
 #pragma once
 #include "generate/generator.h"
-#include "generate/zbuffer_shapes.h"
+#include "generate/zbuffer_intersect.h"
 
 #include <math.h>
 #include <stdbool.h>

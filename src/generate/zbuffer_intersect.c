@@ -1,4 +1,4 @@
-#include "generate/zbuffer_shapes.h"
+#include "generate/zbuffer_intersect.h"
 
 #include "base/array.h"
 #include "base/error.h"

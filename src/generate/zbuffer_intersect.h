@@ -1,4 +1,4 @@
-/* zbuffer_shapes.h - intersections of a line a + b t with simple bodies.
+/* zbuffer_intersect.h - intersections of a line a + b t with simple bodies.
    Private to the depth buffer. */
 #pragma once
 #include "base/enum_rows.h"

@@ -78,7 +78,7 @@ WrShape wr_hard_shape(WrSurfaceKind kind)
     return shape;
 }
 
-WrShape wr_hard_patch(WrVec3 (*point)(int i, int j))
+WrShape wr_hard_bicubic_patch(WrVec3 (*point)(int i, int j))
 {
     WrShape shape = wr_hard_shape(WR_SURFACE_bezier);
     for (int k = 0; k < 16; k++) {

@@ -26,7 +26,7 @@ bool wr_hard_check_mesh_finite(WrHardMeasurement *gauge, const WrHardMesh *mesh,
 WrScene *wr_hard_above(WrTriangles *triangles, double height);
 
 /* Its MikkTSpace frames, [3 faces]. */
-bool wr_hard_mikk(const WrHardMesh *mesh, WrTangent *out, WrError *err);
+bool wr_hard_mikk_frames(const WrHardMesh *mesh, WrTangent *out, WrError *err);
 /* Counts a violation for each frame that is not unit, perpendicular to the corner's normal and with b = sign n x
    t. A frame with sign -1 and t (1,0,0), the value for undefined frames, need not be perpendicular. */
 void wr_hard_units(WrHardMeasurement *gauge, const WrHardMesh *mesh, const WrTangent *frames);

@@ -55,7 +55,7 @@ static inline bool wr_hard_same(WrVec3 a, WrVec3 b)
 
 WrShape wr_hard_shape(WrSurfaceKind kind);
 /* The bicubic patch of the points f(i, j), i along u. */
-WrShape wr_hard_patch(WrVec3 (*point)(int i, int j));
+WrShape wr_hard_bicubic_patch(WrVec3 (*point)(int i, int j));
 /* A point by a kernel: P, Pu, Pv, n, |N|, n_u, n_v; the others 0. N is n |N|. The shape is scaled by `scale`, a
    power of two. */
 WrSurfacePointf wr_hard_point(WrHardMeasurement *gauge, int set, const WrShape *shape, double scale,

@@ -627,7 +627,7 @@ bool wr_hard_hc129(WrHardMeasurement *g, WrError *err)
         for (int k = 0; k < 5; k++) mesh.corner[k].u += 1, mesh.corner[k].v += 1;
         for (int k = 0; k < apart; k++) mesh.corner[4].u = nextafterf(mesh.corner[4].u, 9);
         WrTangent frames[3 * WR_HARD_FACES];
-        if (!wr_hard_mikk(&mesh, frames, err)) return false;
+        if (!wr_hard_mikk_frames(&mesh, frames, err)) return false;
         wr_hard_units(g, &mesh, frames);
         const double turned = v3_angle_rad(frames[0].t, frames[3].t);
         wr_hard_holds(g, WR_HARD_DOUBLE, apart ? turned > 0.5 : turned == 0);
@@ -649,7 +649,7 @@ bool wr_hard_hc130(WrHardMeasurement *g, WrError *err)
     for (int i = 0; i < 4; i++) take(x[i], y[i], 0, 0, 0, 1, &fold.corner[i]);
     fold.corner[3].u = 1;
     WrTangent frames[3 * WR_HARD_FACES];
-    if (!wr_hard_mikk(&fold, frames, err)) return false;
+    if (!wr_hard_mikk_frames(&fold, frames, err)) return false;
     wr_hard_units(g, &fold, frames);
     wr_hard_holds(g, WR_HARD_DOUBLE, frames[2].t.x == 1 && frames[2].sign == 1);
     wr_hard_holds(g, WR_HARD_DOUBLE, frames[5].t.x == -1 && frames[5].sign == 1);
@@ -669,7 +669,7 @@ bool wr_hard_hc131(WrHardMeasurement *g, WrError *err)
         mesh.corner[i].u = (float)-y[i], mesh.corner[i].v = (float)x[i];
     }
     WrTangent frames[3 * WR_HARD_FACES];
-    if (!wr_hard_mikk(&mesh, frames, err)) return false;
+    if (!wr_hard_mikk_frames(&mesh, frames, err)) return false;
     wr_hard_units(g, &mesh, frames);
     for (int k = 0; k < 3; k++) {
         const WrTangent *from = &frames[k / 2]; /* corners 0, 0 and 1 of the first triangle */
@@ -702,7 +702,7 @@ bool wr_hard_hc132(WrHardMeasurement *g, WrError *err)
                                                  : (int32_t)wr_hard_between(g, 0, WR_HARD_CORNERS);
         memcpy(faces, mesh.face, sizeof faces);
         WrTangent frames[3 * WR_HARD_FACES], mean[3 * WR_HARD_FACES];
-        if (!wr_hard_mikk(&mesh, frames, err) ||
+        if (!wr_hard_mikk_frames(&mesh, frames, err) ||
             !wr_tangents_average(mesh.corner, faces, mesh.faces, mean, err))
             return false;
         wr_hard_units(g, &mesh, frames);
@@ -1016,7 +1016,7 @@ static WrVec3 dish_high(int i, int j)
 static bool hc05(WrHardMeasurement *g, WrError *err)
 {
     (void)err;
-    const WrShape dishes[2] = { wr_hard_patch(dish_low), wr_hard_patch(dish_high) };
+    const WrShape dishes[2] = { wr_hard_bicubic_patch(dish_low), wr_hard_bicubic_patch(dish_high) };
     for (int edge = 0; edge < 2; edge++)
         for (int i = 0; i <= 32; i++) {
             const double u = i / 32.0, sign = edge ? -1.0 : 1.0;
@@ -1079,7 +1079,7 @@ static bool degenerate(WrHardMeasurement *g, const WrShape *shape, WrError *err)
 
 static bool hc06(WrHardMeasurement *g, WrError *err)
 {
-    const WrShape shape = wr_hard_patch(same_point);
+    const WrShape shape = wr_hard_bicubic_patch(same_point);
     return degenerate(g, &shape, err);
 }
 
@@ -1100,7 +1100,7 @@ static WrShape line_shape(WrHardMeasurement *g)
 
 static bool hc07(WrHardMeasurement *g, WrError *err)
 {
-    const WrShape shape = wr_hard_patch(line_point);
+    const WrShape shape = wr_hard_bicubic_patch(line_point);
     bool good = degenerate(g, &shape, err);
     for (int k = 0; k < 4 && good; k++) {
         const WrShape line = line_shape(g);

@@ -629,7 +629,7 @@ bool wr_hard_check_mesh_finite(WrHardMeasurement *g, const WrHardMesh *mesh, WrE
     return good;
 }
 
-bool wr_hard_mikk(const WrHardMesh *mesh, WrTangent *out, WrError *err)
+bool wr_hard_mikk_frames(const WrHardMesh *mesh, WrTangent *out, WrError *err)
 {
     WrTriangle faces[WR_HARD_FACES];
     memcpy(faces, mesh->face, (size_t)mesh->faces * sizeof *faces);
@@ -805,9 +805,9 @@ bool wr_hard_hc28(WrHardMeasurement *g, WrError *err)
     wr_hard_holds(g, WR_HARD_DOUBLE, !solve(&still, 0, &t, &det) && !solve(&thin, 1, &t, &det));
     report(g, &still, 2, 0);
     report(g, &thin, 2, 0);
-    if (!wr_hard_mikk(&still, frames, err)) return false;
+    if (!wr_hard_mikk_frames(&still, frames, err)) return false;
     wr_hard_units(g, &still, frames);
-    if (!wr_hard_mikk(&thin, frames, err)) return false;
+    if (!wr_hard_mikk_frames(&thin, frames, err)) return false;
     wr_hard_units(g, &thin, frames);
     return bends_within(g, &still, flat, 0.1, 0, 1e-6, 1e-12, err) &&
            wr_hard_check_mesh_finite(g, &thin, err);
@@ -885,7 +885,7 @@ bool wr_hard_hc30(WrHardMeasurement *g, WrError *err)
         wr_hard_holds(g, WR_HARD_DOUBLE, solved && (det > 0 ? 1 : -1) == side);
         wr_hard_holds(g, WR_HARD_DOUBLE,
                       solved && fabs(v3_unit(t, t).x - side) < 1e-12 && isfinite(v3_len(t)));
-        good = wr_hard_mikk(&mesh, frames, err);
+        good = wr_hard_mikk_frames(&mesh, frames, err);
         if (!good) break;
         wr_hard_units(g, &mesh, frames);
         for (int i = 0; i < 6; i++)
@@ -913,7 +913,7 @@ bool wr_hard_hc126(WrHardMeasurement *g, WrError *err)
         double det;
         wr_hard_holds(g, WR_HARD_DOUBLE, !solve(&mesh, 0, &t, &det) && !solve(&mesh, 1, &t, &det));
         report(g, &mesh, 2, 0);
-        good = wr_hard_mikk(&mesh, frames, err);
+        good = wr_hard_mikk_frames(&mesh, frames, err);
         if (good) wr_hard_units(g, &mesh, frames);
         good = good && bends_within(g, &mesh, map, 0.02, 0.05, 1e-5, 1e-6, err);
     }
@@ -930,7 +930,7 @@ bool wr_hard_hc31(WrHardMeasurement *g, WrError *err)
     WrTangent mikk[3 * WR_HARD_FACES], mean[3 * WR_HARD_FACES];
     WrTriangle faces[2];
     memcpy(faces, mesh.face, sizeof faces);
-    if (!wr_hard_mikk(&mesh, mikk, err)) return false;
+    if (!wr_hard_mikk_frames(&mesh, mikk, err)) return false;
     if (!wr_tangents_average(mesh.corner, faces, 2, mean, err)) return false;
     wr_hard_units(g, &mesh, mikk);
     for (int i = 0; i < 6; i++) {

@@ -1,6 +1,6 @@
 /* Source: OpenEXR File Layout, "Multi-Part and Deep Data", and for tiles "Regular tile image file". All
    numbers are little-endian. */
-#include "image/exr_chunk_check.h"
+#include "image/exr_written_check.h"
 
 #include "base/error.h"
 #include "image/image.h"

@@ -1,4 +1,4 @@
-/* exr_chunk_check.h - completeness check of a multi-part or tiled OpenEXR file just written in sequential
+/* exr_written_check.h - completeness check of a multi-part or tiled OpenEXR file just written in sequential
    order.
    Private to this module.
 

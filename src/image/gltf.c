@@ -250,7 +250,7 @@ static int image_of(const Gltf *file, json_object *material, json_object *refere
     const int64_t texture = wr_gltf_index(reference, "index", -1);
     json_object *of = texture < 0 ? NULL : item_of(file, "textures", (int)texture);
     const int64_t image = wr_gltf_index(of, "source", -1);
-    const char *why = wr_gltf_set(reference) != 0 ? "by another set of coordinates"
+    const char *why = wr_gltf_uv_set(reference) != 0 ? "by another set of coordinates"
                       : !wr_gltf_same_transform(reference, wr_gltf_mapped(material))
                           ? "moved by another transform than the model's (u,v)"
                       : !of || !item_of(file, "images", (int)image) ? "which is not there"

@@ -35,7 +35,7 @@ const char *wr_gltf_chunks(const char *bytes, size_t length, WrGltfChunks *out);
  *   u' = m[0] u + m[1] v + m[2]      v' = m[3] u + m[4] v + m[5] */
 bool wr_gltf_same_transform(json_object *a, json_object *b);
 /* The coordinate set of a reference, which the transform may override. */
-int64_t wr_gltf_set(json_object *reference);
+int64_t wr_gltf_uv_set(json_object *reference);
 /* The reference whose transform applies to the (u,v) of a model: that of its normals, else of its
    colours, else of its metalness; NULL: none uses coordinate set 0. */
 json_object *wr_gltf_mapped(json_object *material);

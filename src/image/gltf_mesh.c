@@ -138,7 +138,7 @@ bool wr_gltf_same_transform(json_object *a, json_object *b)
     return true;
 }
 
-int64_t wr_gltf_set(json_object *reference)
+int64_t wr_gltf_uv_set(json_object *reference)
 {
     json_object *all = wr_gltf_member(reference, "extensions", json_type_object);
     json_object *moved = wr_gltf_member(all, "KHR_texture_transform", json_type_object);
@@ -154,7 +154,7 @@ json_object *wr_gltf_mapped(json_object *material)
         wr_gltf_member(pbr, "metallicRoughnessTexture", json_type_object),
     };
     for (size_t i = 0; i < sizeof found / sizeof *found; i++)
-        if (found[i] && wr_gltf_set(found[i]) == 0) return found[i];
+        if (found[i] && wr_gltf_uv_set(found[i]) == 0) return found[i];
     return NULL;
 }
 

@@ -88,7 +88,7 @@ int64_t wr_image_codes(WrPixelType type, const float *in, size_t count, void *ou
     if (type == WR_PIXEL_F32) {
         replaced = finite_floats(in, count, out);
     } else {
-        double last = wr_pixel_last(type);
+        double last = wr_pixel_type_max(type);
         for (size_t i = 0; i < count; i++) {
             double x = in[i];
             replaced += !isfinite(x);
@@ -284,7 +284,7 @@ void wr_image_label_read(WrLabelText *text, const void *source, WrPixelType type
     read_edges(from, label);
     if (strcmp(kind, "height") == 0) {
         label->kind = WR_LABEL_HEIGHT;
-        if (type != WR_PIXEL_F32) read_range(from, wr_pixel_last(type), label);
+        if (type != WR_PIXEL_F32) read_range(from, wr_pixel_type_max(type), label);
     } else if (strcmp(kind, "normal+y") == 0 || strcmp(kind, "normal-y") == 0) {
         label->kind = kind[6] == '+' ? WR_LABEL_NORMAL_UP : WR_LABEL_NORMAL_DOWN;
     } else if (strcmp(kind, "slopes") == 0 || strcmp(kind, "bump-slopes") == 0) {
@@ -306,7 +306,7 @@ bool wr_image_apply_range(WrImage *image)
 {
     const WrImageLabel *label = &image->label;
     if (!label->ranged || image->type == WR_PIXEL_F32) return false;
-    const double last = wr_pixel_last(image->type);
+    const double last = wr_pixel_type_max(image->type);
     const int channels = image->channels, heights = channels % 2 ? channels : channels - 1;
     const size_t count = (size_t)image->width * (size_t)image->height;
     for (size_t k = 0; k < count; k++)

@@ -10,7 +10,7 @@ typedef struct WrError WrError;
 
 typedef enum WrPixelType { WR_PIXEL_U8, WR_PIXEL_U16, WR_PIXEL_F32 } WrPixelType;
 /* The largest code; 0 for floats. */
-static inline double wr_pixel_last(WrPixelType type)
+static inline double wr_pixel_type_max(WrPixelType type)
 {
     return type == WR_PIXEL_U8 ? 255.0 : type == WR_PIXEL_U16 ? 65535.0 : 0.0;
 }

@@ -5,7 +5,7 @@
 #include "base/progress.h"
 #include "base/spool.h"
 #include "image/decode.h"
-#include "image/exr_chunk_check.h"
+#include "image/exr_written_check.h"
 #include "image/image.h"
 #include "image/oiio.h"
 #include "image/read_internal.h"
@@ -22,7 +22,7 @@
 /* Opens the same file again, with a position of its own. */
 static int open_again(int fd, WrError *err)
 {
-    int again = wr_fd_again(fd);
+    int again = wr_fd_reopen(fd);
     if (again < 0) wr_fail(err, "%s", strerror(errno));
     return again;
 }

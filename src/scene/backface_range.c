@@ -124,10 +124,11 @@ static bool object_shows(const WrScene *part)
     WrPlacement place;
     const double radius = wr_shape_radius(&part->shape);
     const Holes holes = holes_of(part, radius);
-    if (holes.count == 0 || !wr_scene_place_sized(part, radius, 0, 1, &place, NULL)) return false;
+    if (holes.count == 0 || !wr_scene_place_with_radius(part, radius, 0, 1, &place, NULL))
+        return false;
     const double most = seen(&holes, &place) + CLEARLY * radius * radius;
     for (double turn = STEP; turn < 360; turn += STEP)
-        if (wr_scene_place_sized(part, radius, turn, 1, &place, NULL) &&
+        if (wr_scene_place_with_radius(part, radius, turn, 1, &place, NULL) &&
             seen(&holes, &place) > most)
             return true;
     return false;

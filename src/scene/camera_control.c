@@ -219,7 +219,7 @@ static bool place_turns(const WrScene *part, double from, double to, Turns *out,
     out->count = steps + 1;
     for (int k = 0; k <= steps; k++) {
         const double turn = from + (steps ? (to - from) * k / steps : 0);
-        if (!wr_scene_place_sized(part, radius, turn, 1, &out->place[k], err)) return false;
+        if (!wr_scene_place_with_radius(part, radius, turn, 1, &out->place[k], err)) return false;
     }
     return true;
 }

@@ -171,7 +171,7 @@ static WrImage *read_vectors(Reading *r, WrCoding coding, WrNormalMapReport *rep
     WrImage *to = wr_image_new(r->from->width, r->from->height, 3, err);
     if (!to) return NULL;
     to->type = WR_PIXEL_F32;
-    r->last = (int)wr_pixel_last(r->from->type);
+    r->last = (int)wr_pixel_type_max(r->from->type);
     r->remap = found == WR_CODING_UNIT;
     r->centred = !r->object && is_centred(r);
     report->channels = r->channels;

@@ -1,4 +1,4 @@
-/* normal_frame.h - coordinate frames of normal maps. */
+/* normal_map_frame.h - coordinate frames of normal maps. */
 #pragma once
 
 /* Directions of x and y of a tangent-space map (normal_map.h). */

@@ -205,12 +205,13 @@ static void place_camera(const WrCamera *camera, double aspect, WrPlacement *out
 bool wr_scene_place(const WrScene *scene, double turn_deg, double aspect, WrPlacement *out,
                     WrError *err)
 {
-    return wr_scene_place_sized(scene, wr_shape_radius(&scene->shape), turn_deg, aspect, out, err);
+    return wr_scene_place_with_radius(scene, wr_shape_radius(&scene->shape), turn_deg, aspect, out,
+                                      err);
 }
 
 /* The scene is placed even if the object's mesh is large: `radius` is the caller's, who may have cached it. */
-bool wr_scene_place_sized(const WrScene *scene, double radius, double turn_deg, double aspect,
-                          WrPlacement *out, WrError *err)
+bool wr_scene_place_with_radius(const WrScene *scene, double radius, double turn_deg, double aspect,
+                                WrPlacement *out, WrError *err)
 {
     if (!check_camera(&scene->camera, aspect, err)) return false;
     if (!isfinite(turn_deg)) return wr_fail(err, "turn: the angle must be finite");

@@ -14,7 +14,7 @@
 #include "scene/height_colormap.h"
 #include "scene/dials.h"
 #include "scene/environment.h"
-#include "scene/normal_frame.h"
+#include "scene/normal_map_frame.h"
 #include "scene/export_settings.h"
 #include "scene/tone_mapping.h"
 #include "shade/bump_mode.h"
@@ -274,8 +274,8 @@ bool wr_scene_place(const WrScene *scene, double turn_deg, double aspect, WrPlac
                     WrError *err);
 /* wr_scene_place with a known radius of the shape (wr_shape_radius), whose computation dominates for
  * free forms. */
-bool wr_scene_place_sized(const WrScene *scene, double radius, double turn_deg, double aspect,
-                          WrPlacement *out, WrError *err);
+bool wr_scene_place_with_radius(const WrScene *scene, double radius, double turn_deg, double aspect,
+                                WrPlacement *out, WrError *err);
 
 /* Transforms a point from the object to the world, and back. */
 WrVec3 wr_object_to_world(const WrPlacement *place, WrVec3 p);

@@ -99,7 +99,7 @@ bool wr_stream_info(FILE *stream, WrFileInfo *info)
     return wr_fd_info(fileno(stream), info);
 }
 
-int wr_fd_again(int fd)
+int wr_fd_reopen(int fd)
 {
     char name[WR_FD_NAME];
     wr_fd_name(fd, name);

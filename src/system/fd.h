@@ -65,7 +65,7 @@ bool wr_stream_info(FILE *stream, WrFileInfo *info);
 #define WR_FD_NAME 32
 void wr_fd_name(int fd, char name[WR_FD_NAME]);
 /* Opens the file again for reading. On Linux with a position of its own. */
-int wr_fd_again(int fd);
+int wr_fd_reopen(int fd);
 
 /* Closes all from `from` to `to` inclusive; to < 0: no upper end. */
 void wr_fd_close_range(int from, int to);
@@ -97,7 +97,7 @@ bool wr_fd_cut(int fd, int64_t length);
 int wr_fd_copy_blocks(int from, int to);
 
 /* Frees the space of bytes that are no longer needed; they become 0. Does nothing where unsupported. */
-void wr_fd_forget(int fd, int64_t at, int64_t length);
+void wr_fd_punch_hole(int fd, int64_t at, int64_t length);
 
 bool wr_fd_sync(int fd);       /* content and metadata are on the disk */
 bool wr_fd_sync_bytes(int fd); /* content and the metadata needed to find it */

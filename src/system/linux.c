@@ -288,7 +288,7 @@ int wr_fd_copy_blocks(int from, int to)
     }
 }
 
-void wr_fd_forget(int fd, int64_t at, int64_t length)
+void wr_fd_punch_hole(int fd, int64_t at, int64_t length)
 {
     fallocate(fd, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, (off_t)at, (off_t)length);
 }

@@ -200,7 +200,7 @@ int wr_fd_copy_blocks(int from, int to)
     return 0;
 }
 
-void wr_fd_forget(int fd, int64_t at, int64_t length)
+void wr_fd_punch_hole(int fd, int64_t at, int64_t length)
 {
     (void)fd;
     (void)at;

@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "bench/bench.h"
 #include "brush/brush.h"
-#include "brush/engine.h"
+#include "brush/mypaint_engine.h"
 #include "brush/preset.h"
 #include "cli/cli.h"
 #include "field/field.h"

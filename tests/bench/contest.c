@@ -132,7 +132,7 @@ static bool time_one(const WrBench *bench, Tried *tried, WrError *err)
     if (tried->timed) return true;
     WrScene *scene = wr_setting_apply(&tried->setting, bench->request->scene);
     for (; good && wanted(times, run); run++)
-        good = wr_bench_time(bench, scene, &times[run], &shaded, err);
+        good = wr_bench_frame_seconds(bench, scene, &times[run], &shaded, err);
     wr_scene_free(scene);
     if (good) tried->seconds = wr_bench_median(times, run);
     return tried->timed = good;
@@ -285,7 +285,7 @@ static bool time_in_turn(const WrBench *bench, const WrFrameRequest *wish, const
     bool good = true;
     WrScene *cheapest = row->found ? wr_setting_apply(&row->cheapest, bench->request->scene) : NULL;
     for (; good && wanted(times, run); run++) {
-        if (cheapest) good = wr_bench_time(bench, cheapest, &best[run], &shaded, err);
+        if (cheapest) good = wr_bench_frame_seconds(bench, cheapest, &best[run], &shaded, err);
         good = good && wr_choice_frame(bench->renderer, wish, choice, frame, err);
         const double from = wr_bench_now(bench);
         good = good && wr_choice_frame(bench->renderer, wish, choice, frame, err);
@@ -367,7 +367,7 @@ static bool contest_run(const WrAccuracyBenchmarkRequest *request, const WrToler
     WrPin pin;
     contest.rows = wr_alloc((size_t)count + 1, sizeof *contest.rows);
     for (int i = 0; i < count; i++) contest.rows[i].tolerance = tolerances[i];
-    bool good = wr_bench_reference(request, all, &contest.reference, err);
+    bool good = wr_bench_render_reference(request, all, &contest.reference, err);
     bench.renderer = good ? wr_renderer_new(bench.pool, NULL, err) : NULL;
     good = bench.renderer != NULL;
     const bool pinned = good && request->threads == 1 && wr_thread_pin(&pin);

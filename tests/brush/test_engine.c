@@ -4,7 +4,7 @@
 #include "base/array.h"
 #include "base/error.h"
 #include "base/text.h"
-#include "brush/engine.h"
+#include "brush/mypaint_engine.h"
 
 typedef struct Record {
     WR_ARRAY(WrDab) dabs;

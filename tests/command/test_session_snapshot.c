@@ -29,7 +29,7 @@ static void describe(const WrSession *session, WrText *text)
     wr_text_addf(text, "%s %s %d %d %d %d %d %zu %zu %llu %llu %d\n", hash,
                  wr_session_path(session), wr_session_history_count(session),
                  wr_session_history_position(session), wr_session_history_oldest(session),
-                 wr_session_undoable_views(session), wr_session_redoable_views(session),
+                 wr_session_view_undo_count(session), wr_session_redoable_views(session),
                  wr_session_history_bytes(session), wr_session_history_budget(session),
                  (unsigned long long)wr_session_revision(session),
                  (unsigned long long)wr_session_saved_revision(session),

@@ -82,7 +82,7 @@ static void views_have_a_way_back_of_their_own(void **state)
     must_run(s, "rotate 20,0,0");
     must_run(s, "rotate 20,0,0"); /* no change */
     must_run(s, "rotate 30,0,0");
-    assert_int_equal(wr_session_undoable_views(s), 3);
+    assert_int_equal(wr_session_view_undo_count(s), 3);
     must_run(s, "view back");
     assert_true(turned(s) == 20 && f_at(s, 3, 3) == 1);
     must_fail(s, "view back 3", "there are 2");
@@ -107,7 +107,7 @@ static void the_oldest_views_go_first(void **state)
         snprintf(line, sizeof line, "rotate %d,0,0", i);
         must_run(s, line);
     }
-    assert_int_equal(wr_session_undoable_views(s), WR_VIEWS_MAX - 1);
+    assert_int_equal(wr_session_view_undo_count(s), WR_VIEWS_MAX - 1);
     snprintf(line, sizeof line, "view back %d", WR_VIEWS_MAX - 1);
     must_run(s, line);
     assert_true(turned(s) == 6);
@@ -128,7 +128,7 @@ static void a_document_is_not_unsaved_for_a_view_and_saves_hold_it(void **state)
     WrHash hash = wr_session_hash(s);
     if (!wr_session_open(s, "v.exr", &err)) fail_msg("%s", err.text);
     assert_true(wr_hash_equal(hash, wr_session_hash(s)) && turned(s) == 15);
-    assert_int_equal(wr_session_undoable_views(s), 0); /* another document, another history */
+    assert_int_equal(wr_session_view_undo_count(s), 0); /* another document, another history */
     must_run(s, "fill 2");
     assert_true(wr_session_revision(s) != wr_session_saved_revision(s));
     wr_session_free(s);

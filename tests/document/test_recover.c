@@ -293,7 +293,7 @@ static void assert_kept(const char *journal, const char *hex, const char *named,
 {
     WrText path = { 0 };
     WrError err = { "" };
-    if (!wr_journal_kept_file(journal, hex, named, &path, &err)) fail_msg("%s", err.text);
+    if (!wr_journal_find_input_copy(journal, hex, named, &path, &err)) fail_msg("%s", err.text);
     WrText bytes = read_bytes(wr_text_get(&path));
     assert_string_equal(wr_text_get(&bytes), content);
     if (named) assert_non_null(strstr(wr_text_get(&path), strrchr(named, '.')));
@@ -338,13 +338,13 @@ static void a_copy_of_another_content_is_refused(void **state)
     assert_false(wr_journal_keep_file(journal, folder, hex, &err)); /* a folder */
     char *files = files_of(wr_journal_path(journal));
     assert_int_equal(count_entries(files), 0);
-    assert_false(wr_journal_kept_file(wr_journal_path(journal), bad, NULL, &path, &err));
+    assert_false(wr_journal_find_input_copy(wr_journal_path(journal), bad, NULL, &path, &err));
     assert_non_null(strstr(err.text, "no copy"));
-    assert_false(wr_journal_kept_file(wr_journal_path(journal), "../x", NULL, &path, &err));
+    assert_false(wr_journal_find_input_copy(wr_journal_path(journal), "../x", NULL, &path, &err));
     WrText half = { 0 };
     wr_text_addf(&half, "%s/%s.png.new", files, bad);
     write_bytes(wr_text_get(&half), "pi", 2); /* cut short */
-    assert_false(wr_journal_kept_file(wr_journal_path(journal), bad, "x.png", &path, &err));
+    assert_false(wr_journal_find_input_copy(wr_journal_path(journal), bad, "x.png", &path, &err));
     wr_text_fini(&half);
     assert_true(wr_journal_state(journal).safe && path.length == 0);
     wr_journal_finish(journal);
@@ -358,7 +358,7 @@ static void a_damaged_copy_of_another_journal_is_not_shared(void **state)
     WrText path = { 0 };
     WrJournal *first = begin_at(folder), *second = begin_at(folder);
     assert_true(wr_journal_keep_file(first, file, hex, NULL));
-    assert_true(wr_journal_kept_file(wr_journal_path(first), hex, file, &path, NULL));
+    assert_true(wr_journal_find_input_copy(wr_journal_path(first), hex, file, &path, NULL));
     write_bytes(wr_text_get(&path), "a mess", 6);
     assert_true(wr_journal_keep_file(second, file, hex, NULL));
     assert_kept(wr_journal_path(second), hex, file, "a mesh", NULL);

@@ -52,7 +52,7 @@ static void heights_of(const WrDocument *document, WrExportOptions options, cons
     WrExportReport report = export_good(document, wr_export_find("height"), &options, path);
     WrImage *image = read_file(path);
     const WrField *field = document->layers[0].heights;
-    double worst = 0.0, last = wr_pixel_last(image->type);
+    double worst = 0.0, last = wr_pixel_type_max(image->type);
     for (int j = 0; j < 139; j++)
         for (int i = 0; i < 61; i++) {
             double f = (double)image->data[j * 61 + i], g = wr_field_get(field, i, j);

@@ -62,7 +62,7 @@ static void keep(WrJournal *journal, const char *folder)
     wr_sha256_bytes("pixels", 6, hex);
     const char *path = wr_text_get(&file);
     if (wr_journal_keep_file(journal, path, hex, NULL) &&
-        !(wr_journal_kept_file(wr_journal_path(journal), hex, path, &copy, NULL) &&
+        !(wr_journal_find_input_copy(wr_journal_path(journal), hex, path, &copy, NULL) &&
           wr_file_peek(wr_text_get(&copy), hex, 6) == 6 && memcmp(hex, "pixels", 6) == 0))
         _exit(4);
     wr_text_fini(&file);

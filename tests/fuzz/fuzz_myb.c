@@ -8,7 +8,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "brush/engine.h"
+#include "brush/mypaint_engine.h"
 #include "brush/library.h"
 
 #include <math.h>

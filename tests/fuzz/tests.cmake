@@ -65,6 +65,6 @@ if(NOT WR_SANITIZE)
             ROOMS command export accuracy render document generate brush scene shade surface noise image field
                   base
             LIBRARIES -lmypaint -ljson-c -lfreetype -lharfbuzz -lfribidi -lfontconfig -lpng16 -lz -lsleef -lzip -lexpat -ldl -lpthread)
-    wr_fuzz(myb brush/engine.c brush/preset.c
+    wr_fuzz(myb brush/mypaint_engine.c brush/preset.c
             ROOMS brush surface image field base LIBRARIES -lmypaint -ljson-c -lfreetype -lharfbuzz -lfribidi -lfontconfig -lpng16 -lz -lsleef -lfreetype -ldl -lpthread)
 endif()

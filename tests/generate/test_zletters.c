@@ -2,7 +2,7 @@
 #include "test.h"
 
 #include "base/error.h"
-#include "generate/zbuffer_shapes.h"
+#include "generate/zbuffer_intersect.h"
 
 static double implicit_plate(double depth, double bevel, WrZBevel kind, const double q[3])
 {

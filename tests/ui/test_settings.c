@@ -80,7 +80,8 @@ static void two_windows_keep_what_each_of_them_changed(void **state)
     assert_string_equal(c.own.pens[1], "0 0 1 1 0 0 2 Small Pen");
     assert_null(c.own.pens[2]);
     assert_true(wr_settings_equal(&b.own, &b.known));
-    assert_int_equal(wr_settings_favourite(&b.own, "wrinkle/pinch"), -1); /* visible in b too */
+    assert_int_equal(wr_settings_find_favourite(&b.own, "wrinkle/pinch"),
+                     -1); /* visible in b too */
     close_window(&a), close_window(&b), close_window(&c);
 }
 
@@ -117,7 +118,7 @@ static void a_file_that_is_gone_or_empty_is_written_anew(void **state)
         a.own.width += 10;
         write_window(&a);
         Window b = open_window();
-        assert_int_equal(wr_settings_favourite(&b.own, "wrinkle/groove"), 0);
+        assert_int_equal(wr_settings_find_favourite(&b.own, "wrinkle/groove"), 0);
         assert_int_equal(b.own.width, a.own.width);
         close_window(&b);
     }
@@ -203,7 +204,7 @@ static void killed_while_writing_nothing_that_was_written_is_lost(void **state)
         bool is_last = c.own.width == 1000 + last % 1000,
              is_next = c.own.width == 1001 + last % 1000;
         if (!is_last && !is_next) fail_msg("width %d after %ld", c.own.width, last);
-        assert_true(wr_settings_favourite(&c.own, own) >= 0);
+        assert_true(wr_settings_find_favourite(&c.own, own) >= 0);
         wr_settings_set_favourite(&c.own, own, false);
         write_window(&c);
         close_window(&b), close_window(&c);

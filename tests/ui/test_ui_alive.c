@@ -378,7 +378,7 @@ static void it_closes_while_the_journal_is_tended(void **state)
     Long work = { .app = app, .watch = see_a_few };
     watched = &work;
     app->drawn = picture_drawn;
-    wr_busy_run_upkeep(app, "Keeping the journal short", take_long, &work);
+    wr_background_upkeep_start(app, "Keeping the journal short", take_long, &work);
     assert_non_null(app->busy);
     SDL_PushEvent(&(SDL_Event){ .type = SDL_QUIT });
     const double end = wr_clock_seconds() + PATIENCE;

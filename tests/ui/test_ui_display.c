@@ -1,7 +1,7 @@
 /* Choice of the window system, for each kind of session. */
 #include "test.h"
 
-#include "ui/toolkit/display.h"
+#include "ui/toolkit/video_driver.h"
 
 typedef struct Row {
     WrDisplayEnv env; /* driver, x11, wayland, session */

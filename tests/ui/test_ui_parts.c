@@ -18,8 +18,8 @@
 #include "ui/app/state/keys.h"
 #include "ui/app/state/layout.h"
 #include "ui/patch/preview/rotation.h"
-#include "ui/toolkit/display.h"
-#include "ui/app/state/search.h"
+#include "ui/toolkit/video_driver.h"
+#include "ui/app/state/search_score.h"
 #include "ui/app/state/settings.h"
 #include "ui/canvas/tools/preset_overrides.h"
 
@@ -263,7 +263,7 @@ static void favourites_come_and_go_and_survive_the_settings_file(void **state)
     wr_settings_set_favourite(&s, "wrinkle/groove", true);
     wr_settings_set_favourite(&s, "mypaint2/classic/pencil", true);
     wr_settings_set_favourite(&s, "wrinkle/groove", true);
-    assert_int_equal(wr_settings_favourite(&s, "mypaint2/classic/pencil"), 1);
+    assert_int_equal(wr_settings_find_favourite(&s, "mypaint2/classic/pencil"), 1);
     wr_settings_set_text(&s.preset, "wrinkle/groove");
     wr_settings_set_text(&s.set, "opaque=0.5;hardness=1");
     wr_settings_note_used(&s, "round");
@@ -271,8 +271,8 @@ static void favourites_come_and_go_and_survive_the_settings_file(void **state)
     wr_settings_note_used(&s, "round");
     wr_settings_print(&s, &text);
     wr_settings_parse(&t, wr_text_get(&text));
-    assert_int_equal(wr_settings_favourite(&t, "wrinkle/groove"), 0);
-    assert_int_equal(wr_settings_favourite(&t, "mypaint2/classic/pencil"), 1);
+    assert_int_equal(wr_settings_find_favourite(&t, "wrinkle/groove"), 0);
+    assert_int_equal(wr_settings_find_favourite(&t, "mypaint2/classic/pencil"), 1);
     assert_string_equal(t.preset, "wrinkle/groove");
     assert_string_equal(t.set, "opaque=0.5;hardness=1");
     assert_null(t.tip);
@@ -280,8 +280,8 @@ static void favourites_come_and_go_and_survive_the_settings_file(void **state)
     assert_string_equal(t.used[1], "wrinkle/groove");
     assert_null(t.used[2]);
     wr_settings_set_favourite(&t, "wrinkle/groove", false);
-    assert_int_equal(wr_settings_favourite(&t, "wrinkle/groove"), -1);
-    assert_int_equal(wr_settings_favourite(&t, "mypaint2/classic/pencil"), 0);
+    assert_int_equal(wr_settings_find_favourite(&t, "wrinkle/groove"), -1);
+    assert_int_equal(wr_settings_find_favourite(&t, "mypaint2/classic/pencil"), 0);
     wr_text_fini(&text);
     wr_settings_fini(&s);
     wr_settings_fini(&t);
@@ -297,10 +297,10 @@ static void more_favourites_than_there_are_places_are_left_out(void **state)
         wr_settings_set_favourite(&s, name, true);
         wr_settings_note_used(&s, name);
     }
-    assert_int_equal(wr_settings_favourite(&s, "user/63"), 63);
-    assert_int_equal(wr_settings_favourite(&s, "user/64"), -1);
+    assert_int_equal(wr_settings_find_favourite(&s, "user/63"), 63);
+    assert_int_equal(wr_settings_find_favourite(&s, "user/64"), -1);
     wr_settings_set_favourite(&s, "user/0", false);
-    assert_int_equal(wr_settings_favourite(&s, "user/63"), 62);
+    assert_int_equal(wr_settings_find_favourite(&s, "user/63"), 62);
     assert_string_equal(s.used[0], name);
     assert_string_equal(s.used[WR_USED_MAX - 1], "user/57");
     wr_settings_fini(&s);

@@ -170,8 +170,8 @@ static void the_text_holds_numbers_that_read_back_whole(void **state)
         0, -0.0, 1.5, -99999.4, 1e300, -1e-300, (double)INFINITY, (double)NAN
     };
     for (size_t i = 0; i < sizeof values / sizeof *values; i++)
-        assert_true(strlen(wr_accuracy_probe_number(values[i], number)) <= 10);
-    assert_string_equal(wr_accuracy_probe_number(-0.0, number), "0");
+        assert_true(strlen(wr_accuracy_probe_number_text(values[i], number)) <= 10);
+    assert_string_equal(wr_accuracy_probe_number_text(-0.0, number), "0");
 }
 
 /* ---- choice of a tolerance ---- */

@@ -175,13 +175,13 @@ void wr_act_preset_previous(WrApp *app)
 void wr_act_favourite(WrApp *app)
 {
     const char *id = wr_preset_browser_chosen(app);
-    bool liked = wr_settings_favourite(app->settings, id) >= 0;
+    bool liked = wr_settings_find_favourite(app->settings, id) >= 0;
     wr_settings_set_favourite(app->settings, id, !liked);
 }
 
 bool wr_is_favourite(const WrApp *app)
 {
-    return wr_settings_favourite(app->settings, wr_preset_browser_chosen(app)) >= 0;
+    return wr_settings_find_favourite(app->settings, wr_preset_browser_chosen(app)) >= 0;
 }
 
 void wr_act_round_brush(WrApp *app)

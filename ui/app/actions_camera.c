@@ -31,7 +31,7 @@ void wr_act_view_back(WrApp *app)
 /* A pending wheel zoom can be undone too. */
 bool wr_can_view_back(const WrApp *app)
 {
-    return wr_session_undoable_views(app->session) > 0 || app->patch->zoom_commit_at > 0.0;
+    return wr_session_view_undo_count(app->session) > 0 || app->patch->zoom_commit_at > 0.0;
 }
 
 bool wr_can_view_forward(const WrApp *app)

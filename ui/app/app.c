@@ -22,7 +22,7 @@
 #include "ui/app/state/action.h"
 #include "ui/app/state/layout.h"
 #include "ui/app/state/messages.h"
-#include "ui/app/state/replace.h"
+#include "ui/app/state/overwrite_question.h"
 #include "ui/app/state/registry.h"
 #include "ui/app/state/session_view.h"
 #include "ui/app/state/settings.h"
@@ -133,7 +133,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
     wr_app_read_keys(app);
     wr_preset_browser_start(app);
     wr_generate_new(app);
-    wr_accuracy_new(app);
+    wr_accuracy_panel_new(app);
     app->rest = app->latency ? NULL : wr_idle_probe_new(app->rest_event);
     if (!wr_app_start(app, err)) return false;
     const char *fonts = wr_gui_missing_fonts(app->gui);

@@ -456,7 +456,7 @@ static void end_live(WrApp *app, const char *text)
 static void key_down(WrApp *app, const SDL_KeyboardEvent *event)
 {
     if (wr_preferences_take_key(app, event) || wr_gui_took_key(app->gui)) return;
-    if (wr_dynamics_take_key(app, event)) return;
+    if (wr_dynamics_undo_key(app, event)) return;
     if (blocked(app) || wr_gui_popup_open_now(app->gui)) return;
     if (wr_gui_wants_text(app->gui) && !leaves_text(app, event)) return;
     /* A dragged widget runs its command at the release: an undo before it would cost the steps that redo has. */

@@ -7,7 +7,7 @@
 #include "ui/app/idle_probe.h"
 #include "ui/app/state/dialog.h"
 #include "ui/app/state/document.h"
-#include "ui/app/state/replace.h"
+#include "ui/app/state/overwrite_question.h"
 #include "ui/app/state/registry.h"
 #include "ui/panels/generate/font_choice.h"
 #include "ui/panels/generate/generate_presets.h"
@@ -82,8 +82,8 @@ static const WrPart *const parts[] = {
     &wr_part_presets,  &wr_part_sheet,  &wr_part_adjust,  &wr_part_thrift,   NULL
 };
 
-static WrActionFamily *const families[] = { wr_adjust_by_name, wr_filter_by_name,
-                                            wr_generate_by_name, NULL };
+static WrActionFamily *const families[] = { wr_adjust_dialog_of_action, wr_filter_dialog_of_action,
+                                            wr_generate_tab_of_action, NULL };
 
 WR_ROWS(takes);
 static WrFileTake *const takes[] = {

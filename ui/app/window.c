@@ -9,7 +9,7 @@
 #include "ui/app/state/registry.h"
 #include "ui/app/state/settings.h"
 #include "ui/toolkit/desktop_scale.h"
-#include "ui/toolkit/display.h"
+#include "ui/toolkit/video_driver.h"
 #include "ui/toolkit/gui.h"
 
 #include <SDL.h>

@@ -312,7 +312,7 @@ void wr_dialog_adjust(WrApp *app)
     wr_gui_dialog_end();
 }
 
-bool wr_adjust_by_name(WrApp *app, const char *name)
+bool wr_adjust_dialog_of_action(WrApp *app, const char *name)
 {
     const WrOpInfo *op = action_op(name);
     if (op) dialog_adjust_open(app, op);
@@ -331,7 +331,7 @@ static void report_of_lack(WrApp *app)
 
 const WrPart wr_part_adjust = { .update = report_of_lack, .another = forget_below };
 
-bool wr_filter_by_name(WrApp *app, const char *name)
+bool wr_filter_dialog_of_action(WrApp *app, const char *name)
 {
     static const char start[] = "filter_";
     const bool ours = strncmp(name, start, sizeof start - 1) == 0;

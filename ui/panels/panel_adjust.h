@@ -61,5 +61,5 @@ const WrHeightCounts *wr_height_counts(WrApp *app);
 void wr_height_bars(const WrPad *pad, WrHeightSpan span, const WrHeightCounts *h);
 
 /* ---- actions "adjust_NAME" and "filter_NAME"; see WrActionFamily ---- */
-bool wr_adjust_by_name(WrApp *app, const char *name);
-bool wr_filter_by_name(WrApp *app, const char *name);
+bool wr_adjust_dialog_of_action(WrApp *app, const char *name);
+bool wr_filter_dialog_of_action(WrApp *app, const char *name);

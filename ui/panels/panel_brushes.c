@@ -3,7 +3,7 @@
 #include "ui/app/state/action.h"
 #include "ui/app/state/action_list.h"
 #include "ui/app/state/app_state.h"
-#include "ui/app/state/search.h"
+#include "ui/app/state/search_score.h"
 #include "ui/app/state/settings.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
@@ -84,7 +84,7 @@ static bool belongs(const WrApp *app, const Groups *g, const WrPresetEntry *entr
         if (*c == '_' || *c == '-' || *c == '/') *c = ' ';
     if (app->shelf->search[0] && wr_search_score(text, app->shelf->search) == 0) return false;
     if (app->shelf->search[0] || group == 0) return true;
-    if (group == 1) return wr_settings_favourite(app->settings, entry->id) >= 0;
+    if (group == 1) return wr_settings_find_favourite(app->settings, entry->id) >= 0;
     return group >= FIXED_GROUPS && group < g->count &&
            same(g->collection[group], entry->collection) &&
            same(g->group[group], entry->group ? entry->group : "");
@@ -98,7 +98,7 @@ static void preset_menu(WrApp *app)
     char id[sizeof shelf->pressed];
     if (!wr_gui_popup_begin("preset")) return;
     memcpy(id, shelf->pressed, sizeof id);
-    bool liked = wr_settings_favourite(app->settings, id) >= 0;
+    bool liked = wr_settings_find_favourite(app->settings, id) >= 0;
     if (wr_gui_menu_item(liked ? "No favourite any more" : "Favourite", NULL, liked, true))
         wr_settings_set_favourite(app->settings, id, !liked);
     if (wr_gui_menu_item("Choose", NULL, false, true)) wr_preset_browser_choose(app, id);
@@ -125,7 +125,7 @@ static void next_place(Flow *flow)
 static void tile(WrApp *app, Flow *flow, int index, const char *id, const char *name)
 {
     const WrPresetEntry *entry = index < 0 ? NULL : wr_library_entry(app->shelf->library, index);
-    bool liked = wr_settings_favourite(app->settings, id) >= 0;
+    bool liked = wr_settings_find_favourite(app->settings, id) >= 0;
     next_place(flow);
     wr_gui_push_id(index + 2);
     SDL_Texture *picture =
@@ -166,7 +166,7 @@ static void tiles(WrApp *app, const Groups *groups)
     if (app->shelf->group == 2 && !app->shelf->search[0]) {
         used_last(app, &flow);
     } else {
-        bool liked = wr_settings_favourite(app->settings, WR_ROUND) >= 0;
+        bool liked = wr_settings_find_favourite(app->settings, WR_ROUND) >= 0;
         bool round = app->shelf->search[0] ? wr_search_score("round brush", app->shelf->search) > 0
                                            : app->shelf->group != 1 || liked;
         if (round) tile(app, &flow, -1, WR_ROUND, "Round brush: exact on every machine");
@@ -216,7 +216,7 @@ static SDL_Rect cut_top(SDL_Rect *room, int height)
 static void foot(WrApp *app)
 {
     const char *id = wr_preset_browser_chosen(app), *slash = strchr(id, '/');
-    bool liked = wr_settings_favourite(app->settings, id) >= 0;
+    bool liked = wr_settings_find_favourite(app->settings, id) >= 0;
     double wide = wr_gui_available() - wr_gui_px(3 * 30);
     wr_gui_text_cut(WR_FONT_BOLD, WR_COLOUR_STRONG, slash ? slash + 1 : "Round brush", wide);
     if (app->shelf->preset) wr_gui_tip(wr_preset_description(app->shelf->preset));

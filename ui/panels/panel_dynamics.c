@@ -322,7 +322,7 @@ static void chips(WrApp *app)
     }
 }
 
-bool wr_dynamics_take_key(WrApp *app, const SDL_KeyboardEvent *event)
+bool wr_dynamics_undo_key(WrApp *app, const SDL_KeyboardEvent *event)
 {
     if (app->dialog->now != WR_DIALOG_DYNAMICS || !app->dynamics) return false;
     const char *action = wr_keys_find(app->keys, event->keysym);

@@ -9,6 +9,6 @@
 void wr_dialog_dynamics_open(WrApp *app, int setting);
 void wr_dialog_dynamics(WrApp *app);
 /* Handle the undo key while the editor is open: undo the last change of a curve. */
-bool wr_dynamics_take_key(WrApp *app, const SDL_KeyboardEvent *event);
+bool wr_dynamics_undo_key(WrApp *app, const SDL_KeyboardEvent *event);
 /* Free app->dynamics and set it to NULL. */
 void wr_dynamics_free(WrApp *app);

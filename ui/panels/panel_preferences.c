@@ -5,7 +5,7 @@
 #include "ui/app/state/dialog.h"
 #include "ui/app/state/keys.h"
 #include "ui/app/state/registry.h"
-#include "ui/app/state/search.h"
+#include "ui/app/state/search_score.h"
 #include "ui/app/state/settings.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"

@@ -8,7 +8,7 @@
 #include "ui/app/state/dialog.h"
 #include "ui/app/state/keys.h"
 #include "ui/app/state/registry.h"
-#include "ui/app/state/search.h"
+#include "ui/app/state/search_score.h"
 #include "ui/panels/generate/generate_state.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"

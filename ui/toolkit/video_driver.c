@@ -1,4 +1,4 @@
-#include "ui/toolkit/display.h"
+#include "ui/toolkit/video_driver.h"
 #include "ui/toolkit/desktop_scale.h"
 
 #include "base/enum_rows.h"

@@ -1,4 +1,4 @@
-/* display.h - choice of the window system, and its effect on pens. SDL 2 supports no pens; the program reads them
+/* video_driver.h - choice of the window system, and its effect on pens. SDL 2 supports no pens; the program reads them
    from X servers. XWayland is one and forwards pen events. */
 #pragma once
 #include <stdbool.h>

@@ -104,7 +104,7 @@ static bool look_out(const WrScene *scene, double radius, int width, int height,
     WrPlacement place;
     double axes[9];
     if (!own || !own->light) return false;
-    if (!(radius > 0 ? wr_scene_place_sized(scene, radius, 0, aspect, &place, NULL)
+    if (!(radius > 0 ? wr_scene_place_with_radius(scene, radius, 0, aspect, &place, NULL)
                      : wr_scene_place(scene, 0, aspect, &place, NULL)))
         return false;
     const double high = place.orthographic ? 0 : place.half_height, wide = high * aspect;

@@ -31,11 +31,11 @@
 #undef r_is_finite
 #undef r_pow01
 #undef r_pow_near
-#define r_exp2 wr_exp2_r
+#define r_exp2 wr_exp2_double
 #define r_log2(x) wr_log2_below_r(x, 1.0 - (x))
 #define r_atan2 wr_atan2_r
 #define r_pow01(x, s) wr_pow_below_r(x, 1.0 - (x), s)
-#define r_pow_near(x, s) wr_exp2_r((s)*wr_log2_below_r(x, 1.0 - (x)))
+#define r_pow_near(x, s) wr_exp2_double((s)*wr_log2_below_r(x, 1.0 - (x)))
 #define r_atan2_turns wr_atan2_turns_r
 #define r_pow_below wr_pow_below_r
 #define r_scale_down wr_scale_down_r

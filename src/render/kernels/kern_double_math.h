@@ -105,7 +105,7 @@ static inline double wr_log2_below_r(double x, double below)
 }
 
 /* 2^x, clamped to x in -1022 .. 1023; relative error under 3e-16. */
-static inline double wr_exp2_r(double x)
+static inline double wr_exp2_double(double x)
 {
     x = x < -1022.0 ? -1022.0 : x;
     x = x > 1023.0 ? 1023.0 : x;
@@ -127,7 +127,7 @@ static inline double wr_pow_below_r(double x, double below, double s)
     x = x > 1.0 ? 1.0 : x;
     double tiny = x > 2.3e-308 ? x : 2.3e-308;
     double e = s * wr_log2_below_r(tiny, below);
-    double p = wr_exp2_r(e);
+    double p = wr_exp2_double(e);
     p = e < -1022.0 ? 0.0 : p;
     p = x > 2.3e-308 ? p : 0.0;
     return s > 0.0 ? p : 1.0;

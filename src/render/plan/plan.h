@@ -4,7 +4,7 @@
 #pragma once
 #include "field/scheme.h"
 #include "scene/dials.h"
-#include "scene/normal_frame.h"
+#include "scene/normal_map_frame.h"
 #include "shade/bump_mode.h"
 #include "shade/solid_texture.h"
 #include "shade/reflection.h"

@@ -393,7 +393,8 @@ static bool stand(const WrShadowRaysRequest *ask, int i, Standing *out, WrError 
     const WrScene *scene = ask->scenes[i];
     WrShadowRaysBody *body = ask->bodies[i];
     shadow_rays_body_size(body, scene, ask->fields[i], ask->moves);
-    if (!wr_scene_place_sized(scene, body->radius, ask->turn_deg, ask->aspect, &out->place, err))
+    if (!wr_scene_place_with_radius(scene, body->radius, ask->turn_deg, ask->aspect, &out->place,
+                                    err))
         return false;
     out->ball = wr_shape_endless(&scene->shape)
                     ? INFINITY

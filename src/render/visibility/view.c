@@ -356,7 +356,7 @@ bool wr_view_outside(const WrScene *scene, double radius, double turn_deg, int w
 {
     WrPlacement place;
     bool facing[6];
-    if (!wr_scene_place_sized(scene, radius, turn_deg, (double)width / height, &place, err))
+    if (!wr_scene_place_with_radius(scene, radius, turn_deg, (double)width / height, &place, err))
         return false;
     const WrSurfaceInfo *info = wr_surfaces[scene->shape.kind];
     const double scale = scale_of(info, &place);
@@ -437,7 +437,7 @@ bool wr_view_rise(const WrScene *scene, const WrField *field, double radius, dou
     WrPlacement place;
     float low, high;
     *rise = -1;
-    if (!wr_scene_place_sized(scene, radius, turn_deg, (double)width / height, &place, err))
+    if (!wr_scene_place_with_radius(scene, radius, turn_deg, (double)width / height, &place, err))
         return false;
     if (scene->analytic.kind != WR_ANALYTIC_OFF) return true;
     wr_field_range(field, &low, &high);
@@ -459,7 +459,7 @@ bool wr_view_init(WrView *view, const WrScene *scene, double radius, const WrPla
                       .cull = !wr_plan_runs(plan, WR_EFFECT_BACK) };
     WrPlacement place;
     double aspect = (double)width / height;
-    if (!wr_scene_place_sized(scene, radius, turn_deg, aspect, &place, err)) return false;
+    if (!wr_scene_place_with_radius(scene, radius, turn_deg, aspect, &place, err)) return false;
     const WrSurfaceInfo *info = wr_surfaces[scene->shape.kind];
     view->scale = scale_of(info, &place);
     view->radius = place.radius * view->scale;

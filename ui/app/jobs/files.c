@@ -89,7 +89,7 @@ WR_ROWS_END(purposes, WR_FILE_PURPOSES);
 
 static const char *const *file_endings(WrFilePurpose purpose);
 
-bool wr_files_writes(WrFilePurpose purpose)
+bool wr_file_purpose_writes(WrFilePurpose purpose)
 {
     return purposes[purpose].ending != NULL;
 }
@@ -151,7 +151,7 @@ static void *wait_for_portal(void *arg)
 
 static bool ask_portal(WrFiles *files, const char *folder, const char *name)
 {
-    const bool writes = wr_files_writes(files->purpose);
+    const bool writes = wr_file_purpose_writes(files->purpose);
     if (!wr_portal_may_be()) return false;
     free_ask(&files->ask);
     files->ask = (WrPortalRequest){ .title = wr_strdup(wr_words(purposes[files->purpose].title)),
@@ -259,7 +259,7 @@ static bool accept(WrFiles *files)
     if (is_folder(path)) {
         go_to(files, path);
         files->field[0] = '\0';
-    } else if (!wr_files_writes(files->purpose) && !wr_path_can_read(path)) {
+    } else if (!wr_file_purpose_writes(files->purpose) && !wr_path_can_read(path)) {
         wr_fail(&files->trouble, "%s: %s", path, strerror(errno));
     } else {
         char *full = with_ending(files, path);
@@ -380,7 +380,7 @@ static void show_entries(WrFiles *files, bool *done)
 /* Warn about overwriting an existing file below the field, before the question. */
 static void warn_overwrite(const WrFiles *files)
 {
-    if (!wr_files_writes(files->purpose) || files->field[0] == '\0') return;
+    if (!wr_file_purpose_writes(files->purpose) || files->field[0] == '\0') return;
     char *path = typed_path(files), *full = with_ending(files, path);
     if (wr_path_is_there(full) && !is_folder(path))
         wr_gui_text(WR_FONT_SMALL, WR_COLOUR_CELL, "There is a file of this name.");
@@ -508,7 +508,7 @@ static const char *const *file_endings(WrFilePurpose purpose)
                                           "dae", "3ds", "fbx", "lwo",  "x3d", NULL };
     static const char *const patches[] = { "bpt", "txt", NULL };
     static const char *const grounds[] = { PICTURES, "r16", "r32", "raw", "hgt", "fits", NULL };
-    if (wr_files_writes(purpose) || purpose == WR_FILE_GENERATE || purpose == WR_FILE_PRESET)
+    if (wr_file_purpose_writes(purpose) || purpose == WR_FILE_GENERATE || purpose == WR_FILE_PRESET)
         return NULL;
     if (purpose == WR_FILE_STAMP) return stamps;
     if (purpose == WR_FILE_GLTF) return models;

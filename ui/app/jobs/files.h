@@ -61,7 +61,7 @@ bool wr_files_hear(WrFiles *files);
 const char *wr_files_answer(WrFiles *files, WrFilePurpose *purpose);
 /* True if the native dialog has already confirmed overwriting an existing file. */
 bool wr_files_agreed(const WrFiles *files);
-bool wr_files_writes(WrFilePurpose purpose); /* true for a file to be written */
+bool wr_file_purpose_writes(WrFilePurpose purpose); /* true for a file to be written */
 
 WrFilePurpose wr_files_purpose(const WrFiles *files);
 /* The panel as a dialog, with a note above its buttons or "". recent: paths whose folders it offers, NULL-terminated;

@@ -142,7 +142,7 @@ static void forget(WrApp *app, void *ctx, bool ok, const WrError *err)
     (void)err;
 }
 
-void wr_busy_run_upkeep(WrApp *app, const char *what, WrBusyWork *work, void *ctx)
+void wr_background_upkeep_start(WrApp *app, const char *what, WrBusyWork *work, void *ctx)
 {
     WrError err;
     if (app->busy) return;

@@ -37,7 +37,7 @@ bool wr_busy_run(WrApp *app, WrBusyKind kind, const char *what, WrBusyWork *work
                  WrError *err);
 /* Start background upkeep (WR_BUSY_TEND) and return. It may still run after the call, so *ctx must stay valid (NULL
    is allowed); failures are not reported. Does nothing while a command runs. */
-void wr_busy_run_upkeep(WrApp *app, const char *what, WrBusyWork *work, void *ctx);
+void wr_background_upkeep_start(WrApp *app, const char *what, WrBusyWork *work, void *ctx);
 /* Show the reason of the last failure: an error, or a note if the user cancelled. */
 void wr_busy_fail(WrApp *app, const char *what, const WrError *err);
 /* Run the line of the edit preview on the current document. If the preview has finished, its result is used. */

@@ -8,7 +8,7 @@
 #include "ui/app/state/pointer_state.h"
 #include "ui/app/state/action.h"
 #include "ui/app/state/messages.h"
-#include "ui/app/state/replace.h"
+#include "ui/app/state/overwrite_question.h"
 #include "ui/app/state/registry.h"
 #include "ui/app/state/session_view.h"
 #include "ui/app/state/settings.h"
@@ -129,7 +129,7 @@ void wr_app_compact_journal(WrApp *app)
 {
     bool idle = app->hand->grab == WR_GRAB_NONE && !wr_session_in_stroke(app->session);
     if (idle && wr_session_journal_needs_compacting(app->session))
-        wr_busy_run_upkeep(app, "Keeping the journal short", tend_work, NULL);
+        wr_background_upkeep_start(app, "Keeping the journal short", tend_work, NULL);
 }
 
 /* Name the document after the picture. */
@@ -491,7 +491,7 @@ void wr_file_take_import(WrApp *app, const char *path)
 
 void wr_app_file_chosen(WrApp *app, WrFilePurpose purpose, const char *path)
 {
-    bool asks = wr_files_writes(purpose) && !wr_files_agreed(app->files) &&
+    bool asks = wr_file_purpose_writes(purpose) && !wr_files_agreed(app->files) &&
                 wr_replace_confirm(app, WR_REPLACE_CHOSEN, purpose, path);
     if (!asks) wr_deferred(app, app->registry->takes[purpose], path); /* may take long */
 }

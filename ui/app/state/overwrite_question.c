@@ -1,5 +1,5 @@
 /* Question before a file is overwritten. Neither Return nor an accidental double click confirms it. */
-#include "ui/app/state/replace.h"
+#include "ui/app/state/overwrite_question.h"
 #include "ui/app/state/action.h"
 #include "ui/app/state/action_list.h"
 #include "ui/app/state/app_state.h"

@@ -1,4 +1,4 @@
-/* replace.h - question before an existing file is overwritten. */
+/* overwrite_question.h - question before an existing file is overwritten. */
 #pragma once
 #include "ui/app/state/app_state.h"
 #include "ui/app/jobs/files.h"

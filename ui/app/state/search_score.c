@@ -1,4 +1,4 @@
-#include "ui/app/state/search.h"
+#include "ui/app/state/search_score.h"
 
 #include <SDL.h>
 #include <stdbool.h>

@@ -1,4 +1,4 @@
-/* search.h - text search for actions. Pure; tested without a window. */
+/* search_score.h - text search for actions. Pure; tested without a window. */
 #pragma once
 
 /* Score of `label` for `query`. Every word of the query must occur in it, ignoring case; 0: no match. Matches at the

@@ -352,7 +352,7 @@ void wr_settings_set_text(char **text, const char *value)
     *text = fresh;
 }
 
-int wr_settings_favourite(const WrSettings *settings, const char *id)
+int wr_settings_find_favourite(const WrSettings *settings, const char *id)
 {
     for (int i = 0; i < WR_FAVOURITES_MAX && settings->favourites[i]; i++)
         if (strcmp(settings->favourites[i], id) == 0) return i;
@@ -362,7 +362,7 @@ int wr_settings_favourite(const WrSettings *settings, const char *id)
 void wr_settings_set_favourite(WrSettings *settings, const char *id, bool favourite)
 {
     char **list = settings->favourites;
-    int at = wr_settings_favourite(settings, id), count = 0;
+    int at = wr_settings_find_favourite(settings, id), count = 0;
     while (count < WR_FAVOURITES_MAX && list[count]) count++;
     if (favourite && at < 0 && count < WR_FAVOURITES_MAX) list[count] = wr_strdup(id);
     if (favourite || at < 0) return;
@@ -529,10 +529,10 @@ static void merge_newest(char *const *base, char *const *mine, int most, WrSetti
 static void merge_favourites(const WrSettings *base, const WrSettings *mine, WrSettings *theirs)
 {
     for (int i = 0; i < WR_FAVOURITES_MAX && base->favourites[i]; i++)
-        if (wr_settings_favourite(mine, base->favourites[i]) < 0)
+        if (wr_settings_find_favourite(mine, base->favourites[i]) < 0)
             wr_settings_set_favourite(theirs, base->favourites[i], false);
     for (int i = 0; i < WR_FAVOURITES_MAX && mine->favourites[i]; i++)
-        if (wr_settings_favourite(base, mine->favourites[i]) < 0)
+        if (wr_settings_find_favourite(base, mine->favourites[i]) < 0)
             wr_settings_set_favourite(theirs, mine->favourites[i], true);
 }
 

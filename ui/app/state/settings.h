@@ -111,7 +111,7 @@ void wr_settings_note_used(WrSettings *settings, const char *id);
 /* Move a font to the front of the recently used ones. */
 void wr_settings_note_font(WrSettings *settings, const char *font);
 /* Index of a favourite, or -1; toggle appends it, or removes it; nothing is appended to a full list. */
-int wr_settings_favourite(const WrSettings *settings, const char *id);
+int wr_settings_find_favourite(const WrSettings *settings, const char *id);
 void wr_settings_set_favourite(WrSettings *settings, const char *id, bool favourite);
 
 /* The device name in a line "CURVE NAME", NULL if the line is invalid; adding such a line replaces the device's old

@@ -2,7 +2,7 @@
 #include "ui/canvas/tools/preset_browser.h"
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/messages.h"
-#include "ui/app/state/replace.h"
+#include "ui/app/state/overwrite_question.h"
 #include "ui/app/state/registry.h"
 #include "ui/app/state/settings.h"
 #include "ui/canvas/tools/stroke_input.h"
@@ -189,7 +189,7 @@ void wr_preset_browser_last(WrApp *app)
 void wr_preset_browser_step(WrApp *app, int by)
 {
     char *const *list = app->settings->favourites;
-    int count = 0, at = wr_settings_favourite(app->settings, wr_preset_browser_chosen(app));
+    int count = 0, at = wr_settings_find_favourite(app->settings, wr_preset_browser_chosen(app));
     while (count < WR_FAVOURITES_MAX && list[count]) count++;
     if (count == 0) {
         wr_app_say(app, "No favourites yet: the star in the Brushes tab makes them");

@@ -126,7 +126,7 @@ struct WrAccuracy {
 WrProbeMap wr_accuracy_map_of(WrPatchLook look);
 
 /* ---- accuracy_input.c ---- */
-void wr_accuracy_new(WrApp *app);
+void wr_accuracy_panel_new(WrApp *app);
 void wr_accuracy_free(WrApp *app);
 /* True if a measurement is running or due; alternating pictures do not count. */
 bool wr_accuracy_pending(const WrApp *app);
@@ -151,7 +151,7 @@ WrScene *wr_accuracy_scene(const WrApp *app, int side);
 /* Make the finest dials chosen by the tolerance the scene's dials, and remove the tolerance. */
 void wr_accuracy_keep(WrApp *app);
 /* Short description of A's or B's dials. */
-void wr_accuracy_words(const WrApp *app, int side, WrText *text);
+void wr_accuracy_dials_text(const WrApp *app, int side, WrText *text);
 
 /* ---- accuracy_view.c: over the patch ---- */
 void wr_accuracy_set_view(WrApp *app, WrPatchLook look);

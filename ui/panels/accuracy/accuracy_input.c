@@ -522,7 +522,7 @@ void wr_accuracy_keep(WrApp *app)
     if (chosen->any) set_all(app, chosen->dials);
 }
 
-void wr_accuracy_words(const WrApp *app, int side, WrText *text)
+void wr_accuracy_dials_text(const WrApp *app, int side, WrText *text)
 {
     const WrTolerance *tolerance = &wr_app_scene(app)->tolerance;
     if (side == 0 && tolerance->kind != WR_TOLERANCE_NONE) {
@@ -552,7 +552,7 @@ void wr_accuracy_words(const WrApp *app, int side, WrText *text)
 
 /* ---- creation and destruction of the accuracy state ---- */
 
-void wr_accuracy_new(WrApp *app)
+void wr_accuracy_panel_new(WrApp *app)
 {
     WrAccuracy *a = app->accuracy = wr_alloc(1, sizeof *a);
     WrWorkTools tools = { .isa = app->options->isa };

@@ -262,7 +262,7 @@ static void side_label(const WrApp *app, int side, double x, double anchor, doub
 {
     const SDL_Rect *room = &app->layout->patch;
     WrText words = { 0 };
-    wr_accuracy_words(app, side, &words);
+    wr_accuracy_dials_text(app, side, &words);
     chip(x, room->y + room->h - 12 * wr_gui_scale(), anchor, most, side ? "B" : "A",
          wr_text_get(&words));
     wr_text_fini(&words);

@@ -191,7 +191,7 @@ int wr_accuracy_probe_rows(const WrProbe *p, bool seen, WrProbeRow rows[WR_PROBE
     return n;
 }
 
-char *wr_accuracy_probe_number(double value, char text[24])
+char *wr_accuracy_probe_number_text(double value, char text[24])
 {
     const double size = fabs(value);
     if (!isfinite(value))

@@ -106,6 +106,6 @@ typedef struct WrProbeRow {
 /* Rows of a probe that hit; footprint, level and intensity only if `seen`. Returns their number. */
 int wr_accuracy_probe_rows(const WrProbe *probe, bool seen, WrProbeRow rows[WR_PROBE_ROWS]);
 /* A number in the table's form, at most 10 characters. Returns text. */
-char *wr_accuracy_probe_number(double value, char text[24]);
+char *wr_accuracy_probe_number_text(double value, char text[24]);
 /* The whole probe as text, one row a line, with all digits. */
 void wr_accuracy_probe_text(const WrProbe *probe, bool seen, WrText *text);

@@ -4,7 +4,7 @@
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/dialog.h"
 #include "ui/app/state/document.h"
-#include "ui/app/state/search.h"
+#include "ui/app/state/search_score.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"

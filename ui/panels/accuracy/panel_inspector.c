@@ -56,7 +56,7 @@ static void values(const WrProbeRow *row, double wide)
     const double column = (wide - from - pad) / 3;
     for (int k = 0; k < row->count; k++) {
         char text[40], number[24];
-        snprintf(text, sizeof text, "%s%s%s", wr_accuracy_probe_number(row->value[k], number),
+        snprintf(text, sizeof text, "%s%s%s", wr_accuracy_probe_number_text(row->value[k], number),
                  row->unit[0] && k == row->count - 1 ? " " : "",
                  k == row->count - 1 ? row->unit : "");
         double end = from + column * (k + 1);

@@ -1,7 +1,7 @@
 #include "ui/panels/generate/font_choice.h"
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/registry.h"
-#include "ui/app/state/search.h"
+#include "ui/app/state/search_score.h"
 #include "ui/app/state/settings.h"
 #include "ui/panels/generate/generate_state.h"
 #include "ui/toolkit/gui.h"

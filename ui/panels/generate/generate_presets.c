@@ -6,7 +6,7 @@
 #include "ui/app/state/settings.h"
 #include "ui/panels/generate/generate_state.h"
 #include "ui/app/state/registry.h"
-#include "ui/app/state/search.h"
+#include "ui/app/state/search_score.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/gui_sdl_renderer.h"
 #include "ui/toolkit/theme.h"

@@ -509,7 +509,7 @@ bool wr_generate_writes(const WrApp *app)
     return hand->active && hand->generator && wr_generate_written(hand->generator) >= 0;
 }
 
-bool wr_generate_by_name(WrApp *app, const char *name)
+bool wr_generate_tab_of_action(WrApp *app, const char *name)
 {
     const WrGenerator *generator = wr_action_generator(name);
     if (generator) wr_generate_open(app, generator);

@@ -91,7 +91,7 @@ const WrGenerator *wr_action_generator(const char *name);
 #define WR_GENERATE_ACTION 64
 void wr_generate_action(const WrGenerator *generator, char name[WR_GENERATE_ACTION]);
 /* Open the generator of "generate_FAMILY_NAME"; see WrActionFamily. */
-bool wr_generate_by_name(WrApp *app, const char *name);
+bool wr_generate_tab_of_action(WrApp *app, const char *name);
 /* Choose the generator with its last values, its tool and its tab, and start the preview. */
 void wr_generate_open(WrApp *app, const WrGenerator *generator);
 /* The last used generator, or the first. */

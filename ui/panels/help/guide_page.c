@@ -1,5 +1,5 @@
 #include "ui/panels/help/guide_page.h"
-#include "ui/app/state/search.h"
+#include "ui/app/state/search_score.h"
 
 #include "base/array.h"
 #include "base/memory.h"
