@@ -46,10 +46,11 @@ run() {
     while read -r file; do
         sed -i "\|^wrinkle: note: $file: |d" ../err
     done <"$folder.named"
-    # Nor is what is told of a surface's file.
+    # Nor is what is told of a mesh's file, of a projection, of masks or of baking.
+    sed -i -E '/^wrinkle: note: (projection=|masks leave )/d' ../err
     while read -r file; do
         sed -i "\\|^wrinkle: note: [^:]*$file: |d" ../err
-    done < <(sed -nE 's/^surface .*file=([^ ]+).*/\1/p' "$script")
+    done < <(sed -nE 's/^surface .*file=([^ ]+).*/\1/p; s/^bake ([^ ]+).*/\1/p' "$script")
     [[ ! -s ../err ]] || fail "run complained: $(cat ../err)"
     find . -type f -printf '%P\n' | LC_ALL=C sort | cmp -s - "$folder.named" || fail "run wrote $(ls -A)"
     while read -r file; do
