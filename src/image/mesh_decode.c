@@ -428,12 +428,12 @@ static bool take_points(const WrAssimpTable *table, const WrAssimpMesh *mesh, Wr
     const int32_t count = table->points(mesh);
     build->single = true;
     const double *points = table->point_data(mesh);
-    const float *looks = table->look_data(mesh); /* a normal and (u,v) of each point */
+    const float *looks = table->look_data(mesh); /* a normal and (u,v) of each point; NaN: none */
     if (!wr_mesh_build_reserve(build, count, table->triangles(mesh), err)) return false;
     for (int32_t i = 0; i < count; i++) {
         const float *look = build->whole ? looks + 5 * (size_t)i : NULL;
-        if (!wr_mesh_build_point(build, points + 3 * (size_t)i, look, look ? look + 3 : NULL, err))
-            return false;
+        const float *uv = look && !(isnan(look[3]) && isnan(look[4])) ? look + 3 : NULL;
+        if (!wr_mesh_build_point(build, points + 3 * (size_t)i, look, uv, err)) return false;
     }
     return true;
 }

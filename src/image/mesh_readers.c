@@ -772,9 +772,9 @@ static bool find_corner(Ply *ply, size_t i, int32_t *out, WrError *err)
                               own ? (float)ply->texcoord.at[2 * i + 1] : 0 };
     *out = wr_mesh_build_wedge(ply->build, &ply->first[vertex], places->points[vertex],
                                places->whole ? places->normals[vertex] : NULL,
-                               own             ? own_uv
-                               : places->whole ? places->uv[vertex]
-                                               : NULL,
+                               own                                             ? own_uv
+                               : places->whole && ply->used[U] && ply->used[V] ? places->uv[vertex]
+                                                                               : NULL,
                                err);
     return *out >= 0;
 }

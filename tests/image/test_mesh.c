@@ -305,6 +305,16 @@ static void coordinates_of_textures_that_are_no_numbers_are_counted(void **state
         assert_int_equal(missing, k ? 1 : 3);
         wr_mesh_fini(&mesh);
     }
+    static const char plain[] =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0\n1 0 0\n0 1 3\n3 0 1 2\n"; /* a file without (u,v) has no faulty ones */
+    WrMesh mesh = { 0 };
+    WrError err = { "" };
+    if (!wr_mesh_read_whole_bytes("a.ply", plain, strlen(plain), &mesh, &err))
+        fail_msg("%s", err.text);
+    assert_int_equal(mesh.bad_uv, 0);
+    wr_mesh_fini(&mesh);
 }
 
 /* Files of another kind than their names. */

@@ -152,6 +152,7 @@ static void the_unit_is_the_files(void **state)
             file_of(wr_text_get(&model), packed, 0, &zip);
             if (!wr_mesh_read_whole_bytes("a.3mf", zip.data, zip.length, &mesh, &err))
                 fail_msg("%s", err.text);
+            assert_int_equal(mesh.bad_uv, 0);
             assert_int_equal(mesh.unit, units[i].unit);
             assert_int_equal(mesh.triangle_count, 12);
             float low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { 0, 0, 0 };
