@@ -770,12 +770,10 @@ static bool find_corner(Ply *ply, size_t i, int32_t *out, WrError *err)
     const bool own = ply->texcoord.count == 2 * ply->corners.count;
     const float own_uv[2] = { own ? (float)ply->texcoord.at[2 * i] : 0,
                               own ? (float)ply->texcoord.at[2 * i + 1] : 0 };
+    const float *uv = own ? own_uv : NULL;
+    if (!uv && places->whole && !isnan(places->uv[vertex][0])) uv = places->uv[vertex];
     *out = wr_mesh_build_wedge(ply->build, &ply->first[vertex], places->points[vertex],
-                               places->whole ? places->normals[vertex] : NULL,
-                               own                                             ? own_uv
-                               : places->whole && ply->used[U] && ply->used[V] ? places->uv[vertex]
-                                                                               : NULL,
-                               err);
+                               places->whole ? places->normals[vertex] : NULL, uv, err);
     return *out >= 0;
 }
 
@@ -888,6 +886,8 @@ bool wr_ply_read(const char *bytes, size_t length, WrMeshBuild *build, WrError *
     for (int i = 0; good && i < ply->element_count; i++)
         good = read_entries(ply, &ply->elements[i], err);
     build->memory |= places.memory;
+    if (build->bad_uv == 0) memcpy(build->bad_uv_at, places.bad_uv_at, sizeof build->bad_uv_at);
+    build->bad_uv += places.bad_uv;
     wr_mesh_build_fini(&places);
     wr_free(ply->corners.at);
     wr_free(ply->texcoord.at);
