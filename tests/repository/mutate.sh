@@ -39,7 +39,7 @@ open_rows() {
         for (@F[2, 3]) {
             my $rest = $_;
             1 while $rest =~ s/\([^][(){}]*\)|\[[^][(){}]*\]|\{[^][(){}]*\}//;
-            next if $rest !~ /[][(){},]|;$/;
+            next if $rest !~ /[][(){},]|;$/ && !/^(#|(if|for|while|return|static|const)\b)/;
             print "mutate: no expression by itself: $_";
             $bad = 1;
         }
