@@ -716,8 +716,8 @@ bool wr_session_stroke_begin(WrSession *session, const char *head, WrError *err)
     WrPainting painting;
     if (!wr_painting_begin(session, call, &painting, err)) {
         wr_document_edit_end(session->state.document, &session->stand_in);
-        wr_call_free(call);
         wr_error_prefix(err, "%s: ", call->command->name);
+        wr_call_free(call);
         return false;
     }
     wr_session_journal_stroke_begin(session, call);

@@ -672,7 +672,9 @@ static WrTriangles *find_mesh(WrSession *session, WrCall *call, const WrShape *s
     }
     const bool own = shape->kind != WR_SURFACE_mesh || !wr_call_given(call, "projection") ||
                      wr_call_choice(call, "projection") == WR_PROJECTION_UV;
-    if (mesh) note_held(session, shape->kind, path, mesh, facts, own, udim_of(call));
+    if (mesh)
+        note_held(session, shape->kind, path, mesh, facts, own,
+                  shape->kind == WR_SURFACE_mesh ? udim_of(call) : 0);
     wr_free(path);
     return mesh;
 }
