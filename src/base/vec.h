@@ -76,6 +76,11 @@ static inline double v3_len(WrVec3 a)
 }
 
 /* a / |a|, or `fallback` where a is zero or not finite. Safe at any scale, denormals included. */
+static inline WrVec3 v3_load(const float p[3])
+{
+    return (WrVec3){ (double)p[0], (double)p[1], (double)p[2] };
+}
+
 static inline WrVec3 v3_unit(WrVec3 a, WrVec3 fallback)
 {
     double m = fabs(a.x);

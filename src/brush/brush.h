@@ -156,8 +156,8 @@ typedef struct WrBrushGround {
        lengths' unit. They are dabs, without symmetry; targets (clone, sharpen, dilate, erode) are those of the
        table. NULL: strokes are on the table. */
     WrMeshTexels *mesh;
-    bool clips; /* on a mesh: what turns away from `eye`, in the object's space, is not painted */
-    WrVec3 eye;
+    bool clips; /* on a mesh: faces turned away from `eye` are not painted */
+    WrVec3 eye; /* in the object's space */
 } WrBrushGround;
 
 /* wr_brush_dab on a table with mark and selection. */

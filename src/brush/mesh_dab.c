@@ -148,8 +148,8 @@ static void fill(Grid *grid, int rings)
         }
 }
 
-/* What is still unknown, as beyond open edges, takes the nearest known value of its row, or the row beside: modes
-   read it, but it is not moved. */
+/* Points that are still unknown, as beyond open edges, take the nearest known value of their row, or the row beside: modes
+   read them, but do not move them. */
 static void extend(Grid *grid)
 {
     const int side = grid->side, pitch = grid->box.pitch;

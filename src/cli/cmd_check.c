@@ -1,6 +1,5 @@
 #include "cli/cli.h"
 
-#include "base/enum_rows.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/text.h"
@@ -10,6 +9,7 @@
 #include "document/document_file.h"
 #include "export/check.h"
 #include "field/seam_check.h"
+#include "image/mesh.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
 #include "surface/mesh_faults.h"
@@ -27,7 +27,7 @@ static void add_tiles(const WrScene *object, bool json, WrText *text)
 {
     const int udim = object->projection.udim;
     if (object->projection.kind != WR_PROJECTION_UV) return;
-    WrUvTiles tiles = wr_uv_tiles(object->mesh_source ? object->mesh_source : object->triangles);
+    WrUvTiles tiles = wr_uv_tiles(wr_scene_mesh_source(object));
     const bool shown = udim || tiles.count > 1;
     if (shown && json) {
         const char *separator = "";
@@ -74,7 +74,7 @@ static bool add_mesh(const WrScene *object, int number, bool json, WrText *text,
 {
     WrTextureSeams seams;
     WrMeshFaults faults;
-    const WrTriangles *file = object->mesh_source ? object->mesh_source : object->triangles;
+    const WrTriangles *file = wr_scene_mesh_source(object);
     if (!wr_triangles_seams(object->triangles, &seams, err) ||
         !wr_mesh_faults_find(file, object->projection.origin, &faults, err))
         return false;
@@ -114,11 +114,10 @@ typedef enum CheckSource { CHECK_PICTURE, CHECK_SCRIPT, CHECK_MESH } CheckSource
 
 static CheckSource source_of(const char *path)
 {
-    static const char *const meshes[] = { "obj", "stl", "ply", "3mf", "gltf", "glb" };
     char ending[16];
     wr_path_ending(path, ending);
-    for (int i = 0; i < WR_LENGTH(meshes); i++)
-        if (strcmp(ending, meshes[i]) == 0) return CHECK_MESH;
+    for (const char *const *mesh = wr_mesh_endings; *mesh; mesh++)
+        if (strcmp(ending, *mesh) == 0) return CHECK_MESH;
     return strcmp(ending, "wrinkle") == 0 ? CHECK_SCRIPT : CHECK_PICTURE;
 }
 

@@ -24,9 +24,7 @@
 #include <math.h>
 #include <string.h>
 
-#define READ 0.3          /* of the progress, for the file */
-#define OVERLAP_CELLS 512 /* of the overlap test along u and v */
-#define OVERLAP_NOTED 0.005
+#define READ 0.3 /* of the progress, for the file */
 
 static const char *const matches[] = { "all", "name", NULL };
 
@@ -170,7 +168,7 @@ static void note_bake(WrSession *session, const char *path, const WrBakeOptions 
                       const WrBakeReport *report)
 {
     const WrUvOverlap overlap =
-        wr_triangles_overlap(session->state.document->scene->triangles, OVERLAP_CELLS);
+        wr_triangles_overlap(session->state.document->scene->triangles, WR_UV_OVERLAP_CELLS);
     WrText text = { 0 };
     wr_message_addf(&text, "%s: %s baked into %dx%d, cage %.4g", path, wr_bakes[options->kind].name,
                     options->width, options->height, report->cage);
@@ -186,7 +184,7 @@ static void note_bake(WrSession *session, const char *path, const WrBakeOptions 
     else wr_message_addf(&text, ", none missed");
     if (report->frameless)
         wr_message_addf(&text, "; %lld have no tangent frame", (long long)report->frameless);
-    if (overlap.share > OVERLAP_NOTED)
+    if (overlap.share > WR_UV_OVERLAP_NOTED)
         wr_message_addf(&text,
                         "; %.1f%% of the object's texture coordinates are met twice, the first at "
                         "u, v of %.3g,%.3g: one of the places is baked there",

@@ -235,9 +235,6 @@ static void form_terrain(WrArgSpec *args)
 
 /* ---- The mesh of `surface mesh file=`: reading, notes, storage in documents ---- */
 
-#define OVERLAP_CELLS 512 /* cells of the overlap test along u and v */
-#define OVERLAP_NOTED 0.005
-
 _Static_assert(WR_MESH_NAME == WR_TRIANGLE_NAME, "names of parts");
 
 /* The file's parts as the surface stores them. The caller frees them. */
@@ -338,10 +335,10 @@ static void add_map(WrText *text, const WrTriangles *mesh, int udim)
         return;
     }
     WrTriangles *tile = udim ? wr_triangles_of_tile(mesh, udim, NULL) : NULL;
-    WrUvOverlap overlap = wr_triangles_overlap(tile ? tile : mesh, OVERLAP_CELLS);
+    WrUvOverlap overlap = wr_triangles_overlap(tile ? tile : mesh, WR_UV_OVERLAP_CELLS);
     if (udim) overlap.outside = 0;
     wr_triangles_free(tile);
-    if (overlap.share > OVERLAP_NOTED)
+    if (overlap.share > WR_UV_OVERLAP_NOTED)
         wr_text_addf(text,
                      "; %.1f%% of its texture coordinates are met twice, the first at u, v of "
                      "%.3g,%.3g: paint there shows in several places",
@@ -479,7 +476,7 @@ static int udim_of(const WrCall *call)
 static void note_tiles(WrSession *session, const WrScene *scene)
 {
     const int udim = scene->projection.udim;
-    WrUvTiles tiles = wr_uv_tiles(scene->mesh_source ? scene->mesh_source : scene->triangles);
+    WrUvTiles tiles = wr_uv_tiles(wr_scene_mesh_source(scene));
     WrText text = { 0 };
     if (tiles.count > 1 || udim) {
         wr_message_addf(&text, "%d UDIM tiles, with triangles: ", tiles.count);
@@ -526,7 +523,7 @@ static bool take_masks(const WrCall *call, WrProjection *to, WrError *err)
     return true;
 }
 
-/* Settings without a meaning take their defaults, so that what is printed is all there is. */
+/* Unused settings take their defaults: the printed line has the others alone. */
 static void drop_unused(WrProjection *to)
 {
     const WrProjection none = wr_projection_default;
@@ -573,7 +570,7 @@ static bool reuse_mesh(const WrSession *session, WrScene *scene, WrError *err)
     const WrScene *before = session->state.document->scene;
     if (!before->triangles || before->shape.kind != WR_SURFACE_mesh)
         return wr_fail(err, "a projection belongs to a file=: the object has no mesh yet");
-    const WrTriangles *source = before->mesh_source ? before->mesh_source : before->triangles;
+    const WrTriangles *source = wr_scene_mesh_source(before);
     wr_scene_set_triangles(scene, wr_triangles_share(source), before->triangles_path,
                            before->triangles_sha256);
     scene->projection = before->projection;
@@ -583,7 +580,7 @@ static bool reuse_mesh(const WrSession *session, WrScene *scene, WrError *err)
 static bool note_projection(WrSession *session, const WrScene *scene, WrError *err)
 {
     const WrProjection *is = &scene->projection;
-    const WrTriangles *file = scene->mesh_source ? scene->mesh_source : scene->triangles;
+    const WrTriangles *file = wr_scene_mesh_source(scene);
     WrTextureSeams seams;
     WrText text = { 0 };
     double radius;

@@ -20,8 +20,6 @@
 
 #include <math.h>
 
-#define OVERLAP_CELLS 512 /* of the overlap test along u and v */
-
 typedef struct Bake {
     WrExportJob *job;
     const WrTriangles *mesh;
@@ -172,7 +170,7 @@ bool wr_export_baked_make(WrExportJob *job, WrError *err)
         return wr_fail(err, "maps are baked for bump mode=blinn, or none: choose one of them");
     job->report.table_sized = job->options.map_w == 0;
     if (scene->triangles)
-        job->report.overlap = wr_triangles_overlap(scene->triangles, OVERLAP_CELLS);
+        job->report.overlap = wr_triangles_overlap(scene->triangles, WR_UV_OVERLAP_CELLS);
     WrTriangles *mesh = scene->triangles ? wr_scene_whole_mesh(scene, err) : wr_triangles_square();
     const bool good = mesh && bake_mesh(job, mesh, err);
     wr_triangles_free(mesh);

@@ -471,8 +471,6 @@ static void add_receipt(const WrExportReport *report, WrText *text)
     else wr_text_add(text, "exact");
 }
 
-#define OVERLAP_NOTED 0.005
-
 static void add_solid(const WrExportReport *report, WrText *text)
 {
     const double *size = report->solid_size;
@@ -570,7 +568,7 @@ static void add_facts(const WrExportReport *report, WrText *text)
     if (report->convention) wr_text_addf(text, ", %s", report->convention);
     add_count(text, report->clipped, "outside the range, clipped");
     add_count(text, report->replaced, "not finite, replaced by 0");
-    if (report->overlap.share > OVERLAP_NOTED)
+    if (report->overlap.share > WR_UV_OVERLAP_NOTED)
         wr_text_addf(text,
                      "; %.1f%% of the texture coordinates are met twice, the first at u, v of "
                      "%.3g,%.3g: the map has one of the places there",

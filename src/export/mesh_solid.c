@@ -264,7 +264,7 @@ bool wr_mesh_solid_make(WrExportJob *job, WrSolidBody *body, WrError *err)
                     "error=%.6g mm needs more than %d triangles: a larger error, a smaller size, "
                     "a coarser mesh, or triangles=",
                     ask.error, ask.most);
-    const WrTriangles *file = job->scene->mesh_source ? job->scene->mesh_source : ask.mesh;
+    const WrTriangles *file = wr_scene_mesh_source(job->scene);
     good = good &&
            wr_mesh_faults_find(file, job->scene->projection.origin, &job->report.solid_faults, err);
     const bool limit = job->options.solid_limited;

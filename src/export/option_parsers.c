@@ -156,7 +156,7 @@ bool wr_export_set_margin(WrExportOptions *options, const char *value, WrError *
 
 /* An option's range; whole: integers only. */
 typedef struct Allowed {
-    const char *name, *what;
+    const char *name, *range; /* the range in words */
     double low, high;
     bool whole;
 } Allowed;
@@ -166,7 +166,7 @@ static bool parse(const Allowed *a, const char *value, double *out, WrError *err
     if (wr_number_parse(value, strlen(value), out) && *out >= a->low && *out <= a->high &&
         (!a->whole || *out == floor(*out)))
         return true;
-    return wr_fail(err, "%s '%.40s': must be %s", a->name, value, a->what);
+    return wr_fail(err, "%s '%.40s': must be %s", a->name, value, a->range);
 }
 
 /* ---- bodies ---- */
@@ -174,11 +174,8 @@ static bool parse(const Allowed *a, const char *value, double *out, WrError *err
 /* Millimetres. */
 static bool parse_length(const char *name, const char *value, double *out, WrError *err)
 {
-    double mm;
-    if (!wr_number_parse(value, strlen(value), &mm) || !(mm >= 1e-6 && mm <= 1e6))
-        return wr_fail(err, "%s '%.40s': must be millimetres, 1e-6..1e6", name, value);
-    *out = mm;
-    return true;
+    const Allowed allowed = { name, "millimetres, 1e-6..1e6", 1e-6, 1e6, false };
+    return parse(&allowed, value, out, err);
 }
 
 bool wr_export_set_solid_size(WrExportOptions *options, const char *value, WrError *err)
@@ -257,7 +254,7 @@ bool wr_set_directions(WrExportOptions *options, const char *value, WrError *err
     double n;
     if (!parse(&allowed, value, &n, err)) return false;
     if (n != 4 && n != 8 && n != 16 && n != 32)
-        return wr_fail(err, "directions '%.40s': must be %s", value, allowed.what);
+        return wr_fail(err, "directions '%.40s': must be %s", value, allowed.range);
     options->directions = (int)n;
     return true;
 }
@@ -327,7 +324,7 @@ bool wr_set_box(WrExportOptions *options, const char *value, WrError *err)
     const Allowed allowed = { "box", "an odd number of texels, 1..255", 1, WR_FIELD_MAP_BOX, true };
     double n;
     if (!parse(&allowed, value, &n, err)) return false;
-    if (fmod(n, 2) != 1) return wr_fail(err, "box '%.40s': must be %s", value, allowed.what);
+    if (fmod(n, 2) != 1) return wr_fail(err, "box '%.40s': must be %s", value, allowed.range);
     options->box = (int)n;
     return true;
 }

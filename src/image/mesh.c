@@ -12,6 +12,9 @@
 #include <math.h>
 #include <string.h>
 
+const char *const wr_mesh_endings[] = { "obj", "ply", "stl", "gltf", "glb", "3mf", "off",
+                                        "dae", "3ds", "fbx", "lwo",  "x3d", NULL };
+
 /* ---- results of the reader ---- */
 
 /* Normals and (u,v) may have any value; parts must be contiguous and cover all triangles. */

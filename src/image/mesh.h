@@ -42,6 +42,9 @@ typedef struct WrMesh {
     char *block; /* owned: memory of all arrays */
 } WrMesh;
 
+/* Endings of the mesh files that dialogs offer and that name a mesh without another word; NULL-terminated. */
+extern const char *const wr_mesh_endings[];
+
 /* Reads a file; for a glTF also the buffers beside it (gltf.h). out: owned by the caller (fini);
  * unchanged on failure.
  * Errors   name the file: unreadable, unknown format, damaged or hostile; no triangle, or too many; a

@@ -53,7 +53,7 @@ void wr_scene_set_triangles(WrScene *scene, WrTriangles *triangles, const char *
 
 /* ---- projection ---- */
 
-static const WrTriangles *source_of(const WrScene *scene)
+const WrTriangles *wr_scene_mesh_source(const WrScene *scene)
 {
     return scene->mesh_source ? scene->mesh_source : scene->triangles;
 }
@@ -71,12 +71,12 @@ static WrTriangles *project(const WrTriangles *source, const WrProjection *proje
 WrTriangles *wr_scene_whole_mesh(const WrScene *scene, WrError *err)
 {
     if (scene->projection.udim == 0) return wr_triangles_share(scene->triangles);
-    return wr_triangles_project(source_of(scene), &scene->projection, err);
+    return wr_triangles_project(wr_scene_mesh_source(scene), &scene->projection, err);
 }
 
 bool wr_scene_project(WrScene *scene, const WrProjection *projection, WrError *err)
 {
-    WrTriangles *made = project(source_of(scene), projection, err);
+    WrTriangles *made = project(wr_scene_mesh_source(scene), projection, err);
     if (!made) return false;
     if (!scene->mesh_source) scene->mesh_source = wr_triangles_share(scene->triangles);
     hold(scene, made);
@@ -126,7 +126,7 @@ static Kept kept_of(const WrScene *scene)
 {
     Kept kept = { .objects = wr_scene_object_count(scene) };
     for (int i = 0; i < kept.objects; i++) {
-        const WrTriangles *own = source_of(wr_scene_object(scene, i));
+        const WrTriangles *own = wr_scene_mesh_source(wr_scene_object(scene, i));
         int k = 0;
         if (!own) continue;
         while (k < kept.meshes && kept.mesh[k]->key != own->key) k++;

@@ -178,6 +178,8 @@ struct WrScene {
  * kind if that uses triangles, else it becomes a mesh. path and sha256 may be NULL. */
 void wr_scene_set_triangles(WrScene *scene, WrTriangles *triangles, const char *path,
                             const char *sha256);
+/* The mesh of the file, before projections, tiles and masks; borrowed; NULL: none. */
+const WrTriangles *wr_scene_mesh_source(const WrScene *scene);
 /* Derives the scene's triangles, of kind mesh, anew from those of its file. Errors: wr_triangles_project. */
 bool wr_scene_project(WrScene *scene, const WrProjection *projection, WrError *err);
 /* The object's mesh with the (u,v) of all its tiles; a reference. Errors: wr_triangles_project. */

@@ -3,7 +3,7 @@
 #include "base/enum_rows.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "surface/triangles.h"
+#include "surface/triangles_internal.h"
 
 #include <string.h>
 
@@ -17,11 +17,6 @@ const WrMeshFaultRow wr_mesh_fault_rows[WR_MESH_FAULTS] = {
 };
 WR_ROWS_END(wr_mesh_fault_rows, WR_MESH_FAULTS);
 
-static WrVec3 vector_of(const float p[3])
-{
-    return (WrVec3){ (double)p[0], (double)p[1], (double)p[2] };
-}
-
 static void add(WrMeshFaults *out, WrMeshFault fault, WrVec3 at)
 {
     if (out->count[fault]++ > 0) return;
@@ -31,7 +26,7 @@ static void add(WrMeshFaults *out, WrMeshFault fault, WrVec3 at)
 
 static WrVec3 corner_of(const WrTriangles *mesh, int32_t triangle, int k)
 {
-    return vector_of(mesh->corners[mesh->triangles[triangle].corner[k]].p);
+    return v3_load(wr_triangle_corner(mesh, triangle, k)->p);
 }
 
 static void order(int32_t *a, int32_t *b)
@@ -89,48 +84,32 @@ static void count_edges(const WrTriangles *mesh, const int32_t *edge, Uses *uses
     }
 }
 
-static bool find_edges(const WrTriangles *mesh, const int32_t *place, WrMeshFaults *out,
+static bool find_edges(const WrTriangles *mesh, const WrMeshEdges *edges, WrMeshFaults *out,
                        WrError *err)
 {
-    const int32_t halves = 3 * mesh->triangle_count;
-    int32_t count;
-    int32_t(*ends)[2] = wr_try_alloc((size_t)halves, sizeof *ends, "a mesh's edges", err);
-    int32_t *edge = ends ? wr_try_alloc((size_t)halves, sizeof *edge, "a mesh's edges", err) : NULL;
-    for (int32_t h = 0; h < halves && edge; h++) {
+    Uses *uses = wr_try_alloc((size_t)edges->count, sizeof *uses, "a mesh's edges", err);
+    for (int32_t h = 0; h < 3 * mesh->triangle_count && uses; h++) {
         const int32_t *c = mesh->triangles[h / 3].corner;
-        ends[h][0] = place[c[h % 3]], ends[h][1] = place[c[(h + 1) % 3]];
-        order(&ends[h][0], &ends[h][1]);
+        const bool rises = edges->place[c[h % 3]] < edges->place[c[(h + 1) % 3]];
+        *(rises ? &uses[edges->edge[h]].rising : &uses[edges->edge[h]].falling) += 1;
     }
-    const bool welded = edge && wr_weld(ends, sizeof *ends, halves, edge, &count, err);
-    Uses *uses = welded ? wr_try_alloc((size_t)count, sizeof *uses, "a mesh's edges", err) : NULL;
-    for (int32_t h = 0; h < halves && uses; h++) {
-        const bool rises = place[mesh->triangles[h / 3].corner[h % 3]] == ends[h][0];
-        *(rises ? &uses[edge[h]].rising : &uses[edge[h]].falling) += 1;
-    }
-    if (uses) count_edges(mesh, edge, uses, out);
+    if (uses) count_edges(mesh, edges->edge, uses, out);
     wr_free(uses);
-    wr_free(edge);
-    wr_free(ends);
     return uses != NULL;
 }
 
 static bool find_all(const WrTriangles *mesh, WrMeshFaults *out, WrError *err)
 {
     const WrTrianglesReport *report = &mesh->report;
-    int32_t places;
+    WrMeshEdges edges;
     *out = (WrMeshFaults){ .count[WR_MESH_FAULT_NO_AREA] = report->no_area,
-                           .at[WR_MESH_FAULT_NO_AREA] = vector_of(report->no_area_at),
+                           .at[WR_MESH_FAULT_NO_AREA] = v3_load(report->no_area_at),
                            .placed[WR_MESH_FAULT_NO_AREA] = report->no_area_known };
     if (mesh->closed) return true;
-    float(*p)[3] = wr_try_alloc((size_t)mesh->corner_count, sizeof *p, "a mesh's edges", err);
-    int32_t *place =
-        p ? wr_try_alloc((size_t)mesh->corner_count, sizeof *place, "a mesh's edges", err) : NULL;
-    for (int32_t i = 0; i < mesh->corner_count && place; i++)
-        memcpy(p[i], mesh->corners[i].p, sizeof p[i]);
-    const bool good = place && wr_weld(p, sizeof *p, mesh->corner_count, place, &places, err) &&
-                      find_doubled(mesh, place, out, err) && find_edges(mesh, place, out, err);
-    wr_free(place);
-    wr_free(p);
+    if (!wr_mesh_edges_find(mesh, &edges, err)) return false;
+    const bool good =
+        find_doubled(mesh, edges.place, out, err) && find_edges(mesh, &edges, out, err);
+    wr_mesh_edges_fini(&edges);
     return good;
 }
 

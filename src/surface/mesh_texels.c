@@ -66,15 +66,14 @@ typedef struct Flat {
 
 static WrVec3 corner_at(const WrTriangles *mesh, int32_t triangle, int k)
 {
-    const float *p = mesh->corners[mesh->triangles[triangle].corner[k]].p;
-    return (WrVec3){ (double)p[0], (double)p[1], (double)p[2] };
+    return v3_load(wr_triangle_corner(mesh, triangle, k)->p);
 }
 
 static bool lay_flat(const WrMeshTexels *t, int32_t triangle, Flat *flat)
 {
     double most = 0;
     for (int k = 0; k < 3; k++) {
-        const WrTriangleCorner *c = &t->mesh->corners[t->mesh->triangles[triangle].corner[k]];
+        const WrTriangleCorner *c = wr_triangle_corner(t->mesh, triangle, k);
         flat->p[k] = corner_at(t->mesh, triangle, k);
         flat->x[k] = t->table.width * t->table.ru * (double)c->u - 0.5;
         flat->y[k] = t->table.height * (1 - t->table.rv * (double)c->v) - 0.5;

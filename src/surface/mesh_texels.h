@@ -4,7 +4,7 @@
    flooded from triangle to triangle over edges of equal positions, so it continues on the other side of a seam
    of (u,v). The distance of a surface point p from the centre c is
 
-       d = |p - c| + max(0, g - 1.45 |p - c|)
+       d = |p - c| + max(0, g - 1.6 |p - c|)
 
    with g the length of the unfolded way over the flooded triangles: where a surface bends smoothly, or at a
    right angle, d is the straight distance, without creases between facets; where it folds back, as at the rim
@@ -55,7 +55,7 @@ typedef struct WrMeshDisc {
     WrMeshSpot centre;
     double radius; /* object units */
     WrVec3 along;  /* direction of the local x axis; made tangent */
-    bool clips;    /* leaves out what turns away from `eye`, fading within 10 degrees */
+    bool clips;    /* leaves out faces turned away from `eye`, fading within 10 degrees */
     WrVec3 eye;
 } WrMeshDisc;
 

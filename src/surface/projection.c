@@ -28,22 +28,12 @@ const WrProjection wr_projection_default = { .cell = { 10, 10 },
                                              .crease_deg = WR_CREASE_NONE,
                                              .facing_deg = 45 };
 
-static WrVec3 vector_of(const float p[3])
-{
-    return (WrVec3){ (double)p[0], (double)p[1], (double)p[2] };
-}
-
-static const WrTriangleCorner *corner_of(const WrTriangles *mesh, int32_t triangle, int k)
-{
-    return &mesh->corners[mesh->triangles[triangle].corner[k]];
-}
-
 /* The first corner is between the two shortest edges, so this is the most exact one (triangles.h). */
 static WrVec3 face_cross(const WrTriangles *mesh, int32_t triangle)
 {
-    const WrVec3 p = vector_of(corner_of(mesh, triangle, 0)->p);
-    return v3_cross(v3_sub(vector_of(corner_of(mesh, triangle, 1)->p), p),
-                    v3_sub(vector_of(corner_of(mesh, triangle, 2)->p), p));
+    const WrVec3 p = v3_load(wr_triangle_corner(mesh, triangle, 0)->p);
+    return v3_cross(v3_sub(v3_load(wr_triangle_corner(mesh, triangle, 1)->p), p),
+                    v3_sub(v3_load(wr_triangle_corner(mesh, triangle, 2)->p), p));
 }
 
 /* ---- edges ---- */
@@ -141,9 +131,9 @@ static WrVec3 *crease_normals(const WrTriangles *mesh, double crease_deg, WrErro
     WrVec3 *sum = group ? wr_try_alloc((size_t)count, sizeof *sum, "a mesh's normals", err) : NULL;
     if (sum) join_smooth(mesh, &edges, cosine, last, group);
     for (int32_t i = 0; i < count && sum; i++) {
-        const WrVec3 p = vector_of(corner_of(mesh, i / 3, i % 3)->p);
-        const WrVec3 a = v3_sub(vector_of(corner_of(mesh, i / 3, (i + 1) % 3)->p), p);
-        const WrVec3 b = v3_sub(vector_of(corner_of(mesh, i / 3, (i + 2) % 3)->p), p);
+        const WrVec3 p = v3_load(wr_triangle_corner(mesh, i / 3, i % 3)->p);
+        const WrVec3 a = v3_sub(v3_load(wr_triangle_corner(mesh, i / 3, (i + 1) % 3)->p), p);
+        const WrVec3 b = v3_sub(v3_load(wr_triangle_corner(mesh, i / 3, (i + 2) % 3)->p), p);
         const WrVec3 face = v3_unit(face_cross(mesh, i / 3), (WrVec3){ 0, 0, 0 });
         WrVec3 *to = &sum[root_of(group, i)];
         *to = v3_mad(*to, face, wr_angle(a, b));
@@ -191,7 +181,7 @@ static WrVec3 to_axes(const Work *w, WrVec3 v)
 
 static WrVec3 local(const Work *w, const float p[3])
 {
-    return to_axes(w, v3_scale(v3_sub(vector_of(p), w->at), w->scale));
+    return to_axes(w, v3_scale(v3_sub(v3_load(p), w->at), w->scale));
 }
 
 /* The point without its part along the axis; all of it for a sphere. */
@@ -207,7 +197,7 @@ static void find_radius(Work *w)
     for (int32_t i = 0; i < w->mesh->triangle_count; i++) {
         WrVec3 middle = { 0, 0, 0 };
         for (int k = 0; k < 3; k++) {
-            const WrVec3 q = local(w, corner_of(w->mesh, i, k)->p);
+            const WrVec3 q = local(w, wr_triangle_corner(w->mesh, i, k)->p);
             middle = v3_mad(middle, q, 1.0 / 3);
             most = fmax(most, v3_len(radial(w, q)));
         }
@@ -329,7 +319,7 @@ static bool is_wide(const Work *w, WrVec3 a, WrVec3 b)
 static WrTriangleCorner middle(const WrTriangleCorner *a, const WrTriangleCorner *b)
 {
     WrTriangleCorner m = { 0 };
-    const WrVec3 n = v3_unit(v3_add(vector_of(a->n), vector_of(b->n)), (WrVec3){ 0, 0, 0 });
+    const WrVec3 n = v3_unit(v3_add(v3_load(a->n), v3_load(b->n)), (WrVec3){ 0, 0, 0 });
     for (int k = 0; k < 3; k++) m.p[k] = (float)(((double)a->p[k] + (double)b->p[k]) / 2);
     m.n[0] = (float)n.x, m.n[1] = (float)n.y, m.n[2] = (float)n.z;
     return m;
@@ -382,7 +372,7 @@ static bool divide_all(Work *w, const WrVec3 *normals, WrTrianglePart *parts, Wr
         for (int32_t i = part->first; i < part->first + part->count; i++) {
             WrTriangleCorner c[3];
             for (int k = 0; k < 3; k++) {
-                c[k] = *corner_of(w->mesh, i, k);
+                c[k] = *wr_triangle_corner(w->mesh, i, k);
                 if (!part->mapped && w->is->kind == WR_PROJECTION_UV) c[k].u = c[k].v = NAN;
                 if (!normals) continue;
                 const WrVec3 n = normals[3 * i + k];
@@ -509,8 +499,8 @@ static int32_t mark_seams(const WrTriangles *mesh, const WrMeshEdges *edges, int
         ends_of(mesh, edges, h, end);
         ends_of(mesh, edges, *one - 1, back);
         for (int k = 0; k < 2; k++) {
-            own[k] = corner_of(mesh, h / 3, end[k]);
-            other[k] = corner_of(mesh, (*one - 1) / 3, back[k]);
+            own[k] = wr_triangle_corner(mesh, h / 3, end[k]);
+            other[k] = wr_triangle_corner(mesh, (*one - 1) / 3, back[k]);
         }
         if (!differ(own, other)) continue;
         *one = -*one;
@@ -523,8 +513,8 @@ static int32_t mark_seams(const WrTriangles *mesh, const WrMeshEdges *edges, int
 
 static double edge_length(const WrTriangles *mesh, int32_t half, WrVec3 *mid)
 {
-    const WrVec3 a = vector_of(corner_of(mesh, half / 3, half % 3)->p);
-    const WrVec3 b = vector_of(corner_of(mesh, half / 3, (half + 1) % 3)->p);
+    const WrVec3 a = v3_load(wr_triangle_corner(mesh, half / 3, half % 3)->p);
+    const WrVec3 b = v3_load(wr_triangle_corner(mesh, half / 3, (half + 1) % 3)->p);
     *mid = v3_scale(v3_add(a, b), 0.5);
     return v3_len(v3_sub(a, b));
 }

@@ -34,20 +34,10 @@ typedef struct SlopedVector {
     WrVec3 x, b[2];
 } SlopedVector;
 
-static WrVec3 vector_of(const float p[3])
-{
-    return (WrVec3){ (double)p[0], (double)p[1], (double)p[2] };
-}
-
-static const WrTriangleCorner *corner_of(const WrTriangles *mesh, int32_t face, int k)
-{
-    return &mesh->corners[mesh->triangles[face].corner[k]];
-}
-
 static inline SlopedVector interpolate(const float a[3], const float b[3], const float c[3],
                                        double b1, double b2)
 {
-    const WrVec3 p = vector_of(a), e1 = v3_sub(vector_of(b), p), e2 = v3_sub(vector_of(c), p);
+    const WrVec3 p = v3_load(a), e1 = v3_sub(v3_load(b), p), e2 = v3_sub(v3_load(c), p);
     return (SlopedVector){ v3_mad(v3_mad(p, e1, b1), e2, b2), { e1, e2 } };
 }
 
@@ -108,17 +98,17 @@ static inline SlopedVector way_at(const WrReliefWeights *w, WrFacing facing, Slo
 
 static inline SlopedVector place_of(const WrTriangles *mesh, int32_t face, double b1, double b2)
 {
-    return interpolate(corner_of(mesh, face, 0)->p, corner_of(mesh, face, 1)->p,
-                       corner_of(mesh, face, 2)->p, b1, b2);
+    return interpolate(wr_triangle_corner(mesh, face, 0)->p, wr_triangle_corner(mesh, face, 1)->p,
+                       wr_triangle_corner(mesh, face, 2)->p, b1, b2);
 }
 
 static Sloped mask_at(const WrTriangles *mesh, int32_t face, SlopedVector p, double b1, double b2)
 {
     const WrReliefWeights *w = mesh->weights;
     if (w->facing == WR_FACING_ANY) return (Sloped){ 1, { 0, 0 } };
-    const SlopedVector n =
-        unit_of(interpolate(corner_of(mesh, face, 0)->n, corner_of(mesh, face, 1)->n,
-                            corner_of(mesh, face, 2)->n, b1, b2));
+    const SlopedVector n = unit_of(interpolate(wr_triangle_corner(mesh, face, 0)->n,
+                                               wr_triangle_corner(mesh, face, 1)->n,
+                                               wr_triangle_corner(mesh, face, 2)->n, b1, b2));
     return smooth_step(dot(n, way_at(w, w->facing, p)), w->none, w->whole);
 }
 
@@ -210,14 +200,14 @@ static bool find_means(WrReliefWeights *w, const WrTriangles *mesh, WrError *err
     good = good && wr_weld(p, sizeof *p, mesh->corner_count, place, &places, err);
     WrVec3 *sum = good ? wr_try_alloc((size_t)places, sizeof *sum, "a mesh's normals", err) : NULL;
     for (int32_t i = 0; i < 3 * mesh->triangle_count && sum; i++) {
-        const WrVec3 at = vector_of(corner_of(mesh, i / 3, i % 3)->p);
-        const WrVec3 a = v3_sub(vector_of(corner_of(mesh, i / 3, (i + 1) % 3)->p), at);
-        const WrVec3 b = v3_sub(vector_of(corner_of(mesh, i / 3, (i + 2) % 3)->p), at);
+        const WrVec3 at = v3_load(wr_triangle_corner(mesh, i / 3, i % 3)->p);
+        const WrVec3 a = v3_sub(v3_load(wr_triangle_corner(mesh, i / 3, (i + 1) % 3)->p), at);
+        const WrVec3 b = v3_sub(v3_load(wr_triangle_corner(mesh, i / 3, (i + 2) % 3)->p), at);
         WrVec3 *to = &sum[place[mesh->triangles[i / 3].corner[i % 3]]];
         *to = v3_mad(*to, v3_unit(v3_cross(a, b), none), wr_angle(a, b));
     }
     for (size_t i = 0; i < corners && sum; i++) {
-        const WrVec3 s = v3_unit(sum[place[i]], vector_of(mesh->corners[i].n));
+        const WrVec3 s = v3_unit(sum[place[i]], v3_load(mesh->corners[i].n));
         w->mean[i][0] = (float)s.x, w->mean[i][1] = (float)s.y, w->mean[i][2] = (float)s.z;
     }
     good = sum != NULL;
@@ -362,7 +352,7 @@ int wr_relief_taps(const WrTriangles *mesh, int32_t face, double b1, double b2,
         count = 3;
     } else {
         const WrTriangleCorner *c[3];
-        for (int k = 0; k < 3; k++) c[k] = corner_of(mesh, face, k);
+        for (int k = 0; k < 3; k++) c[k] = wr_triangle_corner(mesh, face, k);
         const double u = (double)c[0]->u, u1 = (double)c[1]->u - u, u2 = (double)c[2]->u - u;
         const double v = (double)c[0]->v, v1 = (double)c[1]->v - v, v2 = (double)c[2]->v - v;
         taps[0] = (WrReliefTap){ .u = u + b1 * u1 + b2 * u2,
@@ -392,8 +382,9 @@ void wr_relief_add(WrReliefSum *sum, const WrReliefTap *tap, double f, double fu
 void wr_relief_slopes(const WrTriangles *mesh, int32_t face, const WrReliefSum *sum, double *fu,
                       double *fv)
 {
-    const WrTriangleCorner *a = corner_of(mesh, face, 0), *b = corner_of(mesh, face, 1),
-                           *c = corner_of(mesh, face, 2);
+    const WrTriangleCorner *a = wr_triangle_corner(mesh, face, 0),
+                           *b = wr_triangle_corner(mesh, face, 1),
+                           *c = wr_triangle_corner(mesh, face, 2);
     const double u1 = (double)b->u - (double)a->u, u2 = (double)c->u - (double)a->u;
     const double v1 = (double)b->v - (double)a->v, v2 = (double)c->v - (double)a->v;
     const double det = u1 * v2 - u2 * v1;

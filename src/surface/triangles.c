@@ -1127,11 +1127,6 @@ static void lay(WrVec3 n, WrVec3 grad_u, WrVec3 grad_v, WrSurfacePoint *out)
     out->pv = v3_scale(v3_cross(n, grad_u), length);
 }
 
-static WrVec3 vector_of(const float p[3])
-{
-    return (WrVec3){ (double)p[0], (double)p[1], (double)p[2] };
-}
-
 /* The point and the gradients are those of the flat triangle; only the normal is interpolated. The surface
    gradient is projected onto its plane by lay's cross products. */
 static void mesh_at(const WrTriangles *mesh, const WrTrianglesPlace *place, WrSurfacePoint *out)
@@ -1143,8 +1138,8 @@ static void mesh_at(const WrTriangles *mesh, const WrTrianglesPlace *place, WrSu
     double uv[3][2];
     for (int k = 0; k < 3; k++) {
         const WrTriangleCorner *corner = &mesh->corners[mesh->triangles[place->index].corner[k]];
-        p[k] = vector_of(corner->p);
-        n = v3_mad(n, vector_of(corner->n), share[k]);
+        p[k] = v3_load(corner->p);
+        n = v3_mad(n, v3_load(corner->n), share[k]);
         uv[k][0] = (double)corner->u, uv[k][1] = (double)corner->v;
         out->p = v3_mad(out->p, p[k], share[k]);
     }

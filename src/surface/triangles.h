@@ -116,6 +116,15 @@ WrTriangles *wr_triangles_deserialize(const float *block, size_t count, WrError 
 bool wr_triangle_gradients(const WrVec3 p[3], const double uv[3][2], WrVec3 *normal, WrVec3 *grad_u,
                            WrVec3 *grad_v);
 
+static inline const WrTriangleCorner *wr_triangle_corner(const WrTriangles *t, int32_t triangle,
+                                                         int k)
+{
+    return &t->corners[t->triangles[triangle].corner[k]];
+}
+
+#define WR_UV_OVERLAP_CELLS 512   /* of the grid of wr_triangles_overlap, for reports */
+#define WR_UV_OVERLAP_NOTED 0.005 /* a smaller share is not reported */
+
 /* Overlap of the triangles' (u,v), modulo 1: painting there affects several places at once. */
 typedef struct WrUvOverlap {
     double share;    /* 0..1 of the covered area that is covered by two or more */

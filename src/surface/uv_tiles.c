@@ -32,7 +32,7 @@ static Face face_of(const WrTriangles *mesh, int32_t triangle)
     Face face = { .mapped = false };
     double low[2] = { INFINITY, INFINITY }, high[2] = { -INFINITY, -INFINITY };
     for (int k = 0; k < 3; k++) {
-        const WrTriangleCorner *c = &mesh->corners[mesh->triangles[triangle].corner[k]];
+        const WrTriangleCorner *c = wr_triangle_corner(mesh, triangle, k);
         face.u[k] = (double)c->u, face.v[k] = (double)c->v;
         face.mapped |= c->u != 0 || c->v != 0; /* missing ones are 0 */
         low[0] = fmin(low[0], face.u[k]), high[0] = fmax(high[0], face.u[k]);
@@ -132,15 +132,14 @@ typedef struct Work {
 
 static bool hold(Work *w, WrError *err)
 {
-    const char *what = "a mesh";
     const size_t points = 2 * (size_t)w->mesh->corner_count;
     const size_t triangles = (size_t)w->mesh->triangle_count;
-    w->points = wr_try_alloc(points, sizeof *w->points, what, err);
-    w->normals = w->points ? wr_try_alloc(points, sizeof *w->normals, what, err) : NULL;
-    w->uv = w->normals ? wr_try_alloc(points, sizeof *w->uv, what, err) : NULL;
-    w->point_of = w->uv ? wr_try_alloc(points, sizeof *w->point_of, what, err) : NULL;
-    w->corners = w->point_of ? wr_try_alloc(triangles, sizeof *w->corners, what, err) : NULL;
-    w->on = w->corners ? wr_try_alloc(triangles, sizeof *w->on, what, err) : NULL;
+    w->points = wr_try_alloc(points, sizeof *w->points, "a mesh", err);
+    w->normals = w->points ? wr_try_alloc(points, sizeof *w->normals, "a mesh", err) : NULL;
+    w->uv = w->normals ? wr_try_alloc(points, sizeof *w->uv, "a mesh", err) : NULL;
+    w->point_of = w->uv ? wr_try_alloc(points, sizeof *w->point_of, "a mesh", err) : NULL;
+    w->corners = w->point_of ? wr_try_alloc(triangles, sizeof *w->corners, "a mesh", err) : NULL;
+    w->on = w->corners ? wr_try_alloc(triangles, sizeof *w->on, "a mesh", err) : NULL;
     return w->on != NULL;
 }
 

@@ -178,7 +178,7 @@ static void facing_rows(WrApp *app)
 static void tile_row(WrApp *app)
 {
     const WrScene *scene = wr_app_scene(app);
-    const WrTriangles *mesh = scene->mesh_source ? scene->mesh_source : scene->triangles;
+    const WrTriangles *mesh = wr_scene_mesh_source(scene);
     WrSurfaceState *hand = app->surface;
     if (hand->tiles_key != mesh->key) {
         WrUvTiles tiles = wr_uv_tiles(mesh);

@@ -64,7 +64,7 @@ double wr_projection_least_cell(const WrScene *scene, const WrProjection *is)
 void wr_projection_live(WrApp *app, const WrProjection *is)
 {
     WrScene *live = wr_app_live_begin(app);
-    const WrTriangles *from = live->mesh_source ? live->mesh_source : live->triangles;
+    const WrTriangles *from = wr_scene_mesh_source(live);
     const bool small = from && from->triangle_count <= LIVE_MOST;
     if (!small || !wr_scene_project(live, is, NULL)) live->projection = *is;
 }

@@ -56,29 +56,19 @@ static bool is_stopped(const WrMeshRelief *r)
 
 /* ---- the exact surface ---- */
 
-static WrVec3 vec_of(const float x[3])
-{
-    return (WrVec3){ (double)x[0], (double)x[1], (double)x[2] };
-}
-
-static const WrTriangleCorner *corner_of(const WrTriangles *mesh, int32_t face, int k)
-{
-    return &mesh->corners[mesh->triangles[face].corner[k]];
-}
-
 WrMeshReliefPlace wr_mesh_relief_place(const WrTriangles *mesh, int32_t face, double b1, double b2)
 {
     const WrTriangleCorner *c[3];
     const double w[3] = { 1.0 - b1 - b2, b1, b2 };
     WrMeshReliefPlace at = { .face = face, .b1 = b1, .b2 = b2 };
     for (int k = 0; k < 3; k++) {
-        c[k] = corner_of(mesh, face, k);
-        at.p = v3_mad(at.p, vec_of(c[k]->p), w[k]);
-        at.n = v3_mad(at.n, vec_of(c[k]->n), w[k]);
+        c[k] = wr_triangle_corner(mesh, face, k);
+        at.p = v3_mad(at.p, v3_load(c[k]->p), w[k]);
+        at.n = v3_mad(at.n, v3_load(c[k]->n), w[k]);
         at.u += w[k] * (double)c[k]->u;
         at.v += w[k] * (double)c[k]->v;
     }
-    at.n = v3_unit(at.n, vec_of(c[0]->n));
+    at.n = v3_unit(at.n, v3_load(c[0]->n));
     return at;
 }
 
@@ -761,9 +751,9 @@ static double texels_of(const WrMeshRelief *r)
 {
     double sum = 0.0;
     for (int32_t i = 0; i < r->request.mesh->triangle_count; i++) {
-        const WrTriangleCorner *a = corner_of(r->request.mesh, i, 0),
-                               *b = corner_of(r->request.mesh, i, 1),
-                               *c = corner_of(r->request.mesh, i, 2);
+        const WrTriangleCorner *a = wr_triangle_corner(r->request.mesh, i, 0),
+                               *b = wr_triangle_corner(r->request.mesh, i, 1),
+                               *c = wr_triangle_corner(r->request.mesh, i, 2);
         if (!wr_relief_covers(r->request.mesh, i)) continue;
         sum += fabs((double)(b->u - a->u) * (double)(c->v - a->v) -
                     (double)(c->u - a->u) * (double)(b->v - a->v)) /

@@ -988,8 +988,7 @@ static int32_t block_end(const WrViewTriangles *to, int32_t block)
 
 static WrVec3 corner_at(const WrTriangles *t, int32_t i, int k)
 {
-    const float *p = t->corners[t->triangles[i].corner[k]].p;
-    return (WrVec3){ (double)p[0], (double)p[1], (double)p[2] };
+    return v3_load(wr_triangle_corner(t, i, k)->p);
 }
 
 static WrVec3 face_normal(const WrTriangles *t, int32_t i)

@@ -13,6 +13,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "image/image.h"
+#include "image/mesh.h"
 #include "system/path.h"
 #include "system/thread.h"
 
@@ -504,15 +505,13 @@ static const char *const *file_endings(WrFilePurpose purpose)
     static const char *const stamps[] = { PICTURES, "gbr", "gih", "pat", NULL };
     static const char *const documents[] = { PICTURES, "wrinkle", "ora", NULL };
     static const char *const models[] = { "gltf", "glb", NULL };
-    static const char *const meshes[] = { "obj", "ply", "stl", "gltf", "glb", "3mf", "off",
-                                          "dae", "3ds", "fbx", "lwo",  "x3d", NULL };
     static const char *const patches[] = { "bpt", "txt", NULL };
     static const char *const grounds[] = { PICTURES, "r16", "r32", "raw", "hgt", "fits", NULL };
     if (wr_file_purpose_writes(purpose) || purpose == WR_FILE_GENERATE || purpose == WR_FILE_PRESET)
         return NULL;
     if (purpose == WR_FILE_STAMP) return stamps;
     if (purpose == WR_FILE_GLTF) return models;
-    if (purpose == WR_FILE_MESH || purpose == WR_FILE_BAKE) return meshes;
+    if (purpose == WR_FILE_MESH || purpose == WR_FILE_BAKE) return wr_mesh_endings;
     if (purpose == WR_FILE_PATCHES) return patches;
     if (purpose == WR_FILE_TERRAIN) return grounds;
     return purpose == WR_FILE_OPEN || purpose == WR_FILE_TABLE ? documents : pictures;
