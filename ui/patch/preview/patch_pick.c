@@ -232,14 +232,14 @@ static void fill_spot(const WrPatchPick *pick, const WrRayHit *hit, WrVec3 d, Wr
     WrVec3 p[3], grad_v, none = { 0, 0, 0 };
     double uv[3][2];
     for (int k = 0; k < 3; k++) {
-        c[k] = &pick->mesh->corners[pick->mesh->triangles[hit->triangle].corner[k]];
-        p[k] = (WrVec3){ (double)c[k]->p[0], (double)c[k]->p[1], (double)c[k]->p[2] };
+        c[k] = wr_triangle_corner(pick->mesh, hit->triangle, k);
+        p[k] = v3_load(c[k]->p);
         uv[k][0] = (double)c[k]->u, uv[k][1] = (double)c[k]->v;
         spot->u += hit->share[k] * uv[k][0];
         spot->v += hit->share[k] * uv[k][1];
         spot->p = v3_mad(spot->p, p[k], hit->share[k]);
     }
-    WrVec3 gradient;
+    WrVec3 gradient = none;
     if (!wr_triangle_gradients(p, (const double(*)[2])uv, &spot->n, &gradient, &grad_v))
         spot->n = v3_unit(v3_neg(d), d);
     else spot->along = v3_unit(v3_cross(grad_v, spot->n), none);
