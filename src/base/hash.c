@@ -66,6 +66,28 @@ void wr_hash_print(WrHash hash, char text[33])
              (unsigned long long)hash.low);
 }
 
+static bool parse_hex(const char *text, int digits, uint64_t *value)
+{
+    uint64_t v = 0;
+    for (int i = 0; i < digits; i++) {
+        char c = text[i];
+        if (c >= '0' && c <= '9') v = v << 4 | (uint64_t)(c - '0');
+        else if (c >= 'a' && c <= 'f') v = v << 4 | (uint64_t)(c - 'a' + 10);
+        else return false;
+    }
+    *value = v;
+    return true;
+}
+
+bool wr_hash_parse(const char *text, WrHash *hash)
+{
+    WrHash h;
+    if (memchr(text, '\0', WR_HASH_DIGITS + 1) != text + WR_HASH_DIGITS) return false;
+    if (!parse_hex(text, 16, &h.high) || !parse_hex(text + 16, 16, &h.low)) return false;
+    *hash = h;
+    return true;
+}
+
 static void hex_of(const uint8_t digest[SHA256_DIGEST_LENGTH], char hex[65])
 {
     for (int i = 0; i < SHA256_DIGEST_LENGTH; i++) snprintf(hex + 2 * i, 3, "%02x", digest[i]);

@@ -23,7 +23,10 @@ void wr_hash_stream_free(WrHashStream *stream); /* NULL is fine */
 
 bool wr_hash_equal(WrHash a, WrHash b);
 /* 32 hex digits and a NUL. */
-void wr_hash_print(WrHash hash, char text[33]);
+#define WR_HASH_DIGITS 32
+void wr_hash_print(WrHash hash, char text[WR_HASH_DIGITS + 1]);
+/* The hash that wr_hash_print printed. False for any other text; *hash is then unchanged. */
+bool wr_hash_parse(const char *text, WrHash *hash);
 
 /* SHA-256 as 64 lower-case hex digits and a NUL. */
 void wr_sha256_bytes(const void *bytes, size_t count, char hex[65]);

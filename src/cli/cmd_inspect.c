@@ -176,6 +176,8 @@ static void add_layer_json(WrText *text, const WrDocument *document, int index)
     if (layer->filter.op) wr_filter_print(&layer->filter, &filter);
     if (layer->filter.op) wr_text_add(text, ",\"filter\":");
     if (layer->filter.op) wr_text_add_json_string(text, filter.data);
+    if (layer->line) wr_text_add(text, ",\"line\":");
+    if (layer->line) wr_text_add_json_string(text, layer->line);
     wr_text_add(text, "}");
     wr_text_fini(&filter);
 }
@@ -194,6 +196,7 @@ static void add_layer_text(WrText *text, const WrDocument *document, int index)
         wr_text_add(text, ", filter ");
         wr_filter_print(&layer->filter, text);
     }
+    if (layer->line) wr_text_addf(text, ", from \"%s\"", layer->line);
     if (layer->mask) wr_text_add(text, ", masked");
     if (!layer->visible) wr_text_add(text, ", hidden");
     if (layer->locked) wr_text_add(text, ", locked");

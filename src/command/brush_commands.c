@@ -700,6 +700,7 @@ const WrCommand wr_command_shape = {
     .form = form_shape,
     .more = wr_args_brush,
     .run = run_shape,
+    .generates = true,
     .help = "draw or fill a rectangle, an ellipse, a polygon or a path",
     .details =
         "An outline is drawn as a stroke with the brush at full pressure; a closed one meets "
@@ -866,5 +867,6 @@ const WrCommand wr_command_ramp = { .name = "ramp",
                                     .form_word = "KIND",
                                     .form = form_ramp,
                                     .run = run_ramp,
+                                    .generates = true,
                                     .help = "heights that lead from one place to another",
                                     .example = "ramp linear from=0.1,0.5 to=0.6,0.5 fold=on" };

@@ -60,6 +60,17 @@ bool wr_call_names_file(const WrCall *call, int index);
 bool wr_names_preset_file(const char *word); /* true if the word ends in .myb */
 /* Set a text argument as if the line contained it. */
 void wr_call_set_text(WrCall *call, const char *name, const char *text);
+/* Replace the arguments that `words` gives: "size=90". Values without a name replace all values without a name. Checksums
+   are forgotten: any value may lead to another file, as another size to another font. On failure the call can only be
+   freed. */
+bool wr_call_change(WrCall *call, const char *words, WrError *err);
+/* Check of a text argument that holds a command line: one that can be the line of a generator layer. */
+bool wr_check_layer_line(const void *ctx, const char *name, const char *value, WrError *err);
+/* The call of the command line that the call holds in such an argument; NULL: none is given. The caller frees it. */
+WrCall *wr_call_inner(const WrCall *call);
+/* Visit the call, and the call that it holds, whose text is then written back. */
+typedef void WrCallVisit(WrCall *call, void *ctx);
+void wr_call_visit(WrCall *call, WrCallVisit *visit, void *ctx);
 /* Append a tuple of `count` numbers to a list argument. */
 void wr_call_add_row(WrCall *call, const char *name, const double *numbers, int count);
 

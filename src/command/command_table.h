@@ -132,6 +132,7 @@ typedef struct WrCommand {
 
     /* Read by the session, its journal and recovery. */
     WrPrework prework;
+    bool generates; /* it can be the line of a generator layer (generator_layers.c) */
     bool streams;  /* an open call may get its samples one by one (wr_session_stroke_begin) */
     bool on_mesh;  /* it paints on the active object's mesh; its samples are x,y,z */
     bool of_views; /* a history command that changes which view is shown, and nothing else */

@@ -27,6 +27,7 @@ extern const WrCommand wr_command_table, wr_command_fill, wr_command_grid, wr_co
 
 typedef struct WrError WrError;
 typedef struct WrField WrField;
+typedef struct WrGenerateJob WrGenerateJob;
 typedef struct WrGenerator WrGenerator;
 typedef struct WrLayer WrLayer;
 typedef struct WrParamValue WrParamValue;
@@ -53,6 +54,16 @@ char *wr_generator_text(const char *text);
  * everywhere). False: cancelled, and the layer is half done. */
 bool wr_call_join(const WrCall *call, const WrRelief *relief, const WrField *selection,
                   WrLayer *layer, WrPool *pool, const WrProgress *progress, WrError *err);
+
+/* Make the output of the line's generator the content of a generator layer, by the line's offset and the layer's blend
+ * mode. False: cancelled, and the layer is unchanged. */
+bool wr_call_lay(const WrCall *call, const WrRelief *relief, WrLayer *layer, WrPool *pool,
+                 const WrProgress *progress, WrError *err);
+
+/* Run the line's generator. Reads its files, and sets or checks their checksums in the call. job: with like, selection,
+ * mask and progress; the rest is set. The caller owns *out. */
+bool wr_call_make(WrSession *session, WrCall *call, WrGenerateJob *job, WrRelief *out,
+                  WrError *err);
 
 /* ---- transforms ---- */
 

@@ -265,6 +265,12 @@ void wr_session_estimate_call(const WrSession *session, const WrCall *call, WrEs
 {
     *out = (WrEstimate){ 0 };
     if (!call->command) return;
+    WrCall *inner = wr_call_inner(call);
+    if (inner) { /* a generator layer needs as much as its command */
+        wr_session_estimate_call(session, inner, out);
+        wr_call_free(inner);
+        return;
+    }
     const WrDocument *document = session->state.document;
     const WrField *field = document->layers[document->active].heights;
     Job job = { .call = call,

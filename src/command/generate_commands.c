@@ -226,6 +226,42 @@ bool wr_call_join(const WrCall *call, const WrRelief *relief, const WrField *sel
     return good;
 }
 
+static WrField *empty_like(const WrField *field)
+{
+    return wr_field_new(wr_field_width(field), wr_field_height(field), wr_field_wrap_u(field),
+                        wr_field_wrap_v(field), 0.0f, NULL);
+}
+
+/* Modes that weigh a layer by its coverage need the heights themselves; the others need heights times coverage. Either
+   way the composite is w * h blended into the layers below, as by the plain command. */
+bool wr_call_lay(const WrCall *call, const WrRelief *relief, WrLayer *layer, WrPool *pool,
+                 const WrProgress *progress, WrError *err)
+{
+    float(*result)[TEXELS] = wr_try_alloc(BATCH, sizeof *result, "tiles to be joined", err);
+    if (!result) return false;
+    const bool weighs = wr_blends[layer->blend].uses_cover;
+    WrField *heights = empty_like(relief->heights);
+    const char *offset = wr_generator_argument(wr_call_generator(call), "offset");
+    Joining joining = { .blend = weighs ? WR_BLEND_REPLACE : WR_BLEND_ADD,
+                        .offset = wr_call_number(call, offset),
+                        .heights = relief->heights,
+                        .weight = weighs ? NULL : relief->cover,
+                        .layer = heights,
+                        .pool = pool,
+                        .result = result };
+    const bool good = join_all(&joining, progress, err);
+    wr_free(result);
+    if (!good) {
+        wr_field_free(heights);
+        return false;
+    }
+    wr_field_free(layer->heights);
+    wr_field_free(layer->cover);
+    layer->heights = heights;
+    layer->cover = relief->cover ? wr_field_share(relief->cover) : NULL;
+    return true;
+}
+
 /* ---- One command for each generator family ---- */
 
 const WrGenerator *wr_call_generator(const WrCall *call)
@@ -318,9 +354,25 @@ static void note(void *ctx, const char *text)
     wr_session_note(ctx, "%s", text);
 }
 
-static bool run_generate(WrSession *session, WrCall *call, WrError *err)
+bool wr_call_make(WrSession *session, WrCall *call, WrGenerateJob *job, WrRelief *out, WrError *err)
 {
     const WrGenerator *generator = wr_call_generator(call);
+    WrParamValue values[WR_GENERATOR_PARAMS];
+    char *owned[WR_GENERATOR_PARAMS] = { NULL };
+    job->pool = session->options.pool;
+    job->note = note;
+    job->note_ctx = session;
+    job->chose = keep_choice;
+    job->chose_ctx = call;
+    wr_call_values(call, generator, values);
+    const bool good = resolve(session, call, generator, values, owned, err) &&
+                      wr_generator_make(generator, values, job, out, err);
+    for (int i = 0; i < WR_GENERATOR_PARAMS; i++) wr_free(owned[i]);
+    return good;
+}
+
+static bool run_generate(WrSession *session, WrCall *call, WrError *err)
+{
     WrLayer *layer = wr_session_layer(session, err);
     if (!layer) return false;
     WrProgressPart making, joining;
@@ -328,22 +380,13 @@ static bool run_generate(WrSession *session, WrCall *call, WrError *err)
     WrGenerateJob job = { .like = layer->heights,
                           .selection = document->selection,
                           .mask = document->layers[document->active].mask,
-                          .pool = session->options.pool,
-                          .progress = wr_progress_part(&making, wr_progress_here(), 0.0, 0.9),
-                          .note = note,
-                          .note_ctx = session,
-                          .chose = keep_choice,
-                          .chose_ctx = call };
-    WrParamValue values[WR_GENERATOR_PARAMS];
-    char *owned[WR_GENERATOR_PARAMS] = { NULL };
+                          .progress = wr_progress_part(&making, wr_progress_here(), 0.0, 0.9) };
     WrRelief relief = { NULL, NULL };
-    wr_call_values(call, generator, values);
-    bool good = resolve(session, call, generator, values, owned, err) &&
-                wr_generator_make(generator, values, &job, &relief, err) &&
-                wr_call_join(call, &relief, session->state.document->selection, layer, job.pool,
-                             wr_progress_part(&joining, wr_progress_here(), 0.9, 1.0), err);
+    const bool good =
+        wr_call_make(session, call, &job, &relief, err) &&
+        wr_call_join(call, &relief, document->selection, layer, job.pool,
+                     wr_progress_part(&joining, wr_progress_here(), 0.9, 1.0), err);
     wr_relief_fini(&relief);
-    for (int i = 0; i < WR_GENERATOR_PARAMS; i++) wr_free(owned[i]);
     return good;
 }
 
@@ -530,6 +573,7 @@ const WrCommand wr_command_pattern = {
     .form_word = "KIND",
     .form = form_pattern,
     .run = run_generate,
+    .generates = true,
     .prework = WR_PREWORK_TABLES,
     .help = "bricks, tiles, cloth, cells and other regular things",
     .details =
@@ -545,6 +589,7 @@ const WrCommand wr_command_noise = {
     .form_word = "KIND",
     .form = form_noise,
     .run = run_generate,
+    .generates = true,
     .prework = WR_PREWORK_TABLES,
     .help = "sums of value, gradient or simplex noise",
     .details =
@@ -561,6 +606,7 @@ const WrCommand wr_command_formula = {
     .form_word = "KIND",
     .form = form_formula,
     .run = run_generate,
+    .generates = true,
     .prework = WR_PREWORK_TABLES,
     .help = "a polynomial or a Fourier series, texel by texel",
     .details = "It is the function of `analytic`, as heights that can be painted on.",
@@ -572,6 +618,7 @@ const WrCommand wr_command_text = {
     .kind = WR_CLASS_EDIT,
     .row = row_text,
     .run = run_generate,
+    .generates = true,
     .prework = WR_PREWORK_TABLES,
     .help = "letters of any font and script, in relief",
     .details = "They are added to the active layer, where they cover it, unless blend= is "
@@ -584,6 +631,7 @@ const WrCommand wr_command_rim = {
     .kind = WR_CLASS_EDIT,
     .row = row_rim,
     .run = run_generate,
+    .generates = true,
     .prework = WR_PREWORK_TABLES,
     .help = "bevel, round, ridge, outline or emboss an edge by the distance from it",
     .details =
@@ -598,6 +646,7 @@ const WrCommand wr_command_solid = {
     .form_word = "KIND",
     .form = form_solid,
     .run = run_generate,
+    .generates = true,
     .prework = WR_PREWORK_TABLES,
     .help = "solids, letters and meshes seen from above by a Z-buffer",
     .details = "They stand in the ground, which hides what is below height 0, and join the active "
@@ -612,6 +661,7 @@ const WrCommand wr_command_terrain = {
     .form_word = "KIND",
     .form = form_terrain,
     .run = run_generate,
+    .generates = true,
     .prework = WR_PREWORK_TABLES,
     .help = "mountains, real elevations, and what weather makes of them",
     .details = "fractal and elevation make ground; hydraulic, thermal and terraces change what "
@@ -625,6 +675,7 @@ const WrCommand wr_command_picture = {
     .form_word = "KIND",
     .form = form_picture,
     .run = run_generate,
+    .generates = true,
     .prework = WR_PREWORK_TABLES,
     .help = "heights from pictures and from normal maps",
     .details = "photo takes the light of a picture, made seamless; normals finds the heights "

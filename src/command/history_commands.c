@@ -61,8 +61,21 @@ static const char *seen_from(const char *home, const char *path)
 
 typedef struct Script {
     WrText text;
-    const char *home; /* folder of the script */
+    const char *home;   /* folder of the script */
+    const char *folder; /* of the present line; NULL: the current one */
 } Script;
+
+static void shorten_names(WrCall *call, void *ctx)
+{
+    const Script *script = ctx;
+    for (int i = 0; i < call->count; i++) {
+        const char *hash = wr_call_hash_argument(call, i);
+        if (!hash || !wr_call_given(call, hash) || !wr_call_names_file(call, i)) continue;
+        char *full = wr_path_join(script->folder ? script->folder : ".", call->args[i].text);
+        wr_call_set_text(call, call->specs[i].name, seen_from(script->home, full));
+        wr_free(full);
+    }
+}
 
 /* Print a line; files that were read have a checksum, and their paths become relative to the script. */
 static void add_line(void *ctx, const char *line, const char *folder)
@@ -74,13 +87,8 @@ static void add_line(void *ctx, const char *line, const char *folder)
         wr_text_addf(text, "%s\n", line);
         return;
     }
-    for (int i = 0; i < call->count; i++) {
-        const char *hash = wr_call_hash_argument(call, i);
-        if (!hash || !wr_call_given(call, hash) || !wr_call_names_file(call, i)) continue;
-        char *full = wr_path_join(folder ? folder : ".", call->args[i].text);
-        wr_call_set_text(call, call->specs[i].name, seen_from(script->home, full));
-        wr_free(full);
-    }
+    script->folder = folder;
+    wr_call_visit(call, shorten_names, script);
     wr_call_print(call, text);
     wr_text_add(text, "\n");
     wr_call_free(call);

@@ -247,6 +247,16 @@ static void take_settings(const WrCall *call, WrLayer *layer)
     if (wr_call_given(call, "radius")) layer->radius = (float)wr_call_number(call, "radius");
 }
 
+/* Apply the settings of a call. A generator layer is generated again if its content depends on the new blend mode. */
+static bool settle(WrSession *session, const WrCall *call, int index, WrError *err)
+{
+    WrLayer *layer = &session->state.document->layers[index];
+    const bool weighed = wr_blends[layer->blend].uses_cover;
+    take_settings(call, layer);
+    return !layer->line || wr_blends[layer->blend].uses_cover == weighed ||
+           wr_session_generate_again(session, index, err);
+}
+
 static bool layer_add(WrSession *session, WrCall *call, WrError *err)
 {
     WrDocument *document = session->state.document;
@@ -257,10 +267,12 @@ static bool layer_add(WrSession *session, WrCall *call, WrError *err)
     free_name(document, &made);
     WrLayer layer = wr_layer_make(name ? name : wr_text_get(&made), document->layers[0].heights);
     wr_text_fini(&made);
-    take_settings(call, &layer);
-    wr_document_insert(document, below + 1, layer);
-    document->active = below + 1;
-    return true;
+    bool good = true;
+    if (wr_call_given(call, "from"))
+        good = wr_session_add_generator_layer(session, call, below + 1, layer, err);
+    else wr_document_insert(document, below + 1, layer);
+    if (good) document->active = below + 1;
+    return good && settle(session, call, below + 1, err);
 }
 
 static bool layer_delete(WrSession *session, WrCall *call, WrError *err)
@@ -388,12 +400,30 @@ static bool layer_set(WrSession *session, WrCall *call, WrError *err)
     bool any = false;
     for (int i = 0; i < call->count; i++) any |= call->args[i].given && !call->specs[i].positional;
     if (!any)
-        return wr_fail(err, "nothing to set: give blend=, opacity=, radius=, visible= or lock=");
+        return wr_fail(err, "nothing to set: give blend=, opacity=, radius=, visible= or lock=, or "
+                            "of a generator layer change= or from=");
     if (!find(session, call, "N", &index, err)) return false;
+    const bool generates = wr_call_given(call, "change") || wr_call_given(call, "from");
+    if (generates && (!wr_session_check_unlocked(session, index, err) ||
+                      !wr_session_change_generator_layer(
+                          session, call, index, wr_call_arg(call, "change")->text, err)))
+        return false;
+    if (!settle(session, call, index, err)) return false;
     WrLayer *layer = &session->state.document->layers[index];
-    take_settings(call, layer);
     if (wr_call_given(call, "visible")) layer->visible = wr_call_choice(call, "visible") == 1;
     if (wr_call_given(call, "lock")) layer->locked = wr_call_choice(call, "lock") == 1;
+    return true;
+}
+
+static bool layer_rasterize(WrSession *session, WrCall *call, WrError *err)
+{
+    int index;
+    if (!find_unlocked(session, call, &index, err)) return false;
+    WrLayer *layer = &session->state.document->layers[index];
+    if (!layer->line)
+        return wr_fail(err, "layer %d is no generator layer: there is nothing to rasterize",
+                       index + 1);
+    wr_layer_set_line(layer, NULL, (WrHash){ 0, 0 });
     return true;
 }
 
@@ -454,6 +484,7 @@ enum {
     LAYER_MOVE,
     LAYER_RENAME,
     LAYER_SET,
+    LAYER_RASTERIZE,
     LAYER_DUPLICATE,
     LAYER_MERGE,
     LAYER_FLATTEN,
@@ -472,6 +503,7 @@ static LayerHandler *const handlers[] = {
     [WR_ROW(LAYER_MOVE)] = layer_move,
     [WR_ROW(LAYER_RENAME)] = layer_rename,
     [WR_ROW(LAYER_SET)] = layer_set,
+    [WR_ROW(LAYER_RASTERIZE)] = layer_rasterize,
     [WR_ROW(LAYER_DUPLICATE)] = layer_duplicate,
     [WR_ROW(LAYER_MERGE)] = layer_merge,
     [WR_ROW(LAYER_FLATTEN)] = layer_flatten,
@@ -499,6 +531,12 @@ static const char *const layer_parts[] = { "heights", "mask", NULL };
         PLACE("N"), .type = WR_ARG_LAYER, .help = "the layer"                                      \
     }
 
+#define LAYER_FROM(help_)                                                                          \
+    {                                                                                              \
+        .name = "from", .type = WR_ARG_TEXT, .shape = "\"COMMAND ...\"",                           \
+        .check = wr_check_layer_line, .help = help_                                                \
+    }
+
 #define LAYER_SETTINGS                                                                             \
     { .name = "blend",                                                                             \
       .type = WR_ARG_CHOICE,                                                                       \
@@ -518,11 +556,14 @@ WR_ROWS(layer_forms);
 static const WrForm layer_forms[] = {
     [WR_ROW(
         LAYER_ADD)] = { .name = "add",
-                        .help = "a new layer, empty and active",
+                        .help = "a new layer, active; empty, or made by a generator",
                         .args = { { .name = "NAME",
                                     .type = WR_ARG_NAME,
                                     .positional = true,
                                     .help = "left out, \"layer 2\" and so on" },
+                                  LAYER_FROM("makes it a generator layer: the command line that "
+                                             "its heights come from, such as \"text Hello "
+                                             "size=60\""),
                                   LAYER_SETTINGS,
                                   { .name = "above",
                                     .type = WR_ARG_LAYER,
@@ -556,6 +597,12 @@ static const WrForm layer_forms[] = {
                             .help = "only given arguments change",
                             .args = { LAYER_N,
                                       LAYER_SETTINGS,
+                                      { .name = "change",
+                                        .type = WR_ARG_TEXT,
+                                        .shape = "\"NAME=VALUE ...\"",
+                                        .help = "of a generator layer: values of its command line "
+                                                "that change" },
+                                      LAYER_FROM("of a generator layer: its new command line"),
                                       { .name = "visible",
                                         .type = WR_ARG_CHOICE,
                                         .words = wr_off_on,
@@ -564,6 +611,10 @@ static const WrForm layer_forms[] = {
                                         .type = WR_ARG_CHOICE,
                                         .words = wr_off_on,
                                         .help = "whether edits are refused" } } },
+    [WR_ROW(LAYER_RASTERIZE)] = { .name = "rasterize",
+                                  .help = "make a generator layer a plain one, which can be "
+                                          "painted on",
+                                  .args = { LAYER_N } },
     [WR_ROW(LAYER_DUPLICATE)] = { .name = "duplicate",
                                   .help = "a copy above it, active",
                                   .args = { LAYER_N } },
@@ -610,6 +661,9 @@ const WrCommand wr_command_layer = {
     .details =
         "Layers are named by their numbers, from 1 at the bottom, or by their names where only "
         "one "
-        "has it. Edits go to the active layer; where it is locked or not shown they are refused.",
+        "has it. Edits go to the active layer; where it is locked or not shown they are refused. A "
+        "generator layer keeps the command line of from=, a generator's, and is made again when "
+        "change= gives that line other values, or when the layers below change that it reads; "
+        "blend= and radius= of the line are the layer's.",
     .example = "layer add moss blend=max"
 };

@@ -638,6 +638,28 @@ static bool read_words(WrCall *call, const char *p, bool skip_form, WrError *err
     return good;
 }
 
+/* The arguments that the words name are forgotten first, all of them, so that a second value for one is an error as in
+   every line. */
+static bool forget_named(WrCall *call, const char *p, WrError *err)
+{
+    WrText value = { 0 };
+    bool good = true, placed = false;
+    for (int i = 0; i < call->count; i++)
+        if (call->specs[i].type == WR_ARG_SHA256) wr_arg_fini(&call->args[i]);
+    for (p = skip_blanks(p); good && *p && *p != '#'; p = skip_blanks(p)) {
+        char *name = take_name(&p);
+        WrArg *arg = name ? find_named(call, name) : NULL;
+        if (arg) wr_arg_fini(arg);
+        for (int i = 0; !name && !placed && i < call->count; i++)
+            if (call->specs[i].positional) wr_arg_fini(&call->args[i]);
+        placed |= !name;
+        good = take_value(&p, &value, err);
+        wr_free(name);
+    }
+    wr_text_fini(&value);
+    return good;
+}
+
 /* The first positional value from p on, or "". */
 static bool first_value(const char *p, WrText *value, WrError *err)
 {
@@ -706,6 +728,69 @@ bool wr_call_parse(const char *line, bool open, WrCall **out, WrError *err)
         if (!call->args[i].given) set_fallback(&call->specs[i], &call->args[i]);
     *out = call;
     return true;
+}
+
+bool wr_call_change(WrCall *call, const char *words, WrError *err)
+{
+    if (!check_bytes(words, err) || !forget_named(call, words, err) ||
+        !read_words(call, words, false, err) || !check_missing(call, false, err))
+        return false;
+    for (int i = 0; i < call->count; i++)
+        if (!call->args[i].given) {
+            wr_arg_fini(&call->args[i]);
+            set_fallback(&call->specs[i], &call->args[i]);
+        }
+    return true;
+}
+
+/* ---- a command line within a command line ---- */
+
+bool wr_check_layer_line(const void *ctx, const char *name, const char *value, WrError *err)
+{
+    (void)ctx;
+    WrCall *call = NULL;
+    if (!wr_call_parse(value, false, &call, err)) {
+        wr_error_prefix(err, "%s=: ", name);
+        return false;
+    }
+    const WrCommand *command = call->command;
+    wr_call_free(call);
+    if (command && command->generates) return true;
+    WrText all = { 0 };
+    for (int i = 0; i < wr_command_count; i++)
+        if (wr_commands[i]->generates)
+            wr_text_addf(&all, "%s%s", all.length ? ", " : "", wr_commands[i]->name);
+    wr_fail(err, "%s=: \"%s\" generates no layer: must be a line of %s", name,
+            command ? command->name : "", wr_text_get(&all));
+    wr_text_fini(&all);
+    return false;
+}
+
+static int inner_argument(const WrCall *call)
+{
+    for (int i = 0; i < call->count; i++)
+        if (call->specs[i].check == wr_check_layer_line && call->args[i].given) return i;
+    return -1;
+}
+
+WrCall *wr_call_inner(const WrCall *call)
+{
+    const int i = inner_argument(call);
+    WrCall *inner = NULL;
+    return i >= 0 && wr_call_parse(call->args[i].text, false, &inner, NULL) ? inner : NULL;
+}
+
+void wr_call_visit(WrCall *call, WrCallVisit *visit, void *ctx)
+{
+    WrText text = { 0 };
+    WrCall *inner = wr_call_inner(call);
+    visit(call, ctx);
+    if (!inner) return;
+    visit(inner, ctx);
+    wr_call_print(inner, &text);
+    wr_call_set_text(call, call->specs[inner_argument(call)].name, wr_text_get(&text));
+    wr_call_free(inner);
+    wr_text_fini(&text);
 }
 
 void wr_call_free(WrCall *call)

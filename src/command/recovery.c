@@ -187,12 +187,10 @@ static bool last_is_safe(Replay *r, const char *line)
     }
 }
 
-/* The line with the journal's copies in place of changed or missing files. The caller frees it. */
-static char *with_copies(const char *journal, const char *line)
+static void take_copies(WrCall *call, void *ctx)
 {
-    WrCall *call = NULL;
-    WrText text = { 0 }, copy = { 0 };
-    if (!wr_call_parse(line, false, &call, NULL)) return wr_strdup(line);
+    const char *journal = ctx;
+    WrText copy = { 0 };
     for (int i = 0; i < call->count; i++) {
         char hex[65];
         const char *name = call->args[i].text, *hash = wr_call_hash_argument(call, i);
@@ -203,9 +201,18 @@ static char *with_copies(const char *journal, const char *line)
         if (wr_journal_find_input_copy(journal, sha256, name, &copy, NULL))
             wr_call_set_text(call, call->specs[i].name, wr_text_get(&copy));
     }
+    wr_text_fini(&copy);
+}
+
+/* The line with the journal's copies in place of changed or missing files. The caller frees it. */
+static char *with_copies(const char *journal, const char *line)
+{
+    WrCall *call = NULL;
+    WrText text = { 0 };
+    if (!wr_call_parse(line, false, &call, NULL)) return wr_strdup(line);
+    wr_call_visit(call, take_copies, (void *)journal);
     wr_call_print(call, &text);
     wr_call_free(call);
-    wr_text_fini(&copy);
     char *out = wr_strdup(wr_text_get(&text));
     wr_text_fini(&text);
     return out;

@@ -123,15 +123,24 @@ static bool check_shown(const WrSession *session, int index, WrError *err)
     return false;
 }
 
-/* Fails if that layer is a filter, which has no heights, unless edits go to its mask. */
+/* Fails if that layer is a filter, which has no heights, or a generator layer, whose heights are its line's, unless edits
+   go to its mask. */
 static bool session_check_heights(const WrSession *session, int index, WrError *err)
 {
     const WrLayer *layer = &session->state.document->layers[index];
-    if (!layer->filter.op || layer->on_mask) return true;
+    if ((!layer->filter.op && !layer->line) || layer->on_mask) return true;
     WrText name = { 0 };
-    wr_fail(err,
-            "%s is a filter, without heights of its own: `layer use` chooses another, or its mask",
-            wr_session_layer_name(session, index, &name));
+    wr_session_layer_name(session, index, &name);
+    if (layer->filter.op)
+        wr_fail(err,
+                "%s is a filter, without heights of its own: `layer use` chooses another, or its "
+                "mask",
+                wr_text_get(&name));
+    else
+        wr_fail(err,
+                "%s is a generator layer: `layer set %d change=` changes its values, `layer "
+                "rasterize %d` makes heights of it that can be painted on",
+                wr_text_get(&name), index + 1, index + 1);
     wr_text_fini(&name);
     return false;
 }

@@ -383,6 +383,7 @@ bool wr_session_load(WrSession *session, const char *path, WrError *err)
     if (good && replaced)
         wr_session_note(session, "%s: %lld texels were not finite and became 0", path,
                         (long long)replaced);
+    if (good) wr_session_note_lines(session);
     if (good && newer) note_newer(session, path, loaded.newer_version);
     return good;
 }
@@ -561,15 +562,22 @@ static bool file_of(WrSession *session, const WrCall *call, int index, const cha
 
 /* Replace file names in a line by absolute paths and checksums, and keep copies of the files. A replay then depends
    neither on the folder nor on later changes of the files. */
-static void name_files(WrSession *session, WrCall *call, const char *folder)
+typedef struct Naming {
+    WrSession *session;
+    const char *folder;
+} Naming;
+
+static void name_files(WrCall *call, void *ctx)
 {
+    const Naming *naming = ctx;
+    WrSession *session = naming->session;
     for (int i = 0; i < call->count; i++) {
         const char *hash_name = wr_call_hash_argument(call, i);
         WrText path = { 0 };
         char hex[65];
         const bool word = call->specs[i].type == WR_ARG_PATH && !wr_call_names_file(call, i);
         if (hash_name && call->args[i].given && !word &&
-            file_of(session, call, i, folder, &path, hex)) {
+            file_of(session, call, i, naming->folder, &path, hex)) {
             if (!wr_call_given(call, hash_name)) wr_call_set_text(call, hash_name, hex);
             wr_call_set_text(call, call->specs[i].name, wr_text_get(&path));
             keep(session, wr_text_get(&path), wr_call_arg(call, hash_name)->text);
@@ -586,7 +594,8 @@ static void journal_line(WrSession *session, const char *line, const char *folde
         wr_text_add(text, line);
         return;
     }
-    name_files(session, call, folder);
+    Naming naming = { session, folder };
+    wr_call_visit(call, name_files, &naming);
     wr_call_print(call, text);
     wr_call_free(call);
 }

@@ -169,6 +169,26 @@ bool wr_height_colormap_lags(const WrSession *session, const WrScene *object);
 bool wr_height_colormap_make(const WrSession *session, WrScene *object, WrError *err);
 /* Update terrains whose layers have changed, and colours by height. Called at the end of a command or a stroke. */
 bool wr_session_follow(WrSession *session, WrError *err);
+/* ---- generator layers: generator_layers.c ---- */
+
+/* Insert `layer` (new, empty; ownership passes) and generate it by the from= of `outer`; the selection becomes its mask.
+   blend= and radius= of that line become the layer's. */
+bool wr_session_add_generator_layer(WrSession *session, WrCall *outer, int index, WrLayer layer,
+                                    WrError *err);
+/* Generate a generator layer by the from= of `outer` if given, or else by its own line, with the words of `change` (may be
+   NULL) in place of the line's. */
+bool wr_session_change_generator_layer(WrSession *session, WrCall *outer, int index,
+                                       const char *change, WrError *err);
+/* Generate a layer by its own line, after a change that its content depends on. */
+bool wr_session_generate_again(WrSession *session, int index, WrError *err);
+/* At the end of every command: generate the layers whose lines read layers that have changed; layers whose heights another
+   command wrote become plain. */
+bool wr_session_follow_lines(WrSession *session, WrError *err);
+/* Note the layers whose lines this program does not know. */
+void wr_session_note_lines(WrSession *session);
+
+/* ---- the active layer ---- */
+
 /* The layer that edits change, or the stand-in for its mask. NULL and an error if it is locked or hidden. */
 WrLayer *wr_session_layer(WrSession *session, WrError *err);
 /* Name of a layer in messages: "layer 2 \"moss\"". */

@@ -54,6 +54,7 @@ WrLayer wr_layer_share(const WrLayer *layer)
 {
     WrLayer copy = *layer;
     copy.name = wr_strdup(layer->name);
+    copy.line = wr_strdup(layer->line);
     copy.heights = wr_field_share(layer->heights);
     copy.cover = share_or_null(layer->cover);
     copy.mask = share_or_null(layer->mask);
@@ -63,10 +64,20 @@ WrLayer wr_layer_share(const WrLayer *layer)
 void wr_layer_fini(WrLayer *layer)
 {
     wr_free(layer->name);
+    wr_free(layer->line);
     wr_field_free(layer->heights);
     wr_field_free(layer->cover);
     wr_field_free(layer->mask);
     *layer = (WrLayer){ 0 };
+}
+
+void wr_layer_set_line(WrLayer *layer, const char *line, WrHash below)
+{
+    char *copy = wr_strdup(line);
+    wr_free(layer->line);
+    layer->line = copy;
+    layer->below = below;
+    layer->made = line ? wr_field_key(layer->heights) : 0;
 }
 
 WrLayer *wr_document_edit_begin(WrDocument *document, WrStandIn *stand_in)
@@ -121,6 +132,13 @@ bool wr_document_filters(const WrDocument *document)
 {
     bool any = false;
     for (int i = 0; i < document->layer_count; i++) any |= document->layers[i].filter.op != NULL;
+    return any;
+}
+
+bool wr_document_generates(const WrDocument *document)
+{
+    bool any = false;
+    for (int i = 0; i < document->layer_count; i++) any |= document->layers[i].line != NULL;
     return any;
 }
 
@@ -323,6 +341,7 @@ static WrHash hash_layer(const WrLayer *layer, WrHash hash)
     hash = wr_hash_bytes(numbers, sizeof numbers, hash);
     if (layer->on_mask) hash = wr_hash_bytes("mask", 4, hash);
     if (layer->filter.op) hash = hash_filter(&layer->filter, hash);
+    if (layer->line) hash = wr_hash_bytes(layer->line, strlen(layer->line) + 1, hash);
     hash = hash_field(layer->heights, hash);
     hash = hash_field(layer->cover, hash);
     return hash_field(layer->mask, hash);

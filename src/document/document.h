@@ -7,6 +7,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 typedef struct WrError WrError;
 typedef struct WrField WrField;
@@ -17,9 +18,14 @@ typedef struct WrScene WrScene;
 #define WR_LAYER_NAME_MAX 255 /* maximum bytes of a layer's name */
 
 /* One layer. A filter's own heights are empty: it contributes the result of its operation on the composite of
-   the layers below, which is updated incrementally. All fields of a document have one size and one wrap. */
+   the layers below, which is updated incrementally. A generator layer keeps the command line that its heights and
+   coverage come from; they are generated again when the line changes, or the layers below if the line reads them. All
+   fields of a document have one size and one wrap. */
 typedef struct WrLayer {
     char *name;       /* UTF-8, owned; not necessarily unique */
+    char *line;       /* command line of a generator layer; NULL: a plain layer. Owned */
+    WrHash below;     /* of the composite that the line read; 0: it reads none */
+    uint64_t made;    /* wr_field_key of the heights as the line made them */
     WrField *heights; /* owned; shared tiles */
     WrField *cover;   /* 0..1, coverage: where the layer has content; NULL: 1 everywhere. Owned */
     WrField *mask;    /* 0..1, visible share; NULL: 1 everywhere. Owned */
@@ -94,6 +100,9 @@ WrLayer wr_layer_make_filter(const char *name, const WrFilter *filter,
                              const WrField *like); /* mix, opacity 1 */
 WrLayer wr_layer_share(const WrLayer *layer);      /* a copy with shared fields */
 void wr_layer_fini(WrLayer *layer);
+/* Makes a generator layer of it: its present heights are those of the line (copied). NULL: a plain layer. below: as in
+   WrLayer */
+void wr_layer_set_line(WrLayer *layer, const char *line, WrHash below);
 /* Target of edits: the active layer itself; or, if they go to its mask, `stand_in`, a plain layer with the
    mask's values as heights, which shares its texels with the mask as long as they are written in place. Every
    edit_begin (a second one has no effect) needs its edit_end before anything else of the document is changed. */
@@ -106,6 +115,7 @@ WrLayer *wr_document_edit_begin(WrDocument *document, WrStandIn *stand_in);
 /* Stores the edited mask, clamped to 0..1. No effect without edit_begin. */
 void wr_document_edit_end(WrDocument *document, WrStandIn *stand_in);
 bool wr_document_filters(const WrDocument *document); /* true if any layer is a filter */
+bool wr_document_generates(const WrDocument *document); /* true if any is a generator layer */
 /* True if the layer is shown: visible, and no other layer is solo. */
 bool wr_document_shows(const WrDocument *document, int index);
 

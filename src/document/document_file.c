@@ -88,7 +88,7 @@ void wr_image_rows_out(const WrImage *image, int channels, int y, int rows, floa
    attributes of the document; then for each layer from the bottom "layer:NAME", "cover:N", "mask:N"; "selection"; pictures of
    objects, 3 channels; the mesh, packed as a picture of one channel. Absent tables have no part: cover and mask NULL mean 1. */
 #define FILE_ATTRIBUTES 8
-#define LAYER_ATTRIBUTES 8
+#define LAYER_ATTRIBUTES 10
 #define PARTS_MAX                                                                                  \
     (3 + WR_OBJECT_PICTURES * WR_OBJECTS_MAX +                                                     \
      3 * WR_LAYERS_MAX) /* F, selection, mesh, pictures; heights, cover, mask of a layer */
@@ -217,7 +217,8 @@ static int version_of(const Saving *to)
 {
     const WrScene *scene = to->document->scene;
     const WrSceneAge age = wr_scene_age(scene);
-    if (age == WR_SCENE_OF_PROJECTION) return WR_DOCUMENT_VERSION;
+    if (wr_document_generates(to->document)) return WR_DOCUMENT_VERSION;
+    if (age == WR_SCENE_OF_PROJECTION) return WR_DOCUMENT_VERSION_PROJECTION;
     if (wr_document_filters(to->document)) return WR_DOCUMENT_VERSION_FILTERS;
     if (age == WR_SCENE_OF_FACETS) return WR_DOCUMENT_VERSION_FACETS;
     if (age == WR_SCENE_OF_CELL) return WR_DOCUMENT_VERSION_CELL;
@@ -268,6 +269,15 @@ static const char *keep_filter(Saving *to, const WrFilter *filter)
     return keep(to, text);
 }
 
+static const char *keep_hash(Saving *to, WrHash hash)
+{
+    char hex[WR_HASH_DIGITS + 1];
+    WrText text = { 0 };
+    wr_hash_print(hash, hex);
+    wr_text_add(&text, hex);
+    return keep(to, text);
+}
+
 /* Fills the layer's attributes; returns their number. */
 static int describe_layer(Saving *to, int index, WrImageAttribute out[LAYER_ATTRIBUTES])
 {
@@ -281,11 +291,15 @@ static int describe_layer(Saving *to, int index, WrImageAttribute out[LAYER_ATTR
         { "wrinkle:locked", layer->locked ? "on" : "off" },
         { "wrinkle:on-mask", layer->on_mask ? "on" : "off" },
     };
+    int count = 7;
     memcpy(out, attributes, sizeof attributes);
-    if (!layer->filter.op) return LAYER_ATTRIBUTES - 1;
-    out[LAYER_ATTRIBUTES - 1] =
-        (WrImageAttribute){ "wrinkle:filter", keep_filter(to, &layer->filter) };
-    return LAYER_ATTRIBUTES;
+    if (layer->filter.op)
+        out[count++] = (WrImageAttribute){ "wrinkle:filter", keep_filter(to, &layer->filter) };
+    if (layer->line) {
+        out[count++] = (WrImageAttribute){ "wrinkle:line", layer->line };
+        out[count++] = (WrImageAttribute){ "wrinkle:below", keep_hash(to, layer->below) };
+    }
+    return count;
 }
 
 static void add_layer(Saving *to, int index)
@@ -764,6 +778,17 @@ static char *clean_name(const char *name)
     return clean;
 }
 
+/* Reads the line of a generator layer, whose heights are read. */
+static bool read_line(Loading *in, int part, WrLayer *layer, WrError *err)
+{
+    const char *line = wr_image_file_attribute(in->file, part, "wrinkle:line");
+    const char *hex = wr_image_file_attribute(in->file, part, "wrinkle:below");
+    WrHash below = { 0, 0 };
+    if (hex && !wr_hash_parse(hex, &below)) return fail_setting(in, "wrinkle:below", hex, err);
+    wr_layer_set_line(layer, line, below);
+    return true;
+}
+
 static bool read_layer(Loading *in, int index, WrLayer *out, WrError *err)
 {
     Slot slot = in->slots[index];
@@ -779,6 +804,7 @@ static bool read_layer(Loading *in, int index, WrLayer *out, WrError *err)
                 read_switch(in, slot.heights, "wrinkle:locked", &layer.locked, err) &&
                 read_switch(in, slot.heights, "wrinkle:on-mask", &layer.on_mask, err) &&
                 (layer.heights = read_field(in, slot.heights, true, err)) &&
+                read_line(in, slot.heights, &layer, err) &&
                 (!slot.cover || (layer.cover = read_field(in, slot.cover, false, err))) &&
                 (!slot.mask || (layer.mask = read_field(in, slot.mask, false, err)));
     layer.on_mask = layer.on_mask && layer.mask;

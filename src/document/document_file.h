@@ -12,7 +12,8 @@
    wrinkle:range, wrinkle:active (number of the active layer), wrinkle:solo (number of the layer shown alone, 0:
    none). Of a layer: wrinkle:layer, wrinkle:blend, wrinkle:opacity, wrinkle:radius, wrinkle:visible and
    wrinkle:locked ("on", "off"); of a filter layer, whose heights are 0, wrinkle:filter, its operation and values
-   ("blur sigma=3").
+   ("blur sigma=3"); of a generator layer wrinkle:line, its command line, and wrinkle:below, the hash of the
+   composite that the line read.
 
    A document of one layer that equals F bit for bit, without coverage, mask, selection, pictures or mesh, is a
    file of only that part, with the layer's attributes beside the file's: many programs open no file of several
@@ -41,7 +42,8 @@ typedef struct WrField WrField;
 typedef struct WrImage WrImage;
 typedef struct WrImageRows WrImageRows;
 
-#define WR_DOCUMENT_VERSION 10
+#define WR_DOCUMENT_VERSION 11
+#define WR_DOCUMENT_VERSION_PROJECTION 10 /* for a file without generator layers */
 #define WR_DOCUMENT_VERSION_FILTERS 9 /* for a file without projected meshes */
 #define WR_DOCUMENT_VERSION_FACETS 8  /* for a file without filter layers */
 #define WR_DOCUMENT_VERSION_CELL 7    /* for a file without later features (document_file.h) */

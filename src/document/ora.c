@@ -467,12 +467,24 @@ static bool read_settings(Loading *in, const WrOraLayer *from, WrLayer *layer, W
     return read_filter(in, from, layer, err);
 }
 
+/* Reads the line of a generator layer, whose heights are read. */
+static bool read_line(Loading *in, const WrOraLayer *from, WrLayer *layer, WrError *err)
+{
+    WrHash below = { 0, 0 };
+    if (from->below && !wr_hash_parse(from->below, &below))
+        return wr_fail(err, "%s: damaged: wrinkle:below '%.40s' of layer '%.80s'", in->path,
+                       from->below, layer->name);
+    wr_layer_set_line(layer, from->line, below);
+    return true;
+}
+
 static bool read_layer(Loading *in, const WrOraLayer *from, int number, WrLayer *out, WrError *err)
 {
     WrLayer layer = { .name = find_name(from, number) };
     bool good = read_settings(in, from, &layer, err);
     if (good && from->heights) {
         good = (layer.heights = read_field(in, from->heights, true, err)) &&
+               read_line(in, from, &layer, err) &&
                (!from->cover || (layer.cover = read_field(in, from->cover, false, err)));
     } else if (good) {
         good = read_preview(in, from, &layer, err);
@@ -972,6 +984,12 @@ static bool add_layer(Saving *to, int index, WrError *err)
     wr_ora_add_attribute(xml, "wrinkle:blend", wr_blends[layer->blend].name);
     wr_ora_add_float(xml, "wrinkle:radius", layer->radius);
     wr_ora_add_filter(xml, &layer->filter);
+    if (layer->line) {
+        char hex[WR_HASH_DIGITS + 1];
+        wr_hash_print(layer->below, hex);
+        wr_ora_add_attribute(xml, "wrinkle:line", layer->line);
+        wr_ora_add_attribute(xml, "wrinkle:below", hex);
+    }
     bool good =
         add_layer_preview(to, png, index, err) &&
         add_field(to, "wrinkle:heights", numbered("data/layer", number, ".exr"), layer->heights,

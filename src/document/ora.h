@@ -30,7 +30,8 @@
 typedef struct WrText WrText;
 
 #define WR_ORA_NAMESPACE "urn:wrinkle:openraster"
-#define WR_ORA_VERSION 7
+#define WR_ORA_VERSION 8
+#define WR_ORA_VERSION_PROJECTION 7 /* for a file without generator layers */
 #define WR_ORA_VERSION_COMPOSITE 6 /* for a file without projected meshes */
 #define WR_ORA_VERSION_FILTERS 5   /* for a file without a composite */
 #define WR_ORA_VERSION_FACETS 4    /* for a file without filter layers */

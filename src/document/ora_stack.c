@@ -389,6 +389,8 @@ static void add_layer(Reading *reading, const char **attributes)
                          .blend = wr_strdup(find(attributes, OURS "blend")),
                          .radius = wr_strdup(find(attributes, OURS "radius")),
                          .filter = wr_strdup(find(attributes, OURS "filter")),
+                         .line = wr_strdup(find(attributes, OURS "line")),
+                         .below = wr_strdup(find(attributes, OURS "below")),
                          .name_bytes = wr_strdup(find(attributes, OURS "name")),
                          .own_opacity = wr_strdup(find(attributes, OURS "opacity")),
                          .own_visible = wr_strdup(find(attributes, OURS "visible")) };
@@ -401,7 +403,8 @@ int wr_ora_version(const WrDocument *document, bool composite)
     const bool new =
         wr_object_any_picture(scene, WR_OBJECT_NORMALS) || wr_scene_several_meshes(scene);
     const WrSceneAge age = wr_scene_age(scene);
-    if (age == WR_SCENE_OF_PROJECTION) return WR_ORA_VERSION;
+    if (wr_document_generates(document)) return WR_ORA_VERSION;
+    if (age == WR_SCENE_OF_PROJECTION) return WR_ORA_VERSION_PROJECTION;
     if (composite) return WR_ORA_VERSION_COMPOSITE;
     if (wr_document_filters(document)) return WR_ORA_VERSION_FILTERS;
     if (age == WR_SCENE_OF_FACETS) return WR_ORA_VERSION_FACETS;
@@ -512,7 +515,8 @@ void wr_ora_stack_fini(WrOraStack *stack)
         char *texts[] = {
             layer->name,       layer->src,         layer->operation,   layer->heights,
             layer->cover,      layer->mask,        layer->blend,       layer->radius,
-            layer->name_bytes, layer->own_opacity, layer->own_visible, layer->filter
+            layer->name_bytes, layer->own_opacity, layer->own_visible, layer->filter,
+            layer->line,       layer->below
         };
         for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) wr_free(texts[k]);
     }

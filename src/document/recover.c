@@ -241,7 +241,7 @@ static bool end_command(Collector *c, const char *text, WrError *err)
     bool hashed = strncmp(text, "ok ", 3) == 0;
     bool dropped = strcmp(text, "dropped") == 0;
     if (!dropped && !hashed && strcmp(text, "ok") != 0) return wr_fail(err, "an unknown outcome");
-    if (hashed && !wr_journal_parse_hash(text + 3, &hash))
+    if (hashed && !wr_hash_parse(text + 3, &hash))
         return wr_fail(err, "an outcome without its hash");
     if (!c->pending) return true; /* a stroke without samples */
     if (dropped) {
@@ -270,7 +270,7 @@ static bool take_save(Collector *c, const char *text, WrError *err)
     char digits[33] = "";
     WrHash hash;
     strncpy(digits, text, 32);
-    if (!wr_journal_parse_hash(digits, &hash) || text[32] != ' ' || text[33] != '/')
+    if (!wr_hash_parse(digits, &hash) || text[32] != ' ' || text[33] != '/')
         return wr_fail(err, "a save without its hash or file");
     settle(c, true);
     c->lost = 0; /* the saved file contains all of it */

@@ -252,28 +252,6 @@ static size_t unescape(char *text, size_t length)
 
 /* ---- checksums ---- */
 
-static bool parse_hex(const char *text, int digits, uint64_t *value)
-{
-    uint64_t v = 0;
-    for (int i = 0; i < digits; i++) {
-        char c = text[i];
-        if (c >= '0' && c <= '9') v = v << 4 | (uint64_t)(c - '0');
-        else if (c >= 'a' && c <= 'f') v = v << 4 | (uint64_t)(c - 'a' + 10);
-        else return false;
-    }
-    *value = v;
-    return true;
-}
-
-bool wr_journal_parse_hash(const char *text, WrHash *hash)
-{
-    WrHash h;
-    if (memchr(text, '\0', HASH_DIGITS + 1) != text + HASH_DIGITS) return false;
-    if (!parse_hex(text, 16, &h.high) || !parse_hex(text + 16, 16, &h.low)) return false;
-    *hash = h;
-    return true;
-}
-
 /* 64 lower-case hex digits. */
 static bool journal_is_sha256(const char *text)
 {
@@ -320,7 +298,7 @@ static bool check_body(const char *text, size_t length, WrJournalSeal *seal)
     char digits[HASH_DIGITS + 1] = "";
     if (length < HASH_DIGITS + 1 || text[HASH_DIGITS] != ' ') return false;
     memcpy(digits, text, HASH_DIGITS);
-    if (!wr_journal_parse_hash(digits, &written)) return false;
+    if (!wr_hash_parse(digits, &written)) return false;
     seal->chain = written;
     return (seal->format != 1 && body_has(text, length, seed, &written)) ||
            (seal->format != 2 && body_has(text, length, before, &written));
@@ -382,7 +360,7 @@ static bool header_from_words(char *const words[HEADER_WORDS], WrJournalHeader *
     if (kind == WR_JOURNAL_KINDS) return false;
     h.start.kind = (WrJournalKind)kind;
     if (!parse_time(words[1], &h.time)) return false;
-    if (!wr_journal_parse_hash(words[3], &h.start.hash)) return false;
+    if (!wr_hash_parse(words[3], &h.start.hash)) return false;
     if (*words[4]) h.start.sha256 = words[4];
     if (*words[5]) h.start.snapshot = words[5];
     if (*words[6]) h.start.path = words[6];

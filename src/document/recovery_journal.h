@@ -212,9 +212,6 @@ void wr_journal_print_line(WrText *line, uint64_t sequence, char kind, const cha
 bool wr_journal_parse_line(char *line, size_t length, WrJournalSeal *seal, uint64_t *sequence,
                            char *kind, char **payload, size_t *payload_length, WrError *err);
 
-/* 32 hex digits as wr_hash_print writes them. */
-bool wr_journal_parse_hash(const char *text, WrHash *hash);
-
 /* ---- file operations of the journal folder: creation, locks, neighbouring files, removal ---- */
 
 #define WR_JOURNAL_ENDING ".wj"

@@ -87,11 +87,11 @@ static bool make_fourier(const WrParamValue *values, const WrGenerateJob *job, W
 }
 
 const WrGenerator wr_formula_rows[] = {
-    { "formula", "poly", "Polynomial",
+    WR_GENERATOR("formula", "poly", "Polynomial",
       "the sum of a u^i v^j; it meets itself at the table's edges only where the terms make it",
-      "replace", poly_params, make_poly },
-    { "formula", "fourier", "Fourier series",
+      "replace", poly_params, make_poly),
+    WR_GENERATOR("formula", "fourier", "Fourier series",
       "the sum of a cos(2 pi k u + phase_u) cos(2 pi l v + phase_v)", "replace", fourier_params,
-      make_fourier },
+      make_fourier),
     { .family = NULL },
 };

@@ -103,7 +103,15 @@ typedef struct WrGenerator {
     const WrParam *params; /* ends with name NULL */
     /* values: [params], already checked. out: unchanged on failure; caller owns it. */
     bool (*make)(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out, WrError *err);
+    bool reads; /* it depends on the present heights (WrGenerateJob.like) */
 } WrGenerator;
+
+/* A row that does not read the present heights. */
+#define WR_GENERATOR(f, n, l, h, b, p, m)                                                          \
+    {                                                                                              \
+        .family = (f), .name = (n), .label = (l), .help = (h), .blend = (b), .params = (p),        \
+        .make = (m)                                                                                \
+    }
 
 typedef struct WrFamily {
     const char *name;  /* the verb */

@@ -179,9 +179,7 @@ double wr_piece(const WrPieces *p, double d, double px, double py, int i, int j,
 /* ---- the table ---- */
 
 #define ROW(id, label, help, blend)                                                                \
-    {                                                                                              \
-        "pattern", #id, label, help, blend, wr_params_##id, wr_pattern_##id                        \
-    }
+    WR_GENERATOR("pattern", #id, label, help, blend, wr_params_##id, wr_pattern_##id)
 
 const WrGenerator wr_patterns[] = {
     ROW(bricks, "Bricks", "a wall of bricks in one of the bonds", "replace"),

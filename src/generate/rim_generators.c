@@ -234,6 +234,7 @@ const WrGenerator wr_rim_rows[] = {
       .help = "bevels, cords and steps along the edge of the selection",
       .blend = "add",
       .params = params,
+      .reads = true,
       .make = make_rim },
     { .family = NULL },
 };

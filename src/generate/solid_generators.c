@@ -858,11 +858,7 @@ static bool make_torus(const WrParamValue *values, const WrGenerateJob *job, WrR
     return draw_copies(&params, WR_Z_TORUS, tube / r, NULL, size, job, out, err);
 }
 
-#define ROW(n, l, h, p, m)                                                                         \
-    {                                                                                              \
-        .family = "solid", .name = (n), .label = (l), .help = (h), .blend = "max", .params = (p),  \
-        .make = (m)                                                                                \
-    }
+#define ROW(n, l, h, p, m) WR_GENERATOR("solid", n, l, h, "max", p, m)
 
 const WrGenerator wr_solids[] = {
     ROW("sphere", "Sphere", "a sphere let into the ground: rivets, domes", sphere_params,

@@ -600,21 +600,27 @@ bool wr_terrain_fractal(const WrParamValue *values, const WrGenerateJob *job, Wr
 
 /* ---- terrains ---- */
 
+/* reads: it changes the present heights. */
+#define ROW(n, l, h, p, m, r)                                                                      \
+    {                                                                                              \
+        .family = "terrain", .name = (n), .label = (l), .help = (h), .blend = "replace",           \
+        .params = (p), .make = (m), .reads = (r)                                                   \
+    }
+
 const WrGenerator wr_terrains[] = {
-    { "terrain", "fractal", "Fractal",
-      "mountains by sums of noise, finer on heights and off slopes", "replace", wr_params_fractal,
-      wr_terrain_fractal },
-    { "terrain", "elevation", "Elevation",
-      "real heights from a picture of 16 bits or floats, or from bare numbers", "replace",
-      wr_params_elevation, wr_terrain_elevation },
-    { "terrain", "hydraulic", "Rain",
-      "rain runs over the heights, cuts valleys and fills hollows; no ground is lost. It falls at "
-      "fixed places of the table: a rolled table erodes differently",
-      "replace", wr_params_hydraulic, wr_terrain_hydraulic },
-    { "terrain", "thermal", "Scree",
-      "ground slides where it is steeper than the angle of rest; no ground is lost", "replace",
-      wr_params_thermal, wr_terrain_thermal },
-    { "terrain", "terraces", "Terraces", "the heights, cut into steps", "replace",
-      wr_params_terraces, wr_terrain_terraces },
+    ROW("fractal", "Fractal", "mountains by sums of noise, finer on heights and off slopes",
+        wr_params_fractal, wr_terrain_fractal, false),
+    ROW("elevation", "Elevation",
+        "real heights from a picture of 16 bits or floats, or from bare numbers",
+        wr_params_elevation, wr_terrain_elevation, false),
+    ROW("hydraulic", "Rain",
+        "rain runs over the heights, cuts valleys and fills hollows; no ground is lost. It falls "
+        "at fixed places of the table: a rolled table erodes differently",
+        wr_params_hydraulic, wr_terrain_hydraulic, true),
+    ROW("thermal", "Scree",
+        "ground slides where it is steeper than the angle of rest; no ground is lost",
+        wr_params_thermal, wr_terrain_thermal, true),
+    ROW("terraces", "Terraces", "the heights, cut into steps", wr_params_terraces,
+        wr_terrain_terraces, true),
     { .family = NULL },
 };
