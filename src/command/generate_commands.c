@@ -382,10 +382,9 @@ static bool run_generate(WrSession *session, WrCall *call, WrError *err)
                           .mask = document->layers[document->active].mask,
                           .progress = wr_progress_part(&making, wr_progress_here(), 0.0, 0.9) };
     WrRelief relief = { NULL, NULL };
-    const bool good =
-        wr_call_make(session, call, &job, &relief, err) &&
-        wr_call_join(call, &relief, document->selection, layer, job.pool,
-                     wr_progress_part(&joining, wr_progress_here(), 0.9, 1.0), err);
+    const bool good = wr_call_make(session, call, &job, &relief, err) &&
+                      wr_call_join(call, &relief, document->selection, layer, job.pool,
+                                   wr_progress_part(&joining, wr_progress_here(), 0.9, 1.0), err);
     wr_relief_fini(&relief);
     return good;
 }

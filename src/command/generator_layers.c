@@ -43,8 +43,7 @@ static const char *own_name(const WrCall *call, const char *plain)
     return generator ? wr_generator_argument(generator, plain) : plain;
 }
 
-/* Copy blend= and radius= of the line to the layer. all: defaults too, as for a new layer. */
-static void take_blend(WrCall *call, bool all, WrLayer *layer)
+void wr_call_take_blend(const WrCall *call, bool all, WrLayer *layer)
 {
     const char *name = own_name(call, "blend");
     const int blend = blend_of(call, name);
@@ -110,10 +109,9 @@ static bool by_generator(WrSession *session, int index, WrCall *call, const WrFi
                           .mask = layer->mask,
                           .progress = wr_progress_part(&making, wr_progress_here(), 0.0, 0.9) };
     WrRelief relief = { NULL, NULL };
-    const bool good =
-        wr_call_make(session, call, &job, &relief, err) &&
-        wr_call_lay(call, &relief, layer, session->options.pool,
-                    wr_progress_part(&laying, wr_progress_here(), 0.9, 1.0), err);
+    const bool good = wr_call_make(session, call, &job, &relief, err) &&
+                      wr_call_lay(call, &relief, layer, session->options.pool,
+                                  wr_progress_part(&laying, wr_progress_here(), 0.9, 1.0), err);
     wr_relief_fini(&relief);
     return good;
 }
@@ -152,8 +150,8 @@ static bool generate(WrSession *session, int index, WrCall *call, WrCall *outer,
     return true;
 }
 
-bool wr_session_add_generator_layer(WrSession *session, WrCall *outer, int index,
-                                    WrLayer layer, WrError *err)
+bool wr_session_add_generator_layer(WrSession *session, WrCall *outer, int index, WrLayer layer,
+                                    WrError *err)
 {
     WrDocument *document = session->state.document;
     WrCall *call = wr_call_inner(outer);
@@ -165,7 +163,7 @@ bool wr_session_add_generator_layer(WrSession *session, WrCall *outer, int index
         const WrFamily *family = wr_family_find(call->command->name);
         if (document->selection && !(family && family->beyond))
             place->mask = wr_field_share(document->selection);
-        take_blend(call, true, place);
+        wr_call_take_blend(call, true, place);
         good = generate(session, index, call, outer, err);
     }
     wr_call_free(call);
@@ -185,8 +183,8 @@ static WrCall *call_of(const WrSession *session, int index, WrError *err)
                 wr_text_get(&name));
     else if (!wr_check_layer_line(NULL, "from", layer->line, &why) ||
              !wr_call_parse(layer->line, false, &call, &why))
-        wr_fail(err, "%s: its line is not known here (%s): its heights stay",
-                wr_text_get(&name), wr_error_message(&why));
+        wr_fail(err, "%s: its line is not known here (%s): its heights stay", wr_text_get(&name),
+                wr_error_message(&why));
     wr_text_fini(&name);
     return call;
 }
@@ -205,11 +203,11 @@ bool wr_session_change_generator_layer(WrSession *session, WrCall *outer, int in
         wr_call_free(call);
         call = other;
     }
-    bool good = (!change || wr_call_change(call, change, err)) &&
-                wr_session_take_tiles(session, call, err);
+    bool good =
+        (!change || wr_call_change(call, change, err)) && wr_session_take_tiles(session, call, err);
     if (good) {
         name_files(call, session);
-        take_blend(call, false, layer);
+        wr_call_take_blend(call, false, layer);
         good = generate(session, index, call, replaces ? outer : NULL, err);
     }
     wr_call_free(call);
@@ -246,7 +244,8 @@ bool wr_session_follow_lines(WrSession *session, WrError *err)
         if (!layer->line) continue;
         if (wr_field_key(layer->heights) != layer->made) { /* another command wrote its heights */
             WrText name = { 0 };
-            wr_session_note(session, "%s is a plain layer now: its heights are no longer its line's",
+            wr_session_note(session,
+                            "%s is a plain layer now: its heights are no longer its line's",
                             wr_session_layer_name(session, i, &name));
             wr_text_fini(&name);
             wr_layer_set_line(layer, NULL, nothing);
@@ -263,7 +262,8 @@ void wr_session_note_lines(WrSession *session)
     for (int i = 0; i < document->layer_count; i++) {
         WrError why = { "" };
         WrCall *call = document->layers[i].line ? call_of(session, i, &why) : NULL;
-        if (document->layers[i].line && !call) wr_session_note(session, "%s", wr_error_message(&why));
+        if (document->layers[i].line && !call)
+            wr_session_note(session, "%s", wr_error_message(&why));
         wr_call_free(call);
     }
 }

@@ -114,7 +114,7 @@ typedef struct WrStandIn {
 WrLayer *wr_document_edit_begin(WrDocument *document, WrStandIn *stand_in);
 /* Stores the edited mask, clamped to 0..1. No effect without edit_begin. */
 void wr_document_edit_end(WrDocument *document, WrStandIn *stand_in);
-bool wr_document_filters(const WrDocument *document); /* true if any layer is a filter */
+bool wr_document_filters(const WrDocument *document);   /* true if any layer is a filter */
 bool wr_document_generates(const WrDocument *document); /* true if any is a generator layer */
 /* True if the layer is shown: visible, and no other layer is solo. */
 bool wr_document_shows(const WrDocument *document, int index);

@@ -44,9 +44,9 @@ typedef struct WrImageRows WrImageRows;
 
 #define WR_DOCUMENT_VERSION 11
 #define WR_DOCUMENT_VERSION_PROJECTION 10 /* for a file without generator layers */
-#define WR_DOCUMENT_VERSION_FILTERS 9 /* for a file without projected meshes */
-#define WR_DOCUMENT_VERSION_FACETS 8  /* for a file without filter layers */
-#define WR_DOCUMENT_VERSION_CELL 7    /* for a file without later features (document_file.h) */
+#define WR_DOCUMENT_VERSION_FILTERS 9     /* for a file without projected meshes */
+#define WR_DOCUMENT_VERSION_FACETS 8      /* for a file without filter layers */
+#define WR_DOCUMENT_VERSION_CELL 7        /* for a file without later features (document_file.h) */
 #define WR_DOCUMENT_VERSION_SURROUND                                                               \
     6 /* for a file without a cell size and the features introduced with it */
 #define WR_DOCUMENT_VERSION_OBJECTS 5 /* for a file without an environment */

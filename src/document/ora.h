@@ -32,10 +32,10 @@ typedef struct WrText WrText;
 #define WR_ORA_NAMESPACE "urn:wrinkle:openraster"
 #define WR_ORA_VERSION 8
 #define WR_ORA_VERSION_PROJECTION 7 /* for a file without generator layers */
-#define WR_ORA_VERSION_COMPOSITE 6 /* for a file without projected meshes */
-#define WR_ORA_VERSION_FILTERS 5   /* for a file without a composite */
-#define WR_ORA_VERSION_FACETS 4    /* for a file without filter layers */
-#define WR_ORA_VERSION_CELL 3      /* for a file without later features (document_file.h) */
+#define WR_ORA_VERSION_COMPOSITE 6  /* for a file without projected meshes */
+#define WR_ORA_VERSION_FILTERS 5    /* for a file without a composite */
+#define WR_ORA_VERSION_FACETS 4     /* for a file without filter layers */
+#define WR_ORA_VERSION_CELL 3       /* for a file without later features (document_file.h) */
 /* for a file without a cell size and the features introduced with it */
 #define WR_ORA_VERSION_OBJECTS 2
 #define WR_ORA_VERSION_PLAIN 1 /* for a file without normal maps or different meshes */

@@ -512,12 +512,10 @@ void wr_ora_stack_fini(WrOraStack *stack)
 {
     for (int i = 0; i < stack->layers.count; i++) {
         WrOraLayer *layer = &stack->layers.data[i];
-        char *texts[] = {
-            layer->name,       layer->src,         layer->operation,   layer->heights,
-            layer->cover,      layer->mask,        layer->blend,       layer->radius,
-            layer->name_bytes, layer->own_opacity, layer->own_visible, layer->filter,
-            layer->line,       layer->below
-        };
+        char *texts[] = { layer->name,       layer->src,         layer->operation,   layer->heights,
+                          layer->cover,      layer->mask,        layer->blend,       layer->radius,
+                          layer->name_bytes, layer->own_opacity, layer->own_visible, layer->filter,
+                          layer->line,       layer->below };
         for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) wr_free(texts[k]);
     }
     wr_array_free(&stack->layers);

@@ -87,11 +87,12 @@ static bool make_fourier(const WrParamValue *values, const WrGenerateJob *job, W
 }
 
 const WrGenerator wr_formula_rows[] = {
-    WR_GENERATOR("formula", "poly", "Polynomial",
-      "the sum of a u^i v^j; it meets itself at the table's edges only where the terms make it",
-      "replace", poly_params, make_poly),
+    WR_GENERATOR(
+        "formula", "poly", "Polynomial",
+        "the sum of a u^i v^j; it meets itself at the table's edges only where the terms make it",
+        "replace", poly_params, make_poly),
     WR_GENERATOR("formula", "fourier", "Fourier series",
-      "the sum of a cos(2 pi k u + phase_u) cos(2 pi l v + phase_v)", "replace", fourier_params,
-      make_fourier),
+                 "the sum of a cos(2 pi k u + phase_u) cos(2 pi l v + phase_v)", "replace",
+                 fourier_params, make_fourier),
     { .family = NULL },
 };

@@ -379,22 +379,25 @@ MAKE(5, torus)
 MAKE(6, cubes)
 
 const WrGenerator wr_noise_rows[] = {
-    WR_GENERATOR("noise", "perlin", "Perlin", "slopes from a fixed set, 0 at lattice points", "replace",
-      cell_params, make_perlin),
-    WR_GENERATOR("noise", "gradient", "Gradient", "random values and random slopes at lattice points",
-      "replace", cell_params, make_gradient),
-    WR_GENERATOR("noise", "value", "Value", "random values at lattice points", "replace", cell_params,
-      make_value),
+    WR_GENERATOR("noise", "perlin", "Perlin", "slopes from a fixed set, 0 at lattice points",
+                 "replace", cell_params, make_perlin),
+    WR_GENERATOR("noise", "gradient", "Gradient",
+                 "random values and random slopes at lattice points", "replace", cell_params,
+                 make_gradient),
+    WR_GENERATOR("noise", "value", "Value", "random values at lattice points", "replace",
+                 cell_params, make_value),
     WR_GENERATOR("noise", "simplex", "Simplex",
-      "on triangles or tetrahedra; 2D simplex noise cannot tile a square, so it is a slice through "
-      "3D "
-      "unless another way is chosen",
-      "replace", simplex_params, make_simplex),
-    WR_GENERATOR("noise", "sheared", "Sheared simplex", "simplex noise on triangles that fit the square",
-      "replace", plane_params, make_sheared),
+                 "on triangles or tetrahedra; 2D simplex noise cannot tile a square, so it is a "
+                 "slice through "
+                 "3D "
+                 "unless another way is chosen",
+                 "replace", simplex_params, make_simplex),
+    WR_GENERATOR("noise", "sheared", "Sheared simplex",
+                 "simplex noise on triangles that fit the square", "replace", plane_params,
+                 make_sheared),
     WR_GENERATOR("noise", "torus", "Torus", "4D simplex noise on a torus", "replace", plane_params,
-      make_torus),
-    WR_GENERATOR("noise", "cubes", "Torus of cubes", "4D Perlin noise on a torus", "replace", plane_params,
-      make_cubes),
+                 make_torus),
+    WR_GENERATOR("noise", "cubes", "Torus of cubes", "4D Perlin noise on a torus", "replace",
+                 plane_params, make_cubes),
     { .family = NULL },
 };

@@ -646,12 +646,13 @@ bool wr_picture_photo(const WrParamValue *values, const WrGenerateJob *job, WrRe
 }
 
 const WrGenerator wr_picture_rows[] = {
-    WR_GENERATOR("picture", "photo", "Photo", "heights by how light a picture is", "replace", wr_params_photo,
-      wr_picture_photo),
+    WR_GENERATOR("picture", "photo", "Photo", "heights by how light a picture is", "replace",
+                 wr_params_photo, wr_picture_photo),
     WR_GENERATOR("picture", "normals", "Normal map",
-      "the heights whose normals are nearest to those of a normal map", "replace",
-      wr_params_normals, wr_picture_normals),
-    WR_GENERATOR("picture", "paste", "Picture", "a picture as it is, at a place: a copied part, for example",
-      "replace", wr_params_paste, wr_picture_paste),
+                 "the heights whose normals are nearest to those of a normal map", "replace",
+                 wr_params_normals, wr_picture_normals),
+    WR_GENERATOR("picture", "paste", "Picture",
+                 "a picture as it is, at a place: a copied part, for example", "replace",
+                 wr_params_paste, wr_picture_paste),
     { .family = NULL },
 };

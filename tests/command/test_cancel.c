@@ -70,6 +70,7 @@ static const char *const instant[] = {
     "layer use",    "layer move",
     "layer rename", "layer set",
     "layer solo",   "layer duplicate",
+    "layer rasterize",
     "layer delete", "colouring off",
     "select all",   "select none",
     "fill",         "open",

@@ -125,7 +125,8 @@ static void shapes_and_ramps_are_layers_too(void **state)
         "shape ellipse at=0.41,0.53 radii=0.23,0.31 paint=fill strength=0.317",
         "shape rectangle a=0.1,0.2 b=0.71,0.83 paint=outline radius=5 strength=0.123"
     };
-    for (int i = 0; i < 2; i++) { /* brushes raise heights in double: equal on a layer of their own */
+    for (int i = 0; i < 2;
+         i++) { /* brushes raise heights in double: equal on a layer of their own */
         WrSession *plain = ground(), *layered = ground();
         must_run(plain, "layer add");
         must_run(plain, shapes[i]);

@@ -4,6 +4,7 @@
 #include "ui/app/state/background_command.h"
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/session_view.h"
+#include "ui/panels/generate/generate_state.h"
 #include "ui/panels/panel_adjust.h"
 #include "ui/panels/panel_layers.h"
 #include "ui/panels/panels.h"
@@ -173,7 +174,23 @@ void wr_act_select_mask(WrApp *app)
 
 void wr_act_filter_edit(WrApp *app)
 {
-    wr_filter_edit(app);
+    if (wr_is_generated(app)) wr_generate_edit_layer(app, wr_app_document(app)->active);
+    else wr_filter_edit(app);
+}
+
+void wr_act_layer_rasterize(WrApp *app)
+{
+    wr_app_run_linef(app, "layer rasterize %d", number(app));
+}
+
+bool wr_is_generated(const WrApp *app)
+{
+    return active(app)->line != NULL;
+}
+
+bool wr_has_values(const WrApp *app)
+{
+    return wr_is_filter(app) || wr_is_generated(app);
 }
 
 bool wr_is_filter(const WrApp *app)

@@ -18,6 +18,7 @@
 #include "ui/toolkit/focus.h"
 #include "ui/toolkit/gui.h"
 #include "ui/panels/panel_dynamics.h"
+#include "ui/panels/panel_layers.h"
 #include "ui/panels/panel_preferences.h"
 #include "ui/patch/patch.h"
 #include "ui/patch/patch_objects.h"
@@ -98,6 +99,7 @@ static void press_canvas(WrApp *app, const WrPointer *at)
     }
     const bool needs_idle = tool->paints ? app->busy && !wr_busy_lets_wait(app) : !tool->meanwhile;
     if (needs_idle && wr_busy_refuse(app)) return;
+    if (tool->paints && !app->busy && wr_rasterize_ask(app)) return;
     hand->grab = WR_GRAB_TOOL;
     if (tool->paints && !hand->line && wr_keys_hold(app->keys, WR_ACT(hold_size), at->mods)) {
         /* a drag resizes the brush, a click draws a line: decided at the first motion or the release */
@@ -115,6 +117,7 @@ static void press_patch(WrApp *app, const WrPointer *at)
     } else if (at->button == SDL_BUTTON_LEFT && wr_patch_paints(app) &&
                !wr_patch_control_under(app, at)) {
         if (app->busy && !wr_busy_lets_wait(app) && wr_busy_refuse(app)) return;
+        if (!app->busy && wr_rasterize_ask(app)) return;
         if (!app->busy && !wr_keys_hold(app->keys, WR_ACT(hold_pick), at->mods))
             wr_patch_choose(app, at); /* a command, which ends a drag */
         app->hand->grab = WR_GRAB_PATCH_PAINT;

@@ -3,6 +3,7 @@
 #include "ui/app/state/action.h"
 #include "ui/app/state/action_list.h"
 #include "ui/app/state/background_command.h"
+#include "ui/app/state/dialog.h"
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/pointer_state.h"
 #include "ui/app/state/keys.h"
@@ -195,11 +196,21 @@ static bool row_mask(WrApp *app, int i, bool active, double *x)
     return false;
 }
 
-/* Open the filter's dialog in the next frame, when its layer is active. */
-static void edit_filter(WrApp *app, int i)
+/* Open the values of a filter or a generator layer in the next frame, when it is active. */
+static void edit_values(WrApp *app, int i)
 {
     if (wr_app_document(app)->active != i && !wr_app_run_linef(app, "layer use %d", i + 1)) return;
     wr_action_run(app, WR_ACT(filter_edit));
+}
+
+/* The mark of a generator layer. */
+static void row_generator(WrApp *app, int i, double *x)
+{
+    const double side = wr_gui_px(18);
+    if (wr_gui_glyph("generator", WR_ICON_TUNE, 18, WR_COLOUR_CELL)) edit_values(app, i);
+    wr_gui_tip("A generator layer. Click to change its values");
+    *x += side + wr_gui_px(4);
+    wr_gui_row_set_cursor(*x, wr_gui_px(THUMB_UNITS));
 }
 
 /* Pictures of heights and mask, with a frame around the target of edits. True if a command was run. */
@@ -209,7 +220,7 @@ static bool row_pictures(WrApp *app, int i, bool active, double *x)
     double side = wr_gui_px(THUMB_UNITS), gap = wr_gui_px(8);
     wr_gui_row_set_cursor(*x, side);
     if (layer->filter.op) {
-        if (wr_gui_glyph("filter", WR_ICON_TUNE, THUMB_UNITS, WR_COLOUR_CELL)) edit_filter(app, i);
+        if (wr_gui_glyph("filter", WR_ICON_TUNE, THUMB_UNITS, WR_COLOUR_CELL)) edit_values(app, i);
         wr_gui_tip("A filter over the layers below. Click to change its values");
         *x += side + gap;
         if (!layer->mask) return false;
@@ -218,6 +229,7 @@ static bool row_pictures(WrApp *app, int i, bool active, double *x)
     }
     SDL_Texture *picture = wr_thumb_list_get(app, &app->layers->thumbs, 2 * i, layer->heights,
                                              layer->cover, false, THUMB_UNITS);
+    if (layer->line) row_generator(app, i, x);
     if (!layer->mask) {
         wr_gui_image(picture, side, side);
         *x += side + gap;
@@ -284,6 +296,11 @@ static void drop(WrApp *app)
     if (from >= 0 && to != from) wr_app_run_linef(app, "layer move %d to=%d", from + 1, to + 1);
 }
 
+static bool has_values(const WrLayer *layer)
+{
+    return layer->filter.op || layer->line;
+}
+
 static bool row(WrApp *app, int i)
 {
     const WrDocument *document = wr_app_document(app);
@@ -300,7 +317,7 @@ static bool row(WrApp *app, int i)
     }
     if (r.menu) app->layers->open = true;
     if ((r.clicked || r.menu) && !active) return wr_app_run_linef(app, "layer use %d", i + 1);
-    if (r.doubled && document->layers[i].filter.op) edit_filter(app, i);
+    if (r.doubled && has_values(&document->layers[i])) edit_values(app, i);
     else if (r.doubled && app->layers->renamed < 0) wr_layer_rename_start(app, i);
     return false;
 }
@@ -310,6 +327,7 @@ static bool row(WrApp *app, int i)
 static void menu(WrApp *app)
 {
     static const char *const names[] = { WR_ACT(filter_edit),
+                                         WR_ACT(layer_rasterize),
                                          WR_ACT(layer_rename),
                                          WR_ACT(layer_duplicate),
                                          WR_ACT(layer_delete),
@@ -339,6 +357,43 @@ static void menu(WrApp *app)
         else wr_menu_item(app, names[i]);
     }
     wr_gui_popup_end();
+}
+
+/* ---- painting on a generator layer ---- */
+
+bool wr_rasterize_ask(WrApp *app)
+{
+    const WrDocument *document = wr_app_document(app);
+    const WrLayer *layer = &document->layers[document->active];
+    if (!layer->line || layer->on_mask || layer->locked ||
+        !wr_document_shows(document, document->active))
+        return false;
+    wr_dialog_open(app, WR_DIALOG_RASTERIZE);
+    return true;
+}
+
+void wr_dialog_rasterize(WrApp *app)
+{
+    const WrDocument *document = wr_app_document(app);
+    const WrLayer *layer = &document->layers[document->active];
+    char text[WR_LAYER_NAME_MAX + 300];
+    if (!layer->line) {
+        wr_dialog_close(app);
+        return;
+    }
+    if (!wr_gui_dialog_begin("Rasterize this layer?", 440)) return;
+    snprintf(
+        text, sizeof text,
+        wr_words("The heights of %s come from a generator. Rasterized, they can be painted on, "
+                 "but its values can no longer be changed. A mask, or a new layer above, keeps "
+                 "them."),
+        layer->name);
+    wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, text);
+    wr_gui_space(8);
+    const int done = wr_dialog_buttons(app, "Rasterize", true);
+    if (done) wr_dialog_close(app);
+    if (done > 0) wr_action_run(app, WR_ACT(layer_rasterize));
+    wr_gui_dialog_end();
 }
 
 /* ---- the panel ---- */

@@ -25,5 +25,8 @@ typedef struct WrLayersState {
 void wr_panel_layers(WrApp *app, SDL_Rect room);
 void wr_panel_layers_forget(WrApp *app); /* drop its textures */
 void wr_layer_rename_start(WrApp *app, int index);
+/* If the active layer is a generator layer whose heights would be painted on, open the question; returns true. */
+bool wr_rasterize_ask(WrApp *app);
+void wr_dialog_rasterize(WrApp *app);
 
 extern const WrPart wr_part_layers;

@@ -115,27 +115,62 @@ static bool make(const WrCall *call, WrGenerateJob *job, WrRelief *out, WrError 
     return good;
 }
 
-bool wr_edit_preview_generate(WrDocument *document, const char *line, bool rough, WrPool *pool,
-                              const WrProgress *progress, WrText *notes, WrError *err)
+static bool into_active(WrDocument *document, const WrCall *call, WrGenerateJob *job, WrError *err)
 {
-    WrCall *call = NULL;
-    if (!wr_call_parse(line, false, &call, err)) return false;
     WrRelief relief = { NULL, NULL };
     WrStandIn stand_in = { .index = 0 };
     WrLayer *layer = wr_document_edit_begin(document, &stand_in);
-    WrGenerateJob job = { .like = layer->heights,
-                          .selection = document->selection,
-                          .mask = document->layers[document->active].mask,
-                          .pool = pool,
-                          .progress = progress,
-                          .coarse = rough,
-                          .note = note,
-                          .note_ctx = notes };
-    bool good = wr_call_generator(call) ? make(call, &job, &relief, err)
-                                        : wr_fail(err, "%s: must be a generator's line", line);
-    good = good && wr_call_join(call, &relief, document->selection, layer, pool, progress, err);
+    job->like = layer->heights;
+    job->selection = document->selection;
+    job->mask = document->layers[document->active].mask;
+    const bool good =
+        make(call, job, &relief, err) &&
+        wr_call_join(call, &relief, document->selection, layer, job->pool, job->progress, err);
     wr_document_edit_end(document, &stand_in);
     wr_relief_fini(&relief);
+    return good;
+}
+
+/* Above the active layer, with the selection as its mask. */
+static void add_layer(WrDocument *document, const WrCall *call)
+{
+    const WrFamily *family = wr_family_find(call->command->name);
+    WrLayer layer = wr_layer_make("", document->layers[0].heights);
+    if (document->selection && !family->beyond) layer.mask = wr_field_share(document->selection);
+    wr_call_take_blend(call, true, &layer);
+    wr_document_insert(document, document->active + 1, layer);
+    document->active++;
+}
+
+static bool as_layer(WrDocument *document, const WrCall *call, WrGenerateJob *job, WrError *err)
+{
+    WrRelief relief = { NULL, NULL };
+    WrLayer *layer = &document->layers[document->active];
+    WrField *below = wr_call_generator(call)->reads
+                         ? wr_document_below(document, document->active, job->pool)
+                         : NULL;
+    job->like = below ? below : layer->heights;
+    job->mask = layer->mask;
+    const bool good = make(call, job, &relief, err) &&
+                      wr_call_lay(call, &relief, layer, job->pool, job->progress, err);
+    wr_field_free(below);
+    wr_relief_fini(&relief);
+    return good;
+}
+
+bool wr_edit_preview_generate(WrDocument *document, const char *line, WrLineTarget target,
+                              bool rough, WrPool *pool, const WrProgress *progress, WrText *notes,
+                              WrError *err)
+{
+    WrCall *call = NULL;
+    if (!wr_call_parse(line, false, &call, err)) return false;
+    WrGenerateJob job = {
+        .pool = pool, .progress = progress, .coarse = rough, .note = note, .note_ctx = notes
+    };
+    bool good = wr_call_generator(call) || wr_fail(err, "%s: must be a generator's line", line);
+    if (good && target == WR_LINE_NEW_LAYER) add_layer(document, call);
+    good = good && (target == WR_LINE_INTO_ACTIVE ? into_active(document, call, &job, err)
+                                                  : as_layer(document, call, &job, err));
     wr_call_free(call);
     return good;
 }
@@ -270,6 +305,26 @@ static void dab(Work *work, WrPool *pool)
     wr_document_edit_end(document, &stand_in);
 }
 
+static void set_layer(const Work *work)
+{
+    const WrEditPreviewRequest *ask = &work->ask;
+    WrLayer *layer = &work->document->layers[ask->layer];
+    layer->blend = ask->blend;
+    layer->opacity = ask->opacity;
+    layer->radius = ask->radius;
+}
+
+static bool generate(Work *work, WrPool *pool, const WrProgress *progress)
+{
+    const WrEditPreviewRequest *ask = &work->ask;
+    if (ask->target == WR_LINE_OF_LAYER) {
+        work->document->active = ask->layer;
+        set_layer(work);
+    }
+    return wr_edit_preview_generate(work->document, ask->line, ask->target, ask->rough, pool,
+                                    progress, &work->notes, &work->err);
+}
+
 static void run(void *arg, WrPool *pool, const WrProgress *progress)
 {
     Work *work = arg;
@@ -278,8 +333,7 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
     if (ask->line) {
         bool moves = strncmp(ask->line, "transform", 9) == 0;
         if (moves ? !edit_preview_transform(work->document, ask->line, pool, progress, &work->err)
-                  : !wr_edit_preview_generate(work->document, ask->line, ask->rough, pool, progress,
-                                              &work->notes, &work->err)) {
+                  : !generate(work, pool, progress)) {
             work->cancelled = wr_progress_cancelled(progress);
             return;
         }
@@ -291,10 +345,7 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
     } else if (ask->dab) {
         dab(work, pool);
     } else {
-        WrLayer *layer = &work->document->layers[ask->layer];
-        layer->blend = ask->blend;
-        layer->opacity = ask->opacity;
-        layer->radius = ask->radius;
+        set_layer(work);
     }
     wr_filters_forget();
     if (!work->field) work->field = wr_field_share(wr_document_composite(work->document, pool));

@@ -18,6 +18,13 @@ typedef struct WrEditPreview WrEditPreview;
 WrEditPreview *wr_edit_preview_new(int threads, Uint32 done_event);
 void wr_edit_preview_free(WrEditPreview *trial); /* NULL is allowed */
 
+/* Destination of a generator's line. */
+typedef enum WrLineTarget {
+    WR_LINE_INTO_ACTIVE, /* the heights of the active layer, inside the selection */
+    WR_LINE_NEW_LAYER,   /* a new generator layer above it */
+    WR_LINE_OF_LAYER     /* generator layer `layer`, with the request's blend mode and radius */
+} WrLineTarget;
+
 typedef struct WrEditPreviewRequest {
     const WrOpInfo *op; /* operation on the active layer, inside the selection; or NULL: */
     double param[WR_OP_VALUES];
@@ -32,9 +39,10 @@ typedef struct WrEditPreviewRequest {
 
     /* or a generator's command line, or `transform` (below); copied */
     const char *line;
-    bool rough; /* a fast rough result first, then the exact one */
+    WrLineTarget target; /* of a generator's line */
+    bool rough;          /* a fast rough result first, then the exact one */
 
-    int layer; /* or a layer with changed settings; or the filter layer */
+    int layer; /* or a layer with changed settings; or the filter or generator layer */
     WrBlend blend;
     float opacity, radius;
 } WrEditPreviewRequest;
@@ -71,12 +79,14 @@ typedef struct WrPool WrPool;
 typedef struct WrProgress WrProgress;
 typedef struct WrText WrText;
 
-/* Blend the output of a generator line into the document's active layer, inside its selection, as the command would.
+/* Generate a line in a document as the command would.
  *
  * document  changed; half done after a failure
  * line      of a generator family; relative file names refer to the current folder
+ * target    with WR_LINE_OF_LAYER the active layer, whose blend mode and radius are final already
  * rough     fastest mode: lower quality, and a smaller table if the result depends only on the relative size
  * notes     remarks, one per line
  * Threads   one for each document */
-bool wr_edit_preview_generate(WrDocument *document, const char *line, bool rough, WrPool *pool,
-                              const WrProgress *progress, WrText *notes, WrError *err);
+bool wr_edit_preview_generate(WrDocument *document, const char *line, WrLineTarget target,
+                              bool rough, WrPool *pool, const WrProgress *progress, WrText *notes,
+                              WrError *err);

@@ -95,6 +95,7 @@
     X(layer_delete, "Shift+Delete")                                                                \
     X(layer_rename, "")                                                                            \
     X(filter_edit, "")                                                                             \
+    X(layer_rasterize, "")                                                                         \
     X(layer_merge, "Ctrl+Alt+E")                                                                   \
     X(layer_flatten, "Ctrl+Shift+F")                                                               \
     X(layer_project, "")                                                                           \

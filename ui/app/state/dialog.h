@@ -25,9 +25,10 @@ typedef enum WrDialog {
     WR_DIALOG_SEARCH,
     WR_DIALOG_PREFERENCES,
     WR_DIALOG_RECOVER,
-    WR_DIALOG_PRESET,   /* name of a preset to save */
-    WR_DIALOG_DYNAMICS, /* curve editor of the brush */
-    WR_DIALOG_REPLACE,  /* question before an existing file is overwritten */
+    WR_DIALOG_PRESET,    /* name of a preset to save */
+    WR_DIALOG_DYNAMICS,  /* curve editor of the brush */
+    WR_DIALOG_REPLACE,   /* question before an existing file is overwritten */
+    WR_DIALOG_RASTERIZE, /* question before a generator layer is painted on */
     WR_DIALOG_TABLET,
     WR_DIALOG_BAKE, /* maps of a detailed mesh */
     WR_DIALOG_CASES,

@@ -476,8 +476,8 @@ bool wr_font_sample(const WrFontSample *sample, WrPool *pool, const WrProgress *
     wr_field_free(document->layers[0].heights);
     document->layers[0].heights = level;
     line_of(sample, &line);
-    const bool good =
-        wr_edit_preview_generate(document, wr_text_get(&line), false, pool, progress, &notes, &err);
+    const bool good = wr_edit_preview_generate(document, wr_text_get(&line), WR_LINE_INTO_ACTIVE,
+                                               false, pool, progress, &notes, &err);
     const WrField *made = document->layers[0].heights;
     for (int y = 0; good && y < sample->h; y++)
         for (int x = 0; x < sample->w; x++) {

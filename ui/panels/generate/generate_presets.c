@@ -250,9 +250,10 @@ static WrDocument *made(const Work *work, const char *first, WrPool *pool,
     WrDocument *document = wr_document_new();
     wr_field_free(document->layers[0].heights);
     document->layers[0].heights = level;
-    bool good =
-        (!first || wr_edit_preview_generate(document, first, true, pool, progress, &notes, &err)) &&
-        wr_edit_preview_generate(document, work->line, true, pool, progress, &notes, &err);
+    bool good = (!first || wr_edit_preview_generate(document, first, WR_LINE_INTO_ACTIVE, true,
+                                                    pool, progress, &notes, &err)) &&
+                wr_edit_preview_generate(document, work->line, WR_LINE_INTO_ACTIVE, true, pool,
+                                         progress, &notes, &err);
     if (good) wr_field_range(document->layers[0].heights, &low, &high);
     wr_text_fini(&notes);
     if (good && low < high) return document;

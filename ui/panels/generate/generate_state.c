@@ -12,6 +12,7 @@
 #include "ui/app/state/session_view.h"
 #include "ui/canvas/tools/tool.h"
 #include "ui/app/jobs/edit_preview.h"
+#include "ui/toolkit/words.h"
 
 #include "base/array.h"
 #include "base/error.h"
@@ -21,6 +22,8 @@
 #include "command/commands.h"
 #include "command/session.h"
 #include "document/blend.h"
+#include "document/document.h"
+#include "document/object_tables.h"
 #include "generate/generator.h"
 
 #include <SDL.h>
@@ -274,6 +277,7 @@ void wr_generate_new(WrApp *app)
 {
     app->generate = wr_alloc(1, sizeof *app->generate);
     app->generate->preset = -2;
+    app->generate->layer = -1;
     app->generate->point = app->generate->blamed = -1;
 }
 
@@ -370,6 +374,33 @@ void wr_generate_focus_text(WrApp *app)
     app->redraw = WR_GENERATE_WAKE;
 }
 
+static void show(WrApp *app)
+{
+    WrGenerateState *hand = app->generate;
+    hand->opened++;
+    wr_tab_show(app, "Generate");
+    app->hints = false;
+    if (wr_generate_written(hand->generator) >= 0) wr_generate_focus_text(app);
+    wr_generate_changed(app);
+}
+
+/* The layer's mode and radius are those of its line. */
+void wr_generate_edit_layer(WrApp *app, int index)
+{
+    WrGenerateState *hand = app->generate;
+    const WrLayer *layer = &wr_app_document(app)->layers[index];
+    if (!layer->line || !wr_generate_load(app, layer->line)) return;
+    hand->layer = index;
+    hand->blend = (int)layer->blend;
+    hand->radius = (double)layer->radius;
+    show(app);
+}
+
+bool wr_generate_makes_layer(const WrGenerateState *hand)
+{
+    return hand->layer >= 0 || !hand->into_active;
+}
+
 void wr_generate_open(WrApp *app, const WrGenerator *generator)
 {
     WrGenerateState *hand = app->generate;
@@ -380,11 +411,7 @@ void wr_generate_open(WrApp *app, const WrGenerator *generator)
         else wr_generate_take(app, generator);
         wr_free(line);
     }
-    hand->opened++;
-    wr_tab_show(app, "Generate");
-    app->hints = false;
-    if (wr_generate_written(generator) >= 0) wr_generate_focus_text(app);
-    wr_generate_changed(app);
+    show(app);
 }
 
 const WrGenerator *wr_generate_last(const WrApp *app)
@@ -419,6 +446,21 @@ void wr_generate_file(WrApp *app, const char *path)
 
 /* ---- preview ---- */
 
+static WrLineTarget target_of(const WrGenerateState *hand)
+{
+    if (hand->layer >= 0) return WR_LINE_OF_LAYER;
+    return hand->into_active ? WR_LINE_INTO_ACTIVE : WR_LINE_NEW_LAYER;
+}
+
+/* True if the preview shows this line in the present document. */
+static bool is_asked(const WrApp *app, const char *line)
+{
+    const WrGenerateState *hand = app->generate;
+    return app->trying && hand->asked && strcmp(hand->asked, line) == 0 &&
+           hand->asked_into == target_of(hand) &&
+           hand->asked_at == wr_session_revision(app->session);
+}
+
 static void ask(WrApp *app, const char *line)
 {
     WrGenerateState *hand = app->generate;
@@ -429,7 +471,15 @@ static void ask(WrApp *app, const char *line)
     hand->asked = copy;
     hand->asked_of = hand->generator;
     hand->asked_at = wr_session_revision(app->session);
-    wr_app_try(app, &(WrEditPreviewRequest){ .line = line, .rough = slow });
+    WrEditPreviewRequest request = { .line = line, .target = target_of(hand), .rough = slow };
+    if (hand->layer >= 0) {
+        request.layer = hand->layer;
+        request.blend = (WrBlend)hand->blend;
+        request.radius = (float)hand->radius;
+        request.opacity = wr_app_document(app)->layers[hand->layer].opacity;
+    }
+    hand->asked_into = request.target;
+    wr_app_try(app, &request);
 }
 
 /* True if a result, even an outdated one, will be ready soon. It is then shown first, so that a continuously dragged
@@ -456,6 +506,20 @@ static void look(WrApp *app)
     }
 }
 
+/* The edited layer may be gone, by undo or by another command. */
+static bool layer_stands(const WrApp *app)
+{
+    const WrGenerateState *hand = app->generate;
+    const WrDocument *document = wr_app_document(app);
+    return hand->layer < 0 ||
+           (hand->layer < document->layer_count && document->layers[hand->layer].line);
+}
+
+void wr_generate_leave_layer(WrApp *app)
+{
+    app->generate->layer = -1;
+}
+
 /* ---- component ---- */
 
 static void generate_update(WrApp *app)
@@ -466,9 +530,9 @@ static void generate_update(WrApp *app)
         wr_app_line_waits(app))
         return;
     if (app->trying && hand->asked) look(app);
+    if (!layer_stands(app)) wr_generate_leave_layer(app);
     wr_generate_line(hand, &line);
-    bool same = app->trying && hand->asked && strcmp(hand->asked, wr_text_get(&line)) == 0 &&
-                hand->asked_at == wr_session_revision(app->session);
+    const bool same = is_asked(app, wr_text_get(&line));
     if (!same && !wr_session_in_stroke(app->session) && !is_awaited(app)) {
         hand->err.text[0] = '\0';
         ask(app, wr_text_get(&line));
@@ -483,24 +547,48 @@ void wr_generate_cancel(WrApp *app)
     hand->active = false;
     hand->held = WR_POSE_NONE;
     hand->err.text[0] = '\0';
+    wr_generate_leave_layer(app);
     wr_app_redraw(app);
+}
+
+/* The command that carries out `line`, a generator's. */
+static void add_command(const WrApp *app, const char *line, WrText *text)
+{
+    const WrGenerateState *hand = app->generate;
+    const char *label = wr_words(hand->generator->label);
+    char number[WR_NUMBER_SIZE];
+    switch (target_of(hand)) {
+    case WR_LINE_INTO_ACTIVE: wr_text_add(text, line); return;
+    case WR_LINE_NEW_LAYER:
+        wr_text_add(text, "layer add ");
+        wr_text_add_word(text, wr_layer_named(wr_app_document(app), label) < 0 ? label : "");
+        break;
+    case WR_LINE_OF_LAYER: wr_text_addf(text, "layer set %d", hand->layer + 1); break;
+    }
+    wr_text_add(text, " from=");
+    wr_text_add_word(text, line);
+    if (hand->layer < 0) return;
+    wr_text_addf(text, " blend=%s radius=%s", wr_blends[hand->blend].name,
+                 wr_number_print(hand->radius, number));
 }
 
 void wr_generate_commit(WrApp *app)
 {
     WrGenerateState *hand = app->generate;
-    WrText line = { 0 };
+    WrText line = { 0 }, command = { 0 };
     if (!hand->generator || wr_busy_refuse(app)) return;
     wr_generate_line(hand, &line);
+    add_command(app, wr_text_get(&line), &command);
+    const bool tried = is_asked(app, wr_text_get(&line));
     hand->active = false;
     hand->held = WR_POSE_NONE;
+    wr_generate_leave_layer(app);
     app->hand->grab = WR_GRAB_NONE;
     app->hints = false;
-    bool tried = app->trying && hand->asked && strcmp(hand->asked, wr_text_get(&line)) == 0 &&
-                 hand->asked_at == wr_session_revision(app->session);
-    if (tried) wr_app_run_tried(app, wr_text_get(&line));
-    else wr_app_run_slow(app, wr_text_get(&line));
+    if (tried) wr_app_run_tried(app, wr_text_get(&command));
+    else wr_app_run_slow(app, wr_text_get(&command));
     wr_text_fini(&line);
+    wr_text_fini(&command);
 }
 
 bool wr_generate_writes(const WrApp *app)
@@ -512,6 +600,7 @@ bool wr_generate_writes(const WrApp *app)
 bool wr_generate_tab_of_action(WrApp *app, const char *name)
 {
     const WrGenerator *generator = wr_action_generator(name);
+    if (generator) wr_generate_leave_layer(app);
     if (generator) wr_generate_open(app, generator);
     return generator != NULL;
 }

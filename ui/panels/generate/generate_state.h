@@ -2,6 +2,7 @@
    views show its preview on a snapshot; only wr_generate_commit changes the document. Everything derives from the
    table of generators; no generator is named here. */
 #pragma once
+#include "ui/app/jobs/edit_preview.h"
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/registry.h"
 #include "ui/panels/generate/generate_presets.h"
@@ -54,12 +55,15 @@ typedef struct WrGenerateState {
     double radius, offset;
     WR_ARRAY(char *) kept; /* lines of previously used generators, owned */
 
-    bool active;                 /* the views show the preview */
-    char *asked;                 /* line of the requested preview, owned; NULL: none */
-    uint64_t asked_at;           /* the document's revision at the request */
-    double seconds;              /* duration of its last exact result; 0: unknown */
+    bool active;       /* the views show the preview */
+    int layer;         /* index of the generator layer whose values are edited; -1: none */
+    bool into_active;  /* the result goes into the active layer, not to a new one */
+    char *asked;       /* line of the requested preview, owned; NULL: none */
+    uint64_t asked_at; /* the document's revision at the request */
+    double seconds;    /* duration of its last exact result; 0: unknown */
     const WrGenerator *asked_of; /* generator of that line */
-    WrError err;                 /* reason for a missing preview; "": there is one */
+    WrLineTarget asked_into;
+    WrError err; /* reason for a missing preview; "": there is one */
     /* index of the parameter that err is about (wr_generate_blame); -1: no single one */
     int blamed;
     size_t blame;    /* bytes of err.text before the part about the parameter */
@@ -97,6 +101,8 @@ void wr_generate_open(WrApp *app, const WrGenerator *generator);
 /* The last used generator, or the first. */
 const WrGenerator *wr_generate_last(const WrApp *app);
 void wr_generate_open_last(WrApp *app);
+/* Open the generator of generator layer `index`, with its values; they replace the layer's when applied. */
+void wr_generate_edit_layer(WrApp *app, int index);
 /* Choose the generator without preview, tool and tab. */
 void wr_generate_take(WrApp *app, const WrGenerator *generator);
 void wr_generate_defaults(WrApp *app);
@@ -115,6 +121,9 @@ bool wr_generate_param_is_default(const WrGenerateState *hand, int param);
 void wr_generate_blame(WrGenerateState *hand);
 /* Set a text value, truncated if too long. */
 void wr_generate_set_text(WrGenerateValue *value, const char *text);
+/* True if the result goes to a generator layer, a new one or the edited one. */
+void wr_generate_leave_layer(WrApp *app); /* the values are those of a new layer from now on */
+bool wr_generate_makes_layer(const WrGenerateState *hand);
 /* To be called after a change of a value. */
 void wr_generate_changed(WrApp *app);
 void wr_generate_focus_text(WrApp *app);             /* give the keyboard focus to the text field */

@@ -17,6 +17,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "document/document.h"
 #include "document/blend.h"
 #include "document/document.h"
 #include "generate/generator.h"
@@ -526,6 +527,29 @@ static void said(const WrApp *app, SDL_Rect *room)
     wr_gui_area_end();
 }
 
+/* Where the result goes: the name of the edited layer, or the choice. */
+static void destination(WrApp *app)
+{
+    WrGenerateState *hand = app->generate;
+    const WrDocument *document = wr_app_document(app);
+    if (hand->layer >= 0) {
+        wr_gui_as_it_is(true);
+        wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, document->layers[hand->layer].name,
+                        wr_gui_available());
+        wr_gui_as_it_is(false);
+        return;
+    }
+    static const char *const labels[] = { "New layer", "Active layer" };
+    int index = hand->into_active;
+    if (wr_gui_choice("destination", wr_gui_available(), labels, 2, &index)) {
+        hand->into_active = index == 1;
+        wr_generate_changed(app);
+    }
+    wr_gui_tip(hand->into_active
+                   ? "It becomes heights of the active layer, inside the selection"
+                   : "It becomes a generator layer: its values can be changed at any time");
+}
+
 static void foot(WrApp *app)
 {
     WrGenerateState *hand = app->generate;
@@ -546,9 +570,9 @@ static void foot(WrApp *app)
         if (wr_gui_button("Show", false)) wr_generate_open(app, hand->generator);
         wr_gui_tip("Show a preview of it");
     }
-    if (!busy) return;
     wr_gui_same_line(10);
-    wr_gui_progress(0, fraction);
+    if (busy) wr_gui_progress(0, fraction);
+    else destination(app);
 }
 
 void wr_panel_generate(WrApp *app, SDL_Rect room)
