@@ -207,6 +207,7 @@ static void edit_values(WrApp *app, int i)
 static void row_generator(WrApp *app, int i, double *x)
 {
     const double side = wr_gui_px(18);
+    wr_gui_row_set_cursor(*x, side);
     if (wr_gui_glyph("generator", WR_ICON_TUNE, 18, WR_COLOUR_CELL)) edit_values(app, i);
     wr_gui_tip("A generator layer. Click to change its values");
     *x += side + wr_gui_px(4);

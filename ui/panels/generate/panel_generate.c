@@ -17,7 +17,6 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "document/document.h"
 #include "document/blend.h"
 #include "document/document.h"
 #include "generate/generator.h"
@@ -533,9 +532,10 @@ static void destination(WrApp *app)
     WrGenerateState *hand = app->generate;
     const WrDocument *document = wr_app_document(app);
     if (hand->layer >= 0) {
+        char text[WR_LAYER_NAME_MAX + 40];
+        snprintf(text, sizeof text, wr_words("Layer: %s"), document->layers[hand->layer].name);
         wr_gui_as_it_is(true);
-        wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, document->layers[hand->layer].name,
-                        wr_gui_available());
+        wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_LABEL, text, wr_gui_available());
         wr_gui_as_it_is(false);
         return;
     }
@@ -556,6 +556,7 @@ static void foot(WrApp *app)
     double fraction, seconds;
     bool busy = hand->active && app->trying &&
                 wr_edit_preview_busy(app->trial, &fraction, &seconds) && seconds > 0.3;
+    destination(app);
     wr_busy_hold(app);
     wr_gui_disable(hand->err.text[0] != '\0');
     if (wr_gui_button(hand->active ? "Apply" : "Apply again", true)) wr_generate_commit(app);
@@ -570,16 +571,16 @@ static void foot(WrApp *app)
         if (wr_gui_button("Show", false)) wr_generate_open(app, hand->generator);
         wr_gui_tip("Show a preview of it");
     }
+    if (!busy) return;
     wr_gui_same_line(10);
-    if (busy) wr_gui_progress(0, fraction);
-    else destination(app);
+    wr_gui_progress(0, fraction);
 }
 
 void wr_panel_generate(WrApp *app, SDL_Rect room)
 {
     WrGenerateState *hand = app->generate;
     SDL_Rect top = cut(&room, wr_gui_px(82), true);
-    SDL_Rect low = cut(&room, wr_gui_px(44), false);
+    SDL_Rect low = cut(&room, wr_gui_px(74), false);
     if (!hand->generator) wr_generate_take(app, wr_generate_last(app));
     wr_generate_blame(hand);
     said(app, &room);
