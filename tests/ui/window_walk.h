@@ -34,6 +34,8 @@
 #include "ui/toolkit/words.h"
 #include "ui/app/jobs/files.h"
 #include "ui/panels/panel_dynamics.h"
+#include "ui/app/state/background_command.h"
+#include "ui/panels/panel_layers.h"
 #include "ui/panels/panel_status.h"
 #include "ui/panels/panels.h"
 #include "ui/patch/patch.h"
@@ -246,6 +248,15 @@ static inline bool walk_open_file(Walk *walk, int which)
     return walk_name(walk, "file dialog of purpose %s", title);
 }
 
+/* The question before a generator layer is painted on. */
+static inline bool walk_open_rasterize(Walk *walk, int which)
+{
+    if (which > 0) return false;
+    wr_app_run_line(walk->app, "layer add dots from=\"pattern dots\"");
+    return wr_rasterize_ask(walk->app) &&
+           walk_name(walk, "question before %s is rasterized", "dots");
+}
+
 /* The question before a file is replaced, of each kind; the file is in the test's folder. */
 static inline bool walk_open_replace(Walk *walk, int which)
 {
@@ -303,6 +314,7 @@ static inline void walk_dialogs(Walk *walk)
     walk_each(walk, walk_open_unsaved, walk_close_dialog);
     walk_each(walk, walk_open_file, walk_close_dialog);
     walk_each(walk, walk_open_replace, walk_close_dialog);
+    walk_each(walk, walk_open_rasterize, walk_close_dialog);
     walk_each(walk, walk_open_recover, walk_close_dialog);
     walk_each(walk, walk_open_bake, walk_close_dialog);
     walk_run(walk, "undo");

@@ -190,8 +190,17 @@ search() {
     rest
     key Return
 }
-# The newest command that the journal holds, a stroke by its beginning.
-newest() { sed -nE 's/^[0-9a-f]+ [0-9]+ [cb] //p' state/wrinkle/journals/*.wj 2>/dev/null | tail -n 1; }
+# The newest command that the journal holds, a stroke by its beginning, a generator layer by its line.
+newest() {
+    local line
+    line=$(sed -nE 's/^[0-9a-f]+ [0-9]+ [cb] //p' state/wrinkle/journals/*.wj 2>/dev/null | tail -n 1)
+    if [[ $line =~ ^layer\ (add|set)\ .*from=\"(.*)\"( blend=[a-z-]+\ radius=[0-9.e-]+)?$ ]]; then
+        line=${BASH_REMATCH[2]}
+        line=${line//\\\"/\"}   # quotes within quotes
+        line=${line//\\\\/\\}
+    fi
+    printf '%s\n' "$line"
+}
 # shellcheck disable=SC2053 # a pattern
 newest_is() { [[ $(newest) == $1 ]]; }
 # becomes PATTERN WHAT: the newest command comes to look like that.

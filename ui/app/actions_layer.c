@@ -172,6 +172,11 @@ void wr_act_select_mask(WrApp *app)
 
 /* ---- availability ---- */
 
+static bool is_filter(const WrApp *app)
+{
+    return active(app)->filter.op != NULL;
+}
+
 void wr_act_filter_edit(WrApp *app)
 {
     if (wr_is_generated(app)) wr_generate_edit_layer(app, wr_app_document(app)->active);
@@ -190,12 +195,7 @@ bool wr_is_generated(const WrApp *app)
 
 bool wr_has_values(const WrApp *app)
 {
-    return wr_is_filter(app) || wr_is_generated(app);
-}
-
-bool wr_is_filter(const WrApp *app)
-{
-    return active(app)->filter.op != NULL;
+    return is_filter(app) || wr_is_generated(app);
 }
 
 bool wr_can_several_layers(const WrApp *app)
@@ -229,7 +229,7 @@ bool wr_can_flatten(const WrApp *app)
 
 bool wr_has_heights(const WrApp *app)
 {
-    return !wr_is_filter(app);
+    return !is_filter(app);
 }
 
 bool wr_can_raise(const WrApp *app)

@@ -396,11 +396,6 @@ void wr_generate_edit_layer(WrApp *app, int index)
     show(app);
 }
 
-bool wr_generate_makes_layer(const WrGenerateState *hand)
-{
-    return hand->layer >= 0 || !hand->into_active;
-}
-
 void wr_generate_open(WrApp *app, const WrGenerator *generator)
 {
     WrGenerateState *hand = app->generate;
@@ -446,10 +441,11 @@ void wr_generate_file(WrApp *app, const char *path)
 
 /* ---- preview ---- */
 
-static WrLineTarget target_of(const WrGenerateState *hand)
+WrLineTarget wr_generate_target(const WrGenerateState *hand)
 {
     if (hand->layer >= 0) return WR_LINE_OF_LAYER;
-    return hand->into_active ? WR_LINE_INTO_ACTIVE : WR_LINE_NEW_LAYER;
+    const bool once = hand->into_active || wr_family_find(hand->generator->family)->beyond;
+    return once ? WR_LINE_INTO_ACTIVE : WR_LINE_NEW_LAYER;
 }
 
 /* True if the preview shows this line in the present document. */
@@ -457,7 +453,7 @@ static bool is_asked(const WrApp *app, const char *line)
 {
     const WrGenerateState *hand = app->generate;
     return app->trying && hand->asked && strcmp(hand->asked, line) == 0 &&
-           hand->asked_into == target_of(hand) &&
+           hand->asked_into == wr_generate_target(hand) &&
            hand->asked_at == wr_session_revision(app->session);
 }
 
@@ -471,7 +467,9 @@ static void ask(WrApp *app, const char *line)
     hand->asked = copy;
     hand->asked_of = hand->generator;
     hand->asked_at = wr_session_revision(app->session);
-    WrEditPreviewRequest request = { .line = line, .target = target_of(hand), .rough = slow };
+    WrEditPreviewRequest request = { .line = line,
+                                     .target = wr_generate_target(hand),
+                                     .rough = slow };
     if (hand->layer >= 0) {
         request.layer = hand->layer;
         request.blend = (WrBlend)hand->blend;
@@ -515,11 +513,6 @@ static bool layer_stands(const WrApp *app)
            (hand->layer < document->layer_count && document->layers[hand->layer].line);
 }
 
-void wr_generate_leave_layer(WrApp *app)
-{
-    app->generate->layer = -1;
-}
-
 /* ---- component ---- */
 
 static void generate_update(WrApp *app)
@@ -530,7 +523,7 @@ static void generate_update(WrApp *app)
         wr_app_line_waits(app))
         return;
     if (app->trying && hand->asked) look(app);
-    if (!layer_stands(app)) wr_generate_leave_layer(app);
+    if (!layer_stands(app)) app->generate->layer = -1;
     wr_generate_line(hand, &line);
     const bool same = is_asked(app, wr_text_get(&line));
     if (!same && !wr_session_in_stroke(app->session) && !is_awaited(app)) {
@@ -547,7 +540,7 @@ void wr_generate_cancel(WrApp *app)
     hand->active = false;
     hand->held = WR_POSE_NONE;
     hand->err.text[0] = '\0';
-    wr_generate_leave_layer(app);
+    app->generate->layer = -1;
     wr_app_redraw(app);
 }
 
@@ -557,7 +550,7 @@ static void add_command(const WrApp *app, const char *line, WrText *text)
     const WrGenerateState *hand = app->generate;
     const char *label = wr_words(hand->generator->label);
     char number[WR_NUMBER_SIZE];
-    switch (target_of(hand)) {
+    switch (wr_generate_target(hand)) {
     case WR_LINE_INTO_ACTIVE: wr_text_add(text, line); return;
     case WR_LINE_NEW_LAYER:
         wr_text_add(text, "layer add ");
@@ -582,7 +575,7 @@ void wr_generate_commit(WrApp *app)
     const bool tried = is_asked(app, wr_text_get(&line));
     hand->active = false;
     hand->held = WR_POSE_NONE;
-    wr_generate_leave_layer(app);
+    app->generate->layer = -1;
     app->hand->grab = WR_GRAB_NONE;
     app->hints = false;
     if (tried) wr_app_run_tried(app, wr_text_get(&command));
@@ -600,7 +593,7 @@ bool wr_generate_writes(const WrApp *app)
 bool wr_generate_tab_of_action(WrApp *app, const char *name)
 {
     const WrGenerator *generator = wr_action_generator(name);
-    if (generator) wr_generate_leave_layer(app);
+    if (generator) app->generate->layer = -1;
     if (generator) wr_generate_open(app, generator);
     return generator != NULL;
 }

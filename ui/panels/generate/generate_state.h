@@ -121,9 +121,8 @@ bool wr_generate_param_is_default(const WrGenerateState *hand, int param);
 void wr_generate_blame(WrGenerateState *hand);
 /* Set a text value, truncated if too long. */
 void wr_generate_set_text(WrGenerateValue *value, const char *text);
-/* True if the result goes to a generator layer, a new one or the edited one. */
-void wr_generate_leave_layer(WrApp *app); /* the values are those of a new layer from now on */
-bool wr_generate_makes_layer(const WrGenerateState *hand);
+/* Destination of the result. An edge (rim) is made once: that of a selection or a mask cannot be followed. */
+WrLineTarget wr_generate_target(const WrGenerateState *hand);
 /* To be called after a change of a value. */
 void wr_generate_changed(WrApp *app);
 void wr_generate_focus_text(WrApp *app);             /* give the keyboard focus to the text field */

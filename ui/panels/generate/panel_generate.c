@@ -540,12 +540,15 @@ static void destination(WrApp *app)
         return;
     }
     static const char *const labels[] = { "New layer", "Active layer" };
-    int index = hand->into_active;
+    const bool once = wr_family_find(hand->generator->family)->beyond;
+    int index = wr_generate_target(hand) == WR_LINE_INTO_ACTIVE;
+    wr_gui_disable(once);
     if (wr_gui_choice("destination", wr_gui_available(), labels, 2, &index)) {
         hand->into_active = index == 1;
         wr_generate_changed(app);
     }
-    wr_gui_tip(hand->into_active
+    wr_gui_disable_end();
+    wr_gui_tip(index == 1 || once
                    ? "It becomes heights of the active layer, inside the selection"
                    : "It becomes a generator layer: its values can be changed at any time");
 }
