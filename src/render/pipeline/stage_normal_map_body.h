@@ -330,21 +330,84 @@ static Spread spread_over(const WrTileJob *job, const Strip *strip, int i, const
     return sum;
 }
 
-/* The relief's slopes over the map's, which are the strip's, become the strip's. */
-static void combine_sample(const WrTileJob *job, Strip *strip, int i, REAL fu, REAL fv, Spread own)
+/* Spreads of the relief's slopes, `kept`, and of the map's, the strip's, become that of the combined ones. */
+static void combine_spreads(const WrTileJob *job, Strip *strip, REAL *const kept[6])
 {
-    const VEC n = normal_of(strip, i);
-    if (fu == (REAL)0 && fv == (REAL)0 && own.uu + own.vv == (REAL)0) return;
-    const Rise at = rise_of(strip, i);
-    const Over over =
-        over_map(job->plan->combine, gradient_by(job, strip, i, at, strip->fu[i], strip->fv[i]),
-                 gradient_by(job, strip, i, at, fu, fv));
-    const VEC g = gradient_of(v_sub(v_scale(n, over.z), over.top), n);
-    const REAL k = slopes_per_gradient(job, strip, i, g);
-    if (runs(job, WR_EFFECT_SPREAD))
+    for (int i = 0; i < strip->count; i++) {
+        const REAL fu = kept[1][i], fv = kept[2][i];
+        const Spread own = { kept[3][i], kept[4][i], kept[5][i] };
+        if (fu == (REAL)0 && fv == (REAL)0 && own.uu + own.vv == (REAL)0) continue;
+        const Rise at = rise_of(strip, i);
+        const Over over =
+            over_map(job->plan->combine, gradient_by(job, strip, i, at, strip->fu[i], strip->fv[i]),
+                     gradient_by(job, strip, i, at, fu, fv));
         put_spread(strip, i, spread_over(job, strip, i, &over, at, own));
-    strip->fu[i] = k * v_dot(g, along_u(strip, i));
-    strip->fv[i] = k * v_dot(g, along_v(strip, i));
+    }
+}
+
+/* Squares of products of two such gradients are within single precision. */
+#define STEEPEST ((REAL)1e6)
+
+static inline REAL square_root(REAL a)
+{
+    return (REAL)sqrt((double)a);
+}
+
+static inline REAL quotient(REAL a, REAL b)
+{
+    return b > (REAL)0 ? a / b : (REAL)0;
+}
+
+/* The relief's slopes over the map's, which are the strip's, become the strip's: over_map, gradient_of and
+   slopes_per_gradient for all samples, without branches. Where the relief is level the map's keep their bits.
+   turned, unit, whole: known where it is called, so that the loop is one of vectors. */
+static inline __attribute__((always_inline)) void
+combine_loop(bool turned, bool unit, bool whole, const REAL *own_u, const REAL *own_v, Strip *strip)
+{
+    const int count = strip->count;
+#pragma omp simd
+    for (int i = 0; i < count; i++) {
+        const VEC n = normal_of(strip, i), pu = along_u(strip, i), pv = along_v(strip, i);
+        const VEC ru = v_cross(pv, n), rv = v_cross(n, pu);
+        const REAL fu = strip->fu[i], fv = strip->fv[i], hu = own_u[i], hv = own_v[i];
+        VEC g = v_mad(v_scale(ru, fu), rv, fv), b = v_mad(v_scale(ru, hu), rv, hv);
+        const REAL lg = square_root(v_dot(g, g)), lb = square_root(v_dot(b, b));
+        const REAL inv = quotient(1, strip->n_len[i]);
+        const REAL kg = unit ? quotient(square_root(fu * fu + fv * fv), lg) : inv;
+        const REAL kb = unit ? quotient(square_root(hu * hu + hv * hv), lb) : inv;
+        g = v_scale(g, kg * lg > STEEPEST ? STEEPEST / lg : kg);
+        b = v_scale(b, kb * lb > STEEPEST ? STEEPEST / lb : kb);
+        const REAL w = square_root((REAL)1 + v_dot(g, g)), s = v_dot(g, b);
+        const REAL k = (REAL)1 / (turned ? (REAL)1 + w : w), z = (REAL)1 - (turned ? s : k * s);
+        const VEC top = v_mad(v_mad(g, b, w), g, -k * s);
+        const REAL least = (REAL)WR_NORMAL_MIN * square_root(z * z + v_dot(top, top));
+        const VEC sum = v_scale(top, (REAL)1 / (z > least ? z : least));
+        const REAL gu = v_dot(sum, pu), gv = v_dot(sum, pv);
+        REAL by = 1;
+        if (whole) {
+            const REAL along = v_dot(ru, pu), size = v_dot(pu, pu) * v_dot(pv, pv);
+            by = along * along > (REAL)1e-12 * size ? (REAL)1 / along : (REAL)0;
+        }
+        if (unit) {
+            const REAL even =
+                quotient(square_root(v_dot(sum, sum)), square_root(gu * gu + gv * gv));
+            by = by < (REAL)0 ? -even : by > (REAL)0 ? even : (REAL)0;
+        }
+        const bool level = (hu == (REAL)0) & (hv == (REAL)0);
+        strip->fu[i] = level ? fu : by * gu;
+        strip->fv[i] = level ? fv : by * gv;
+    }
+}
+
+static void combine_slopes(const WrTileJob *job, REAL *const kept[6], Strip *strip)
+{
+    const REAL *u = kept[1], *v = kept[2];
+    const bool turned = job->plan->combine == WR_COMBINE_REORIENTED, whole = met_whole(job);
+    if (job->plan->bump == WR_BUMP_INVARIANT) combine_loop(turned, true, whole, u, v, strip);
+    else if (whole && turned) combine_loop(true, false, true, u, v, strip);
+    else if (whole) combine_loop(false, false, true, u, v, strip);
+    else if (turned) combine_loop(true, false, false, u, v, strip);
+    else combine_loop(false, false, false, u, v, strip);
 }
 
 /* ---- whole strip --------------------------------------------------------------------------------- */
@@ -355,7 +418,8 @@ static void move_reals(REAL *to, const REAL *from, int count)
 }
 
 /* Heights add where slopes add: the map's slopes and their spread are added to the strip's, unless the object
-   combines them otherwise. The correlation of the two is neglected. The strip's own values are held in buffers that `widen` fills later. */
+   combines them otherwise. The correlation of the two is neglected. The strip's own values are held in buffers
+   that `widen` fills later. */
 static void look_map(const WrTileJob *job, const Rays *rays, Strip *strip, WrTileScratch *scratch,
                      Watch *watch)
 {
@@ -376,11 +440,9 @@ static void look_map(const WrTileJob *job, const Rays *rays, Strip *strip, WrTil
         turn_into_slopes(job, strip, i);
     if (runs(job, WR_EFFECT_REORIENTED)) {
         did(watch, WR_EFFECT_REORIENTED);
-        for (int i = 0; i < strip->count; i++) {
-            const Spread own = { kept[3][i], kept[4][i], kept[5][i] };
-            strip->f[i] = kept[0][i];
-            combine_sample(job, strip, i, kept[1][i], kept[2][i], own);
-        }
+        if (runs(job, WR_EFFECT_SPREAD)) combine_spreads(job, strip, kept);
+        combine_slopes(job, kept, strip);
+        move_reals(strip->f, kept[0], strip->count);
     }
     for (int c = 0; c < 6 && !runs(job, WR_EFFECT_REORIENTED); c++)
         for (int i = 0; i < strip->count; i++) sums[c][i] = kept[c][i] + sums[c][i];
