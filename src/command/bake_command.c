@@ -135,7 +135,8 @@ static bool put_normals(WrSession *session, const char *path, WrImage *image, bo
                           .channels = 3,
                           .object = object,
                           .frame = object ? WR_FRAME_AUTO : WR_FRAME_MIKK,
-                          .strength = 1 };
+                          .strength = 1,
+                          .combine = WR_COMBINE_REORIENTED };
     name_picture(&map->laid, path, taken);
     wr_session_replace_scene(session, scene);
     return true;

@@ -240,6 +240,8 @@ static void print_normals_line(const WrScene *scene, bool named, WrText *text)
                      map->channels);
     wr_text_add(text, " strength=");
     wr_text_add_number(text, map->strength);
+    if (map->combine != WR_COMBINE_SLOPES)
+        wr_text_addf(text, " combine=%s", wr_combine_names[map->combine]);
     wr_text_add(text, "\n");
 }
 
@@ -323,6 +325,7 @@ static bool take_normals(WrSession *session, WrCall *call, const char *name, WrN
     WrImage *file = find_laid(session, call, name, WR_OBJECT_NORMALS, err), *image = NULL;
     map->object = object;
     map->frame = WR_FRAME_AUTO;
+    map->combine = WR_COMBINE_SLOPES;
     map->strength = 1;
     if (file && session->loading) {
         map->green_down = wr_call_choice(call, "green") == WR_GREEN_DOWN;
@@ -390,9 +393,9 @@ static bool change_normals(WrSession *session, const WrCall *call, WrNormalMap *
 
 static bool run_normals(WrSession *session, WrCall *call, WrError *err)
 {
-    static const char *const of_map[] = { "space",  "frame",    "green",  "channels",
-                                          "coding", "strength", "repeat", "layer",
-                                          "part",   "sha256",   NULL };
+    static const char *const of_map[] = { "space",  "frame",    "green",   "channels",
+                                          "coding", "strength", "combine", "repeat",
+                                          "layer",  "part",     "sha256",  NULL };
     const WrArg *file = wr_call_arg(call, "FILE|off");
     const char *name = file->given ? file->text : NULL;
     const bool off = name && (strcmp(name, "off") == 0 || strcmp(name, "none") == 0);
@@ -411,6 +414,8 @@ static bool run_normals(WrSession *session, WrCall *call, WrError *err)
     if (good && wr_call_given(call, "frame"))
         map->frame = (WrNormalFrame)wr_call_choice(call, "frame");
     if (good && wr_call_given(call, "strength")) map->strength = wr_call_number(call, "strength");
+    if (good && wr_call_given(call, "combine"))
+        map->combine = (WrCombine)wr_call_choice(call, "combine");
     if (good) wr_session_replace_scene(session, scene);
     else wr_scene_free(scene);
     return good;
@@ -440,8 +445,8 @@ static const WrArgSpec args_normals[] = {
       .positional = true,
       .words = none_words,
       .help = "a picture of normals, or off (none is off too; a file of that name is ./off). Left "
-              "out: the one that is there, of which strength, repeat, space, frame and green may "
-              "change" },
+              "out: the one that is there, of which strength, combine, repeat, space, frame and "
+              "green may change" },
     { .name = "space",
       .type = WR_ARG_CHOICE,
       .words = spaces,
@@ -479,6 +484,14 @@ static const WrArgSpec args_normals[] = {
       .low = -100,
       .high = 100,
       .help = "its slopes times this. Of a new map: 1" },
+    { .name = "combine",
+      .type = WR_ARG_CHOICE,
+      .words = wr_combine_names,
+      .fallback_text = "slopes",
+      .help = "the table's relief over it. slopes: both add, as heights do; reoriented: the "
+              "relief's normal turns with the map's, as other programs combine a detail map; "
+              "surface: as reoriented, and the relief is flatter where the map's slope stretches "
+              "it, as heights along the map's normal are" },
     WR_ARGS_REPEAT,
     WR_ARGS_OF_FILE,
     WR_ARGS_SHA256,
@@ -512,7 +525,8 @@ const WrCommand wr_command_normalmap = {
     .of_object = true,
     .help = "a normal map on the surface",
     .details =
-        "Its slopes are added to those of the table. The map that `export normal` writes of a "
+        "Its slopes are added to those of the table, or combined otherwise (combine=). The map "
+        "that `export normal` writes of a "
         "table with "
         "cell=1,1 turns the normal as the table does. A picture of normals is data, and never "
         "colour-converted; 8-bit and 16-bit codes are 2 c/M - 1, float numbers by coding. "

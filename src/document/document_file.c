@@ -37,7 +37,8 @@ static WrSceneAge age_of_object(const WrScene *object)
         object->facets[WR_FACET_ROUGHNESS].image || object->facets[WR_FACET_METALNESS].image;
     const bool driving = object->grain.kind != WR_SOLID_TEXTURE_OFF &&
                          object->grain.drives != WR_SOLID_TEXTURE_COLOURS;
-    if (wr_scene_projected(object)) return WR_SCENE_OF_PROJECTION;
+    if (wr_scene_projected(object) || object->normals.combine != WR_COMBINE_SLOPES)
+        return WR_SCENE_OF_PROJECTION;
     if (pictured || driving || object->material.occlusion || object->parallax ||
         (object->colouring.count > 0 && object->colouring.hollow))
         return WR_SCENE_OF_FACETS;

@@ -44,9 +44,10 @@ typedef struct WrImageRows WrImageRows;
 
 #define WR_DOCUMENT_VERSION 11
 #define WR_DOCUMENT_VERSION_PROJECTION 10 /* for a file without generator layers */
-#define WR_DOCUMENT_VERSION_FILTERS 9     /* for a file without projected meshes */
-#define WR_DOCUMENT_VERSION_FACETS 8      /* for a file without filter layers */
-#define WR_DOCUMENT_VERSION_CELL 7        /* for a file without later features (document_file.h) */
+#define WR_DOCUMENT_VERSION_FILTERS                                                                \
+    9                                /* for a file without the features of WR_SCENE_OF_PROJECTION */
+#define WR_DOCUMENT_VERSION_FACETS 8 /* for a file without filter layers */
+#define WR_DOCUMENT_VERSION_CELL 7   /* for a file without later features (document_file.h) */
 #define WR_DOCUMENT_VERSION_SURROUND                                                               \
     6 /* for a file without a cell size and the features introduced with it */
 #define WR_DOCUMENT_VERSION_OBJECTS 5 /* for a file without an environment */
@@ -133,7 +134,8 @@ typedef enum WrSceneAge {
     WR_SCENE_OF_CELL, /* the cell's size, solid textures, tone, relief shadows, displacement */
     /* roughness and metalness pictures, occlusion, area lamps, hollows, sheets, frames */
     WR_SCENE_OF_FACETS,
-    WR_SCENE_OF_PROJECTION /* projections, creases, units and masks of meshes */
+    /* projections, creases, units and masks of meshes; relief over normal maps */
+    WR_SCENE_OF_PROJECTION
 } WrSceneAge;
 
 /* The newest feature in the scene that differs from its default in older programs. */

@@ -4,7 +4,7 @@
      n' = unit(x vT + y vB + z vN),   vB = sign vN x vT,   vT and vN interpolated and not normalised
 
    obtain n' = unit(n - grad F), grad F = Fu grad u + Fv grad v without its component along n
-   (surface/triangles.h). The slopes of the object's normal map are added to F's. Of several points with one (u,v) the last triangle counts: mirrored ones have the same
+   (surface/triangles.h). F's slopes are combined with those of the object's normal map. Of several points with one (u,v) the last triangle counts: mirrored ones have the same
    normal there. */
 #include "base/error.h"
 #include "base/memory.h"
@@ -49,7 +49,7 @@ static void corners_of(const Bake *bake, int32_t triangle, WrVec3 p[3], WrVec3 n
     }
 }
 
-/* Adds the slopes of the object's normal map, as pictures of the object show it. */
+/* Combines the slopes with those of the object's normal map, as pictures of the object show it. */
 static void add_normal_map(const Bake *bake, int32_t triangle, const double l[3], WrVec3 vt,
                            WrVec3 vn, double u, double v, double *fu, double *fv)
 {

@@ -31,7 +31,7 @@ static bool same_map(const WrNormalMap *a, const WrNormalMap *b)
 {
     return a->image == b->image && same_laid(&a->laid, &b->laid) && a->channels == b->channels &&
            a->green_down == b->green_down && a->object == b->object && a->frame == b->frame &&
-           a->strength == b->strength;
+           a->strength == b->strength && a->combine == b->combine;
 }
 
 static bool same_formula(const WrAnalytic *a, const WrAnalytic *b)

@@ -101,6 +101,7 @@ typedef struct WrNormalMap {
     bool object;         /* in the object's axes; else in tangent space, in that frame */
     WrNormalFrame frame; /* for tangent space */
     double strength;     /* -100..100: factor of its slopes */
+    WrCombine combine;   /* with the relief */
 } WrNormalMap;
 
 /* Maps of facet properties. */

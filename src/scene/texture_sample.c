@@ -3,6 +3,7 @@
 #include "field/field.h"
 #include "image/image.h"
 #include "scene/normal_map.h"
+#include "shade/bump.h"
 #include "surface/surface.h"
 #include "surface/triangles.h"
 
@@ -99,6 +100,28 @@ static void add_gradient(WrBumpMode mode, const WrSurfacePoint *at, WrVec3 g, do
     *fv += k * gv;
 }
 
+/* The gradient that these slopes turn the normal by: -D / |N|; under `invariant` of length hypot(Fu, Fv). */
+static WrVec3 gradient_by(WrBumpMode mode, const WrSurfacePoint *at, double fu, double fv)
+{
+    const WrVec3 none = { 0, 0, 0 }, d = wr_bump_d(at->n_unit, at->pu, at->pv, fu, fv);
+    const double length = v3_len(at->n);
+    if (mode == WR_BUMP_INVARIANT) return v3_scale(v3_unit(d, none), -hypot(fu, fv));
+    return length > 0 ? v3_scale(d, -1 / length) : none;
+}
+
+/* The relief's slopes Fu and Fv become those of the relief over a map of this gradient. */
+static void combine(const WrScene *scene, const WrSurfacePoint *at, WrVec3 g, double *fu,
+                    double *fv)
+{
+    const WrVec3 b = gradient_by(scene->bump, at, *fu, *fv);
+    const bool alone = scene->normals.combine == WR_COMBINE_SLOPES || v3_dot(b, b) == 0;
+    if (!alone) {
+        *fu = *fv = 0;
+        g = gradient_of(wr_bump_combined(scene->normals.combine, at->n_unit, g, b), at->n_unit);
+    }
+    add_gradient(scene->bump, at, g, fu, fv);
+}
+
 /* Slopes are averaged, not vectors: heights add where slopes add, and the mean of unit vectors is too short on
    rough maps. */
 static void mean_slopes(const WrTexels *at, double *p, double *q)
@@ -153,16 +176,17 @@ void wr_texture_sample_add_normals(const WrScene *scene, bool periodic_u, bool p
     wr_scene_repeat(scene, &map->laid, &ru, &rv);
     if (map->object) {
         const WrVec3 g = gradient_of(mean_vector(&texels), at->n_unit);
-        add_gradient(scene->bump, at, v3_scale(g, map->strength), fu, fv);
+        combine(scene, at, v3_scale(g, map->strength), fu, fv);
         return;
     }
     mean_slopes(&texels, &p, &q);
     p *= map->strength, q *= map->strength;
     if (wr_scene_frame(scene) == WR_FRAME_GRADIENT) {
-        *fu += p * ru, *fv += q * rv;
+        if (map->combine == WR_COMBINE_SLOPES) *fu += p * ru, *fv += q * rv;
+        else combine(scene, at, gradient_by(scene->bump, at, p * ru, q * rv), fu, fv);
     } else if (axes) {
         p *= sign_of(ru), q *= sign_of(rv);
         const WrVec3 m = v3_mad(v3_mad(axes->n, axes->t, -p), axes->b, -q);
-        add_gradient(scene->bump, at, gradient_of(m, at->n_unit), fu, fv);
+        combine(scene, at, gradient_of(m, at->n_unit), fu, fv);
     }
 }

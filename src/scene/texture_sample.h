@@ -31,7 +31,8 @@ WrNormalFrame wr_scene_frame(const WrScene *scene);
 bool wr_texture_sample_axes(WrNormalFrame frame, const WrSurfacePoint *at, WrMapAxes *axes);
 /* Adds the contribution of the scene's normal map to Fu and Fv. at: n, N, Pu, Pv. axes: of the point,
  * if the frame is mikk or lecture; else NULL. Slopes of heights are added directly; a normal n_m of a
- * frame or of the object's axes corresponds to the slopes whose gradient is g = n - n_m / (n . n_m). */
+ * frame or of the object's axes corresponds to the slopes whose gradient is g = n - n_m / (n . n_m).
+ * Unless slopes add, Fu and Fv, the relief's, are combined with it (wr_bump_combined). */
 void wr_texture_sample_add_normals(const WrScene *scene, bool periodic_u, bool periodic_v,
                                    const WrSurfacePoint *at, const WrMapAxes *axes, double u,
                                    double v, double *fu, double *fv);

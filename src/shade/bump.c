@@ -15,6 +15,9 @@ const WrBumpInfo wr_bumps[WR_BUMP_COUNT] = {
 };
 WR_ROWS_END(wr_bumps, WR_BUMP_COUNT);
 
+const char *const wr_combine_names[WR_COMBINE_COUNT + 1] = { "slopes", "reoriented", "surface",
+                                                             NULL };
+
 /* Vectors and numbers with a separate exponent, value = v 2^e, so that products of any finite inputs
    neither overflow nor underflow. Scaling by powers of two is exact: where the plain formula stays
    within double's range the result has its bits. */
@@ -241,4 +244,13 @@ double wr_bump_tilt_deg(WrVec3 n_unit, WrVec3 n_perturbed_unit)
 {
     double sine = v3_len(v3_cross(n_unit, n_perturbed_unit));
     return wr_atan2(sine, v3_dot(n_unit, n_perturbed_unit)) / WR_RAD_PER_DEG;
+}
+
+WrVec3 wr_bump_combined(WrCombine combine, WrVec3 n_unit, WrVec3 g, WrVec3 b)
+{
+    const double w = sqrt(1 + v3_dot(g, g)), along = v3_dot(g, b);
+    if (combine == WR_COMBINE_SLOPES) return v3_sub(n_unit, v3_add(g, b));
+    const bool turned = combine == WR_COMBINE_REORIENTED;
+    const WrVec3 tip = v3_mad(v3_mad(g, b, w), g, -along / (turned ? 1 + w : w));
+    return v3_sub(v3_scale(n_unit, 1 - (turned ? along : along / w)), tip);
 }

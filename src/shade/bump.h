@@ -55,3 +55,17 @@ WrVec3 wr_bump_unit_normal(WrBumpMode mode, WrVec3 n, WrVec3 n_unit, WrVec3 pu, 
 
 /* The angle between N and N' in degrees, atan2(|N x N'|, N.N'), 0..180. */
 double wr_bump_tilt_deg(WrVec3 n_unit, WrVec3 n_perturbed_unit);
+
+/* N' of a relief over a normal map. g, b: gradients across n_unit, whose normals are n - g, the map's, and n - b,
+ * the relief's. Not unit. With w = sqrt(1 + g.g), the length of the map's surface along g over the base:
+ *
+ *   slopes      n - (g + b)
+ *   reoriented  n (1 - g.b) - (g + w b - g (g.b) / (1 + w))       the rotation that takes n to n - g, of n - b:
+ *               Barre-Brisebois and Hill 2012, t (t.u) / t_z - u, multiplied out. Exact if the relief's slopes
+ *               are by lengths on the map's surface
+ *   surface     n (1 - g.b / w) - (g + w b - g (g.b) / w)         the same of b / w along g. Exact where heights
+ *               by u and v rise along the map's normal and that normal turns slowly: terms in its curvature are
+ *               dropped, as in `blinn`
+ *
+ * n - g if b is 0; proportional to n - b if g is 0. It may face away from n. */
+WrVec3 wr_bump_combined(WrCombine combine, WrVec3 n_unit, WrVec3 g, WrVec3 b);

@@ -250,6 +250,12 @@ static void mapped(WrScene *scene)
     }
 }
 
+static void reoriented(WrScene *scene)
+{
+    mapped(scene);
+    scene->normals.combine = WR_COMBINE_REORIENTED;
+}
+
 static void bilinear(WrScene *scene)
 {
     scene->scheme = WR_SCHEME_BILINEAR;
@@ -407,6 +413,7 @@ static const EffectCase effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_DISPLACED)] = { BUMPED, .with = displaced, .without = exact, .forced = true },
     [WR_ROW(WR_EFFECT_PARALLAX)] = { BUMPED, .with = parallax, .without = same, .forced = true },
     [WR_ROW(WR_EFFECT_BUMP)] = { BUMPED, .with = same },
+    [WR_ROW(WR_EFFECT_REORIENTED)] = { BUMPED, .with = reoriented },
     [WR_ROW(WR_EFFECT_GRADIENT)] = { BUMPED, .with = same, .without = bilinear },
     [WR_ROW(WR_EFFECT_WIDE)] = { BUMPED, .with = far_replicated },
     [WR_ROW(WR_EFFECT_INVARIANT)] = { BUMPED, .with = invariant },

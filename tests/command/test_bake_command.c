@@ -155,6 +155,7 @@ static void normals_are_the_objects_map(void **state)
     const WrNormalMap *map = &doc(s)->scene->normals;
     assert_int_equal(map->image->width, 24);
     assert_int_equal(map->frame, WR_FRAME_MIKK);
+    assert_int_equal(map->combine, WR_COMBINE_REORIENTED);
     assert_int_equal(doc(s)->layer_count, 1);
     for (int i = 0; i < 24 * 20; i++) {
         const double want[3] = { -0.1 / length, -0.05 / length, 1 / length };
@@ -170,6 +171,7 @@ static void normals_are_the_objects_map(void **state)
     map = &doc(s)->scene->normals;
     assert_near((double)map->image->data[0], -0.1 / length, 1e-6);
     assert_int_equal(map->frame, WR_FRAME_MIKK);
+    assert_int_equal(map->combine, WR_COMBINE_REORIENTED);
     wr_session_free(s);
 }
 

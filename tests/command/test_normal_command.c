@@ -109,6 +109,10 @@ static void settings_change_without_the_file(void **state)
     must_run(s, "normalmap strength=2 repeat=2,-0.5");
     assert_true(map_of(s)->strength == 2 && map_of(s)->laid.rv == -0.5 &&
                 map_of(s)->image == image);
+    must_run(s, "normalmap combine=surface");
+    assert_true(map_of(s)->combine == WR_COMBINE_SURFACE && map_of(s)->strength == 2);
+    must_run(s, "undo");
+    assert_true(map_of(s)->combine == WR_COMBINE_SLOPES);
     must_run(s, "normalmap green=down");
     assert_true(map_of(s)->green_down && map_of(s)->image->data[1] == -y);
     must_run(s, "undo");
@@ -203,7 +207,7 @@ static void files_bring_them_back(void **state)
     must_run(a, "normalmap 16.tif repeat=3,2");
     must_run(a, "colour 8.png");
     must_run(a, "object add three at=0,1.5,0");
-    must_run(a, "normalmap f.exr channels=2 strength=-0.5");
+    must_run(a, "normalmap f.exr channels=2 strength=-0.5 combine=reoriented");
     must_run(a, "object add four at=1.5,1.5,0");
     must_run(a, "surface torus");
     must_run(a, "normalmap f.exr space=object");
@@ -226,6 +230,8 @@ static void files_bring_them_back(void **state)
             assert_memory_equal(x->image->data, y->image->data, 24 * 17 * 3 * sizeof(float));
             assert_true(x->strength == y->strength && x->channels == y->channels);
             assert_true(x->green_down == y->green_down && x->object == y->object);
+            assert_true(x->combine == y->combine &&
+                        x->combine == (k == 2 ? WR_COMBINE_REORIENTED : WR_COMBINE_SLOPES));
         }
         must_run(b, "object choose two");
         must_run(b, "normalmap green=up"); /* of a map without a file */
@@ -387,36 +393,46 @@ static void numbers_between_two_codes_are_written_too(void **state)
 static void a_baked_map_holds_the_normal_map_too(void **state)
 {
     (void)state;
-    static float both[60 * 40 * 4], one[60 * 40 * 4], bump[60 * 40 * 4];
-    static const char *const frames[] = { "mikk", "lecture", "gradient" };
+    static float both[60 * 40 * 4], one[60 * 40 * 4], bump[60 * 40 * 4], added[60 * 40 * 4];
+    static const char *const frames[] = { "mikk", "lecture", "gradient", "mikk", "mikk" };
     write_ball("ball.obj");
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 5; k++) {
+        const int combine = k < 3 ? 0 : k - 2;
         Said said = { "" };
         WrText line = { 0 };
         WrSession *s = told_session(&said);
         must_run(s, "table 512x512");
         must_run(s, "formula fourier terms=3,2,0.5,0,0");
         must_run(s, "surface mesh file=ball.obj");
-        must_run(s, "bump height=0.02 scheme=bspline");
+        must_run(s, combine ? "bump height=0.2 scheme=bspline" : "bump height=0.02 scheme=bspline");
         must_run(s, "export normal-baked first.exr");
-        wr_text_addf(&line, "normalmap first.exr frame=%s strength=0.7", frames[k]);
+        wr_text_addf(&line, "normalmap first.exr frame=%s strength=0.7 combine=%s", frames[k],
+                     wr_combine_names[combine]);
         must_run(s, wr_text_get(&line));
         must_run(s, "formula fourier terms=0,5,0.3,0,0 blend=replace");
         draw(s, both);
         must_run(s, "export normal-baked both.exr");
+        must_run(s, "normalmap combine=slopes");
+        draw(s, added);
         must_run(s, "normalmap off");
         draw(s, bump);
         must_run(s, "fill 0");
         must_run(s, "normalmap both.exr frame=mikk");
         draw(s, one);
-        double sum = 0, map = 0;
+        double sum = 0, map = 0, sums = 0;
         for (int i = 0; i < 60 * 40 * 4; i++) {
             sum += pow((double)(both[i] - one[i]), 2), map += pow((double)(both[i] - bump[i]), 2);
+            sums += pow((double)(both[i] - added[i]), 2);
         }
         const double rms = sqrt(sum / (60 * 40 * 4)), rms_map = sqrt(map / (60 * 40 * 4));
-        if (getenv("WR_SHOW")) printf("%s: rms %g, of the map %g\n", frames[k], rms, rms_map);
-        if (!(rms < 6e-4 && rms_map > 4 * rms))
-            fail_msg("%s: rms %g, of the map %g", frames[k], rms, rms_map);
+        const double rms_added = sqrt(sums / (60 * 40 * 4));
+        if (getenv("WR_SHOW"))
+            printf("%s: rms %g, of the map %g, added %g\n", wr_text_get(&line), rms, rms_map,
+                   rms_added);
+        if (!(rms < (combine ? 2e-3 : 6e-4) && rms_map > 4 * rms))
+            fail_msg("%s: rms %g, of the map %g", wr_text_get(&line), rms, rms_map);
+        if (combine ? !(rms_added > 2 * rms) : rms_added != 0)
+            fail_msg("%s: rms %g, added %g", wr_text_get(&line), rms, rms_added);
         wr_text_fini(&line);
         wr_session_free(s);
     }

@@ -140,6 +140,7 @@ static WrScene *mixed_scene(int k)
     if (k % 9 == 7) scene->material.gate = true;
     scene->normals.frame = (WrNormalFrame)(k / 2 % 4);
     scene->normals.object = k % 11 == 8;
+    scene->normals.combine = (WrCombine)(k % 4 % WR_COMBINE_COUNT);
     return scene;
 }
 

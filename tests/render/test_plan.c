@@ -237,6 +237,18 @@ static void mapped_smooth(Stage *stage)
     smooth(stage);
 }
 
+static void reoriented(Stage *stage)
+{
+    mapped(stage);
+    stage->scene->normals.combine = WR_COMBINE_REORIENTED;
+}
+
+static void reoriented_alone(Stage *stage)
+{
+    reoriented(stage);
+    no_height(stage);
+}
+
 static void filtered_still(Stage *stage)
 {
     exact(stage);
@@ -745,6 +757,7 @@ static const Case cases[WR_EFFECT_COUNT] = {
                            { level, 0 },
                            { checkered, 0 },
                            { smooth, NOTHING } } },
+    [WR_EFFECT_REORIENTED] = { reoriented, { { reoriented_alone, 0 }, { mapped, NOTHING } } },
     [WR_EFFECT_GRADIENT] = { keep_all, { { bilinear, NOTHING } } },
     [WR_EFFECT_WIDE] = { far_replicated, { { keep_all, 1e-3 }, { smooth, NOTHING } } },
     [WR_EFFECT_INVARIANT] = { invariant, { { invariant_square, 1e-5 }, { keep_all, NOTHING } } },

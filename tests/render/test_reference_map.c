@@ -151,6 +151,90 @@ static void pictures_have_the_references_normals(void **state)
     }
 }
 
+/* Relief that turns with the map: kernels and reference in all frames, bump modes and repetitions. */
+static void relief_over_a_map_has_the_references_normals(void **state)
+{
+    (void)state;
+    for (int k = 0; k < (getenv("WR_FULL") ? 168 : 48); k++) {
+        int count;
+        WrScene *scene = scene_number(k);
+        WrField *field = random_field(41, 29, 3);
+        if (scene->height == 0) scene->height = 0.003;
+        scene->normals.combine = k / 2 % 2 ? WR_COMBINE_SURFACE : WR_COMBINE_REORIENTED;
+        if (scene->bump == WR_BUMP_BLINN) scene->bump = WR_BUMP_EXACT;
+        const double worst = worst_angle(scene, field, &count);
+        if (getenv("WR_SHOW")) printf("%2d: %g of %d\n", k, worst, count);
+        if (!(count > 150 && worst < 2e-3)) fail_msg("case %d: %g of %d", k, worst, count);
+        wr_scene_free(scene);
+        wr_field_free(field);
+    }
+}
+
+/* A plane whose map leans by one slope everywhere: reoriented normals are those of the plane without a map, turned
+   as the map turns z (Rodrigues); added slopes are not. In single precision too. */
+static void on_a_leaning_plane_the_relief_is_turned(void **state)
+{
+    static float normals[3][40 * 37][3];
+    (void)state;
+    for (int k = 0; k < 12; k++) {
+        const double p = 0.37 + 0.09 * k, q = 0.81 - 0.13 * k;
+        const double length = sqrt(1 + p * p + q * q);
+        const double axis[3] = { q / hypot(p, q), -p / hypot(p, q), 0 }; /* z x (-p, -q, 1) */
+        WrField *field = random_field(23, 31, (uint64_t)k);
+        WrRenderer *renderer = wr_renderer_new(NULL, "auto", NULL);
+        WrScene *scene = scene_of("plane");
+        WrImage *file = wr_image_new(3, 2, 3, NULL);
+        file->type = WR_PIXEL_F32;
+        for (int t = 0; t < 18; t += 3) {
+            file->data[t] = (float)(-p / length), file->data[t + 1] = (float)(-q / length);
+            file->data[t + 2] = (float)(1 / length);
+        }
+        put_map(scene, file, WR_GREEN_UP, 0);
+        scene->normals.laid = (WrTextureSample){ .own = true, .ru = 1, .rv = 1 };
+        scene->normals.frame = k % 3 == 1   ? WR_FRAME_MIKK
+                               : k % 3 == 2 ? WR_FRAME_LECTURE
+                                            : WR_FRAME_GRADIENT;
+        scene->height = 0.01;
+        scene->posed = true, scene->rotate_deg = (WrVec3){ 0, -15, 0 };
+        if (k % 2) scene->dials.shading = WR_SHADING_DOUBLE;
+        WrFrame frame;
+        for (int s = 0; s < 3; s++) {
+            const WrFrameRequest request = { .field = field,
+                                             .scene = scene,
+                                             .width = 40,
+                                             .height = 37,
+                                             .turn_deg = 15,
+                                             .normals = normals[s][0] };
+            scene->normals.strength = s > 0;
+            scene->normals.combine = s == 1 ? WR_COMBINE_REORIENTED : WR_COMBINE_SLOPES;
+            assert_true(wr_renderer_frame(renderer, &request, &frame, NULL));
+        }
+        int seen = 0;
+        double worst = 0, added = 0;
+        for (int i = 0; i < 40 * 37; i++) {
+            if (!(frame.rgba[4 * i + 3] > 0)) continue;
+            const float *d = normals[0][i];
+            const double c = 1 / length, s = sqrt(1 - c * c);
+            const double a[3] = { (double)d[0], (double)d[1], (double)d[2] };
+            const double along = (axis[0] * a[0] + axis[1] * a[1]) * (1 - c);
+            const double want[3] = { a[0] * c + axis[1] * a[2] * s + axis[0] * along,
+                                     a[1] * c - axis[0] * a[2] * s + axis[1] * along,
+                                     a[2] * c + (axis[0] * a[1] - axis[1] * a[0]) * s };
+            seen++;
+            for (int j = 0; j < 3 && want[2] > 0.01; j++) {
+                worst = fmax(worst, fabs((double)normals[1][i][j] - want[j]));
+                added = fmax(added, fabs((double)normals[2][i][j] - want[j]));
+            }
+        }
+        if (getenv("WR_SHOW")) printf("%2d: turned %g, added %g\n", k, worst, added);
+        if (!(seen > 300 && worst < 2e-5 && added > 0.05))
+            fail_msg("case %d: %g, added %g", k, worst, added);
+        wr_renderer_free(renderer);
+        wr_scene_free(scene);
+        wr_field_free(field);
+    }
+}
+
 /* A mesh in front of another, both with tangent frames: a hidden point does not use the other mesh's triangles. */
 static void objects_that_hide_each_other_have_them_too(void **state)
 {
@@ -410,6 +494,79 @@ static void filtered_maps_come_near_the_reference(void **state)
     }
 }
 
+/* Rough relief over a rough map that leans by 35 degrees, both finer than pixels, in a mirror's direction: the widened
+   highlight is close to many samples. Without relief's and map's share of the turn it is too narrow. */
+static void moments_of_relief_over_a_map_come_near_the_reference(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        double error[2], mean = 0;
+        WrScene *scene = scene_of("plane");
+        WrImage *file = wr_image_new(530, 470, 3, NULL);
+        WrField *field = wr_field_new(510, 490, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+        file->type = WR_PIXEL_F32;
+        for (int t = 0; t < 530 * 470; t++) {
+            const double x = 2 * WR_PI * (t % 530) / 530, y = 2 * WR_PI * (t / 530) / 470;
+            const double p = 0.7 + 0.1 * sin(41 * x + 3 * y), q = 0.1 * sin(5 * x - 37 * y);
+            const double w = sqrt(1 + p * p + q * q);
+            file->data[3 * t] = (float)(-p / w), file->data[3 * t + 1] = (float)(-q / w);
+            file->data[3 * t + 2] = (float)(1 / w);
+        }
+        for (int t = 0; t < 510 * 490; t++) {
+            const double x = 2 * WR_PI * (t % 510) / 510, y = 2 * WR_PI * (t / 510) / 490;
+            wr_field_set(
+                field, t % 510, t / 510,
+                (float)(sin(43 * x - 11 * y) + sin(31 * x + 29 * y) + sin(7 * x + 47 * y)));
+        }
+        put_map(scene, file, WR_GREEN_UP, 0);
+        scene->normals.laid = (WrTextureSample){ .own = true, .ru = 1, .rv = 1 };
+        scene->normals.combine = k % 2 ? WR_COMBINE_SURFACE : WR_COMBINE_REORIENTED;
+        scene->replicate_u = scene->replicate_v = 1;
+        scene->height = k / 2 ? 0.0003 : 0.0006;
+        scene->posed = true, scene->rotate_deg = (WrVec3){ 0, -15, 0 };
+        scene->camera.orthographic = true, scene->camera.size = 1.1;
+        scene->lights[0].kind = WR_LIGHT_DIRECTIONAL;
+        scene->lights[0].where = (WrVec3){ -sin(2 * atan(0.7)), 0, cos(2 * atan(0.7)) };
+        scene->material.diffuse = 0, scene->material.specular = 1, scene->material.shininess = 60;
+        scene->dials.moments = WR_MOMENTS_LEAN;
+        scene->dials.footprint = WR_FOOTPRINT_ANISOTROPIC;
+        scene->scheme = WR_SCHEME_CENTRAL;
+        const WrReferenceRequest truth = { .field = field,
+                                           .scene = scene,
+                                           .width = 32,
+                                           .height = 32,
+                                           .turn_deg = 15,
+                                           .first = 16,
+                                           .most = 16 };
+        WrReference reference = { 0 };
+        WrError err = { "" };
+        if (!wr_reference_render(&truth, NULL, &reference, &err)) fail_msg("%s", err.text);
+        double bias[2] = { 0, 0 };
+        for (int f = 0; f < 2; f++) {
+            scene->dials.aa = f ? WR_AA_MOMENTS : WR_AA_FILTER;
+            Shot shot = shoot(scene, field, 32, 32, 1, "auto", false);
+            double squares = 0;
+            int inside = 0;
+            mean = 0;
+            for (int i = 0; i < 32 * 32; i++) {
+                if (reference.rgba[4 * i + 3] < 1 || shot.frame.rgba[4 * i + 3] < 1) continue;
+                const double d = (double)shot.frame.rgba[4 * i] - reference.rgba[4 * i];
+                squares += d * d, inside++, mean += reference.rgba[4 * i], bias[f] += d;
+            }
+            error[f] = sqrt(squares / inside), mean /= inside, bias[f] /= inside;
+            put_away(&shot);
+        }
+        if (getenv("WR_SHOW"))
+            printf("%d: mean %g; off by filter %g, %g in the mean, moments %g, %g\n", k, mean,
+                   error[0], bias[0], error[1], bias[1]);
+        if (!(error[1] < 0.09 && fabs(bias[1]) < 0.06 && bias[0] > 0.25))
+            fail_msg("case %d: %g, %g in the mean", k, error[1], bias[1]);
+        wr_reference_fini(&reference);
+        wr_scene_free(scene);
+        wr_field_free(field);
+    }
+}
+
 /* A sphere with height 1 everywhere, displaced by c, is a sphere of radius R + c: the probe of a pixel matches that
    sphere. */
 static void a_displaced_ball_is_told_of_as_a_larger_one(void **state)
@@ -460,11 +617,14 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_displaced_ball_is_told_of_as_a_larger_one),
         cmocka_unit_test(pictures_have_the_references_normals),
+        cmocka_unit_test(relief_over_a_map_has_the_references_normals),
+        cmocka_unit_test(on_a_leaning_plane_the_relief_is_turned),
         cmocka_unit_test(objects_that_hide_each_other_have_them_too),
         cmocka_unit_test(one_triangle_turns_the_map_as_by_hand),
         cmocka_unit_test(a_fold_takes_the_normal_of_length_1),
         cmocka_unit_test(a_probe_has_the_map),
         cmocka_unit_test(filtered_maps_come_near_the_reference),
+        cmocka_unit_test(moments_of_relief_over_a_map_come_near_the_reference),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

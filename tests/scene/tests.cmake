@@ -1,2 +1,3 @@
 wr_test(scene scene)
 wr_test(normal_map scene)
+wr_test(combine scene)

@@ -193,7 +193,8 @@ static void normal_rows(WrApp *app)
         spaces[] = { "Tangent plane", "Object's axes" },
         *const space_words[] = { "tangent", "object" }, *const greens[] = { "Up", "Down" },
         *const green_words[] = { "up", "down" },
-        *const frames[] = { "Automatic", "Slopes of heights", "MikkTSpace", "As in the lecture" };
+        *const frames[] = { "Automatic", "Slopes of heights", "MikkTSpace", "As in the lecture" },
+        *const combines[] = { "Slopes add", "Turned with it", "On its surface" };
     static const WrNumber strength = { .low = -2,
                                        .high = 2,
                                        .hard_low = -100,
@@ -212,6 +213,11 @@ static void normal_rows(WrApp *app)
                  "Which way it turns the normal: as slopes of heights, as our own export writes "
                  "them, or in the frames that other programs bake in. Automatic: on a mesh those "
                  "of MikkTSpace");
+    word_row(app, "Relief over it", "combine", combines, wr_combine_names, WR_COMBINE_COUNT,
+             (int)map.combine,
+             "How the table's relief lies on this map. Slopes add: as heights over the object. "
+             "Turned with it: its normals turn as the map turned the object's. On its surface: "
+             "also flatter where the map's slope stretches it");
     double value = map.strength;
     wr_gui_label("Strength");
     const WrEdit edit = wr_gui_number("strength", 0, &strength, &value);

@@ -128,7 +128,8 @@ static bool bends_at_once(const WrTileJob *job, const WrSink *sink)
            !runs(job, WR_EFFECT_FILTER) && !runs(job, WR_EFFECT_TINT) &&
            !runs(job, WR_EFFECT_SPREAD) && !runs(job, WR_EFFECT_SHADOW) &&
            !runs(job, WR_EFFECT_PARALLAX) && !job->plan->map_filtered &&
-           !job->plan->facets_filtered && job->plan->map_frame == WR_FRAME_GRADIENT && !sink->bound;
+           !runs(job, WR_EFFECT_REORIENTED) && !job->plan->facets_filtered &&
+           job->plan->map_frame == WR_FRAME_GRADIENT && !sink->bound;
 }
 
 /* P, n, and the other parts of the surface's frame that the plan needs.
@@ -154,7 +155,7 @@ static void surface_strip(const WrTileJob *job, int face, bool level, const WrSi
 }
 
 /* n' of the samples, from the table's slopes if it has any.
-   Order: slopes of the table, then those of the normal map are added, then eased towards the horizon, then n'.
+   Order: slopes of the table, then those of the normal map are added to them or combined, then eased towards the horizon, then n'.
    The solid texture bends n' afterwards, because its slopes are in space and not along Pu, Pv. */
 static void bend_strip(const WrTileJob *job, const Rays *rays, bool level, const WrSink *sink,
                        Strip *strip, WrTileScratch *scratch, Watch *watch)

@@ -1,5 +1,5 @@
 /* stage_normal_map_body.h - normal mapping: the map's slopes, or its vectors in local axes converted to slopes,
-   are added to the table's slopes. Part of pipeline_body.h. */
+   are added to the table's slopes or combined with them. Part of pipeline_body.h. */
 
 /* ---- fetches ------------------------------------------------------------------------------------- */
 
@@ -198,6 +198,30 @@ static VEC gradient_of(VEC m, VEC n)
     return v_scale(v_mad(m, n, -z), inv);
 }
 
+/* Covariance of slopes. */
+typedef struct Spread {
+    REAL uu, uv, vv;
+} Spread;
+
+static Spread spread_of(const Strip *strip, int i)
+{
+    return (Spread){ strip->suu[i], strip->suv[i], strip->svv[i] };
+}
+
+/* That of u[0] x + u[1] y and v[0] x + v[1] y, from that of x and y. */
+static Spread carried(Spread of, const REAL u[2], const REAL v[2])
+{
+    return (Spread){ u[0] * u[0] * of.uu + (REAL)2 * u[0] * u[1] * of.uv + u[1] * u[1] * of.vv,
+                     u[0] * v[0] * of.uu + (u[0] * v[1] + u[1] * v[0]) * of.uv +
+                         u[1] * v[1] * of.vv,
+                     v[0] * v[0] * of.uu + (REAL)2 * v[0] * v[1] * of.uv + v[1] * v[1] * of.vv };
+}
+
+static void put_spread(Strip *strip, int i, Spread spread)
+{
+    strip->suu[i] = spread.uu, strip->suv[i] = spread.uv, strip->svv[i] = spread.vv;
+}
+
 /* Converts a sample's map values to slopes. Input: p and q along the local t and b, with their covariance; or a
    vector along the object's axes, without covariance. */
 static void turn_into_slopes(const WrTileJob *job, Strip *strip, int i)
@@ -222,12 +246,168 @@ static void turn_into_slopes(const WrTileJob *job, Strip *strip, int i)
     strip->fv[i] = k * v_dot(g, pv);
     /* to first order the axes transform the covariance */
     const REAL z = v_dot(at.n, n), by = z > (REAL)0 ? k / z : (REAL)0;
-    const REAL uu = by * v_dot(at.t, pu), uv = by * v_dot(at.b, pu);
-    const REAL vu = by * v_dot(at.t, pv), vv = by * v_dot(at.b, pv);
-    const REAL a = strip->suu[i], b = strip->suv[i], c = strip->svv[i];
-    strip->suu[i] = uu * uu * a + (REAL)2 * uu * uv * b + uv * uv * c;
-    strip->suv[i] = uu * vu * a + (uu * vv + uv * vu) * b + uv * vv * c;
-    strip->svv[i] = vu * vu * a + (REAL)2 * vu * vv * b + vv * vv * c;
+    const REAL u[2] = { by * v_dot(at.t, pu), by * v_dot(at.b, pu) };
+    const REAL v[2] = { by * v_dot(at.t, pv), by * v_dot(at.b, pv) };
+    put_spread(strip, i, carried(spread_of(strip, i), u, v));
+}
+
+/* ---- relief over the map ------------------------------------------------------------------------- */
+
+/* The combined normal n z - top (shade/bump.h) of the gradients g, the map's, and b, the relief's:
+   top = g + w b - k s g, z = 1 - h s, s = g.b, with k = 1 / (1 + w), h = 1 for `reoriented` and k = h = 1 / w for
+   `surface`. */
+typedef struct Over {
+    VEC g, b, top;
+    REAL w, s, k, h, z;
+    bool turned; /* reoriented */
+} Over;
+
+static Over over_map(WrCombine combine, VEC g, VEC b)
+{
+    Over at = { .g = g, .b = b, .turned = combine == WR_COMBINE_REORIENTED };
+    at.w = (REAL)sqrt((double)((REAL)1 + v_dot(g, g)));
+    at.s = v_dot(g, b);
+    at.k = (REAL)1 / (at.turned ? (REAL)1 + at.w : at.w);
+    at.h = at.turned ? (REAL)1 : at.k;
+    at.top = v_mad(v_mad(g, b, at.w), g, -at.k * at.s);
+    at.z = (REAL)1 - at.h * at.s;
+    return at;
+}
+
+/* Change of the gradient top / z by small changes of g and b. k' = -k k w' in both. */
+static VEC change_by(const Over *at, VEC dg, VEC db)
+{
+    const REAL dw = v_dot(at->g, dg) / at->w, ds = v_dot(dg, at->b) + v_dot(at->g, db);
+    const REAL dk = -at->k * at->k * dw, dh = at->turned ? (REAL)0 : dk;
+    const REAL least = (REAL)WR_NORMAL_MIN * (length_of(at->top) + (at->z > 0 ? at->z : -at->z));
+    const REAL inv = (REAL)1 / (at->z > least ? at->z : least);
+    VEC top = v_mad(v_mad(dg, at->b, dw), db, at->w);
+    top = v_mad(v_mad(top, at->g, -dk * at->s - at->k * ds), dg, -at->k * at->s);
+    return v_scale(v_mad(top, at->top, inv * (dh * at->s + at->h * ds)), inv);
+}
+
+/* Directions, across n, in which Fu and Fv rise: Pv x n and n x Pu, |N| times their gradients. */
+typedef struct Rise {
+    VEC u, v;
+} Rise;
+
+static Rise rise_of(const Strip *strip, int i)
+{
+    const VEC n = normal_of(strip, i);
+    return (Rise){ v_cross(along_v(strip, i), n), v_cross(n, along_u(strip, i)) };
+}
+
+/* The gradient of slopes; under `invariant` their length is its own. */
+static VEC gradient_by(const WrTileJob *job, const Strip *strip, int i, Rise at, REAL fu, REAL fv)
+{
+    const VEC sum = v_mad(v_scale(at.u, fu), at.v, fv);
+    if (job->plan->bump == WR_BUMP_INVARIANT)
+        return v_scale(unit_of(sum), (REAL)sqrt((double)(fu * fu + fv * fv)));
+    return v_scale(sum, strip->n_len[i] > (REAL)0 ? (REAL)1 / strip->n_len[i] : (REAL)0);
+}
+
+/* Spread of the relief's and of the map's slopes, to first order, each as a change of the combined ones. */
+static Spread spread_over(const WrTileJob *job, const Strip *strip, int i, const Over *over,
+                          Rise at, Spread own)
+{
+    const VEC none = { 0, 0, 0 }, pu = along_u(strip, i), pv = along_v(strip, i);
+    const bool unit = job->plan->bump == WR_BUMP_INVARIANT;
+    const REAL inv = strip->n_len[i] > (REAL)0 ? (REAL)1 / strip->n_len[i] : (REAL)0;
+    const VEC a = unit ? unit_of(at.u) : v_scale(at.u, inv);
+    const VEC b = unit ? unit_of(at.v) : v_scale(at.v, inv);
+    const REAL au = v_dot(a, pu), bv = v_dot(b, pv);
+    const VEC to_u = v_scale(pu, au != (REAL)0 ? (REAL)1 / au : (REAL)0);
+    const VEC to_v = v_scale(pv, bv != (REAL)0 ? (REAL)1 / bv : (REAL)0);
+    Spread sum = { 0, 0, 0 };
+    for (int k = 0; k < 2; k++) {
+        const VEC x = change_by(over, k ? a : none, k ? none : a);
+        const VEC y = change_by(over, k ? b : none, k ? none : b);
+        const Spread part =
+            carried(k ? spread_of(strip, i) : own, (REAL[2]){ v_dot(to_u, x), v_dot(to_u, y) },
+                    (REAL[2]){ v_dot(to_v, x), v_dot(to_v, y) });
+        sum.uu += part.uu, sum.uv += part.uv, sum.vv += part.vv;
+    }
+    return sum;
+}
+
+/* Spreads of the relief's slopes, `kept`, and of the map's, the strip's, become that of the combined ones. */
+static void combine_spreads(const WrTileJob *job, Strip *strip, REAL *const kept[6])
+{
+    for (int i = 0; i < strip->count; i++) {
+        const REAL fu = kept[1][i], fv = kept[2][i];
+        const Spread own = { kept[3][i], kept[4][i], kept[5][i] };
+        if (fu == (REAL)0 && fv == (REAL)0 && own.uu + own.vv == (REAL)0) continue;
+        const Rise at = rise_of(strip, i);
+        const Over over =
+            over_map(job->plan->combine, gradient_by(job, strip, i, at, strip->fu[i], strip->fv[i]),
+                     gradient_by(job, strip, i, at, fu, fv));
+        put_spread(strip, i, spread_over(job, strip, i, &over, at, own));
+    }
+}
+
+/* Squares of products of two such gradients are within single precision. */
+#define STEEPEST ((REAL)1e6)
+
+static inline REAL square_root(REAL a)
+{
+    return (REAL)sqrt((double)a);
+}
+
+static inline REAL quotient(REAL a, REAL b)
+{
+    return b > (REAL)0 ? a / b : (REAL)0;
+}
+
+/* The relief's slopes over the map's, which are the strip's, become the strip's: over_map, gradient_of and
+   slopes_per_gradient for all samples, without branches. Where the relief is level the map's keep their bits.
+   turned, unit, whole: known where it is called, so that the loop is one of vectors. */
+static inline __attribute__((always_inline)) void
+combine_loop(bool turned, bool unit, bool whole, const REAL *own_u, const REAL *own_v, Strip *strip)
+{
+    const int count = strip->count;
+#pragma omp simd
+    for (int i = 0; i < count; i++) {
+        const VEC n = normal_of(strip, i), pu = along_u(strip, i), pv = along_v(strip, i);
+        const VEC ru = v_cross(pv, n), rv = v_cross(n, pu);
+        const REAL fu = strip->fu[i], fv = strip->fv[i], hu = own_u[i], hv = own_v[i];
+        VEC g = v_mad(v_scale(ru, fu), rv, fv), b = v_mad(v_scale(ru, hu), rv, hv);
+        const REAL lg = square_root(v_dot(g, g)), lb = square_root(v_dot(b, b));
+        const REAL inv = quotient(1, strip->n_len[i]);
+        const REAL kg = unit ? quotient(square_root(fu * fu + fv * fv), lg) : inv;
+        const REAL kb = unit ? quotient(square_root(hu * hu + hv * hv), lb) : inv;
+        g = v_scale(g, kg * lg > STEEPEST ? STEEPEST / lg : kg);
+        b = v_scale(b, kb * lb > STEEPEST ? STEEPEST / lb : kb);
+        const REAL w = square_root((REAL)1 + v_dot(g, g)), s = v_dot(g, b);
+        const REAL k = (REAL)1 / (turned ? (REAL)1 + w : w), z = (REAL)1 - (turned ? s : k * s);
+        const VEC top = v_mad(v_mad(g, b, w), g, -k * s);
+        const REAL least = (REAL)WR_NORMAL_MIN * square_root(z * z + v_dot(top, top));
+        const VEC sum = v_scale(top, (REAL)1 / (z > least ? z : least));
+        const REAL gu = v_dot(sum, pu), gv = v_dot(sum, pv);
+        REAL by = 1;
+        if (whole) {
+            const REAL along = v_dot(ru, pu), size = v_dot(pu, pu) * v_dot(pv, pv);
+            by = along * along > (REAL)1e-12 * size ? (REAL)1 / along : (REAL)0;
+        }
+        if (unit) {
+            const REAL even =
+                quotient(square_root(v_dot(sum, sum)), square_root(gu * gu + gv * gv));
+            by = by < (REAL)0 ? -even : by > (REAL)0 ? even : (REAL)0;
+        }
+        const bool level = (hu == (REAL)0) & (hv == (REAL)0);
+        strip->fu[i] = level ? fu : by * gu;
+        strip->fv[i] = level ? fv : by * gv;
+    }
+}
+
+static void combine_slopes(const WrTileJob *job, REAL *const kept[6], Strip *strip)
+{
+    const REAL *u = kept[1], *v = kept[2];
+    const bool turned = job->plan->combine == WR_COMBINE_REORIENTED, whole = met_whole(job);
+    if (job->plan->bump == WR_BUMP_INVARIANT) combine_loop(turned, true, whole, u, v, strip);
+    else if (whole && turned) combine_loop(true, false, true, u, v, strip);
+    else if (whole) combine_loop(false, false, true, u, v, strip);
+    else if (turned) combine_loop(true, false, false, u, v, strip);
+    else combine_loop(false, false, false, u, v, strip);
 }
 
 /* ---- whole strip --------------------------------------------------------------------------------- */
@@ -237,8 +417,9 @@ static void move_reals(REAL *to, const REAL *from, int count)
     memcpy(to, from, (size_t)count * sizeof *to);
 }
 
-/* Heights add where slopes add: the map's slopes and their spread are added to the strip's. The correlation of
-   the two is neglected. The strip's own values are held in buffers that `widen` fills later. */
+/* Heights add where slopes add: the map's slopes and their spread are added to the strip's, unless the object
+   combines them otherwise. The correlation of the two is neglected. The strip's own values are held in buffers
+   that `widen` fills later. */
 static void look_map(const WrTileJob *job, const Rays *rays, Strip *strip, WrTileScratch *scratch,
                      Watch *watch)
 {
@@ -257,7 +438,13 @@ static void look_map(const WrTileJob *job, const Rays *rays, Strip *strip, WrTil
                scratch, watch);
     for (int i = 0; i < strip->count && frame != WR_FRAME_GRADIENT; i++)
         turn_into_slopes(job, strip, i);
-    for (int c = 0; c < 6; c++)
+    if (runs(job, WR_EFFECT_REORIENTED)) {
+        did(watch, WR_EFFECT_REORIENTED);
+        if (runs(job, WR_EFFECT_SPREAD)) combine_spreads(job, strip, kept);
+        combine_slopes(job, kept, strip);
+        move_reals(strip->f, kept[0], strip->count);
+    }
+    for (int c = 0; c < 6 && !runs(job, WR_EFFECT_REORIENTED); c++)
         for (int i = 0; i < strip->count; i++) sums[c][i] = kept[c][i] + sums[c][i];
     watch_lap(watch, WR_STAGE_NORMALS);
 }

@@ -282,6 +282,11 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                  "normal",
                                  STAGE(LOOK) | STAGE(BUMP), .spared = WR_RUN_LEVEL | WR_RUN_DARK,
                                  .decide = decide_bump, .settle = settle_bump },
+    [WR_ROW(WR_EFFECT_REORIENTED)] = { "E86", "relief over a normal map", WR_PROOF_IDENTICAL, NULL,
+                                       "there is no normal map, its slopes are added, or the table "
+                                       "has no relief over it",
+                                       0, .spared = WR_RUN_DARK, .decide = wr_decide_reoriented,
+                                       .settle = wr_settle_reoriented },
     [WR_ROW(
         WR_EFFECT_GRADIENT)] = { "E9", "gradient table", WR_PROOF_BOUNDED, "rounding of the slopes",
                                  "the scheme computes slopes from the heights. For central and "

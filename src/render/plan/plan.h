@@ -46,6 +46,7 @@ typedef enum WrEffect {
     WR_EFFECT_DISPLACED,
     WR_EFFECT_PARALLAX,
     WR_EFFECT_BUMP,
+    WR_EFFECT_REORIENTED,
     WR_EFFECT_GRADIENT,
     WR_EFFECT_WIDE,
     WR_EFFECT_INVARIANT,
@@ -192,6 +193,7 @@ typedef enum WrPrecision {
      map_frame   tangent frame of the normal map's vectors; gradient if it has none
      bump        after simplification: BLINN for exact on a flat base, ...
      scheme      interpolation scheme of the table
+     combine     combination of the table's slopes with the normal map's
      normals     the surface's geometry and n' are computed
      horizons    number of horizon directions of the table, for shadows too
      rays        number of shadow rays to an area lamp
@@ -221,6 +223,7 @@ typedef enum WrPrecision {
     X(BUMP, WrBumpMode, bump)                                                                      \
     X(BUMP, WrSource, source)                                                                      \
     X(BUMP, WrScheme, scheme)                                                                      \
+    X(REORIENTED, WrCombine, combine)                                                              \
     X(CURVATURE, bool, normals)                                                                    \
     X(CAST, int, rays)                                                                             \
     X(OCCLUSION, int, horizons)                                                                    \

@@ -105,11 +105,11 @@ WrDecide wr_decide_back, wr_decide_depth, wr_decide_newton, wr_decide_perspectiv
     wr_decide_mirror, wr_decide_blur, wr_decide_displaced, wr_decide_parallax, wr_decide_exact,
     wr_decide_curvature, wr_decide_grain, wr_decide_octaves, wr_decide_faded, wr_decide_embossed,
     wr_decide_facets, wr_decide_varied, wr_decide_samples, wr_decide_bound, wr_decide_kept,
-    wr_decide_widened, wr_decide_faced, wr_decide_faint;
+    wr_decide_widened, wr_decide_faced, wr_decide_faint, wr_decide_reoriented;
 WrSettle wr_settle_filter, wr_settle_depth, wr_settle_newton, wr_settle_tint, wr_settle_normals,
     wr_settle_facets, wr_settle_model, wr_settle_cast, wr_settle_occlusion, wr_settle_harmonics,
     wr_settle_blur, wr_settle_displaced, wr_settle_parallax, wr_settle_exact, wr_settle_curvature,
-    wr_settle_grain, wr_settle_samples, wr_settle_kept, wr_settle_faint;
+    wr_settle_grain, wr_settle_samples, wr_settle_kept, wr_settle_faint, wr_settle_reoriented;
 
 /* The formula that bends the normal: the scene's, or the exact one of a displaced surface. */
 WrBumpMode wr_plan_normal(const WrPlan *plan, const WrPlanRequest *ask);

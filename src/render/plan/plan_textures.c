@@ -187,8 +187,27 @@ WrVerdict wr_decide_normals(const WrPlan *plan, const WrPlanRequest *ask, const 
         return say(WR_VERDICT_RUN, why, "a light shows its normals, in frames along Pu and Pv");
     default:
         return say(WR_VERDICT_RUN, why,
-                   "its slopes are added to the table's and a light shows them");
+                   map->combine == WR_COMBINE_SLOPES
+                       ? "its slopes are added to the table's and a light shows them"
+                       : "a light shows its slopes");
     }
+}
+
+WrVerdict wr_decide_reoriented(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
+{
+    if (!runs(plan, WR_EFFECT_NORMALS))
+        return say(WR_VERDICT_NONE, why, "no normal map is looked up");
+    if (ask->scene->normals.combine == WR_COMBINE_SLOPES)
+        return say(WR_VERDICT_NONE, why, "the table's slopes and the normal map's are added");
+    if (!runs(plan, WR_EFFECT_BUMP))
+        return say(WR_VERDICT_SPARED, why, "the normal map has no relief over it");
+    return say(WR_VERDICT_RUN, why, "the relief turns with the normals of the map under it");
+}
+
+void wr_settle_reoriented(WrPlan *plan, const WrPlanRequest *ask)
+{
+    plan->combine =
+        runs(plan, WR_EFFECT_REORIENTED) ? ask->scene->normals.combine : WR_COMBINE_SLOPES;
 }
 
 void wr_settle_normals(WrPlan *plan, const WrPlanRequest *ask)
