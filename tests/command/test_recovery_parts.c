@@ -8,6 +8,9 @@
 #include "command/session_internal.h"
 #include "command/recovery.h"
 #include "command/session.h"
+#include "document/document.h"
+#include "field/field.h"
+#include "image/image.h"
 
 static char *folder; /* for journals and documents; a separate one for each test */
 
@@ -479,6 +482,40 @@ static char *left_by_one_step_on(const char *path, WrHash *want)
     return only_journal();
 }
 
+/* The file of a generator layer's line is copied into the journal, as those of plain commands. */
+static void the_file_of_a_generator_layer_comes_back(void **state)
+{
+    (void)state;
+    for (int changed = 0; changed < 2; changed++) {
+        WrError err = { "" };
+        WrRecovered how;
+        WrText line = { 0 };
+        uint8_t texels[48];
+        char *path = in(folder, "relief.png");
+        for (int k = 0; k < 48; k++) texels[k] = (uint8_t)(k * 37 % 251);
+        if (!wr_image_write_pixels(path, 8, 6, 1, WR_PIXEL_U8, true, texels, &err))
+            fail_msg("%s", err.text);
+        WrSession *session = new_session(true);
+        run(session, "table 41x29");
+        wr_text_addf(&line, "layer add from=\"picture paste %s\"", path);
+        run(session, wr_text_get(&line));
+        run(session, "layer set 2 change=\"size=17.3\"");
+        const WrHash want = wr_field_hash(wr_document_field(wr_session_document(session)));
+        leave(session);
+        if (changed) write_other(path);
+        char *journal = only_journal();
+        session = recover(journal, false, &how);
+        const WrDocument *document = wr_session_document(session);
+        assert_true(wr_hash_equal(wr_field_hash(wr_document_field(document)), want));
+        assert_non_null(document->layers[1].line);
+        wr_recovered_fini(&how);
+        wr_session_free(session);
+        wr_text_fini(&line);
+        wr_free(journal);
+        wr_free(path);
+    }
+}
+
 /* The journal has a copy of the file. If that is missing too, the changed file is not used, and the journal stays. */
 static void what_a_journal_began_with_comes_back_or_nothing_does(void **state)
 {
@@ -781,6 +818,7 @@ int main(void)
         PLACED(what_was_saved_is_not_offered),
         PLACED(a_kill_between_a_save_and_its_record_leaves_the_journal_as_it_was),
         PLACED(an_opened_document_comes_back_with_each_step_once),
+        PLACED(the_file_of_a_generator_layer_comes_back),
         PLACED(what_a_journal_began_with_comes_back_or_nothing_does),
         PLACED(another_document_has_another_journal),
         PLACED(a_file_that_changed_before_the_first_step_is_no_beginning),

@@ -82,7 +82,7 @@ becomes 'pattern knurl *rows=*' "the command of what was shown"
 line=$(newest)
 home
 save_as applied.exr
-"$program" run - <<<"$(printf 'table 256x256\nbump height=0.1\n%s\nsave replayed.exr\n' "$line")" >/dev/null ||
+"$program" run - <<<"$(printf 'table 256x256\nbump height=0.1\nlayer add Knurling from="%s"\nsave replayed.exr\n' "$line")" >/dev/null ||
     complain "no replay of $line"
 [[ $(hash_of applied.exr) == "$(hash_of replayed.exr)" ]] || complain "the replay of $line gives other heights"
 
@@ -209,13 +209,13 @@ key ctrl+Return
 becomes 'text "Blinn *' "the text as a command"
 home
 save_as written.exr
-"$program" run - <<<"$(printf '%s\n' 'table 256x256' 'bump height=0.1' 'text "Blinn \"78\""' 'save said.exr')" >/dev/null ||
+"$program" run - <<<"$(printf '%s\n' 'table 256x256' 'bump height=0.1' 'layer add Text from="text \"Blinn \\\"78\\\"\""' 'save said.exr')" >/dev/null ||
     complain "no said.exr"
 [[ $(hash_of written.exr) == "$(hash_of said.exr)" ]] || complain "what was typed is not what the command writes"
 quit
 
 # ---- a font is found by typing, and stands first the next time ----
-sed -i 's/^height .*/height 880/' config/wrinkle/window.conf # room for the font's row
+sed -i 's/^height .*/height 895/' config/wrinkle/window.conf # room for the font's row
 start flat.wrinkle
 home
 key t

@@ -196,8 +196,10 @@ newest() {
     line=$(sed -nE 's/^[0-9a-f]+ [0-9]+ [cb] //p' state/wrinkle/journals/*.wj 2>/dev/null | tail -n 1)
     if [[ $line =~ ^layer\ (add|set)\ .*from=\"(.*)\"( blend=[a-z-]+\ radius=[0-9.e-]+)?$ ]]; then
         line=${BASH_REMATCH[2]}
-        line=${line//\\\"/\"}   # quotes within quotes
-        line=${line//\\\\/\\}
+        line=${line//\\\\/\\} # the journal's own escapes
+        line=${line//\\\\/$'\1'}
+        line=${line//\\\"/\"} # quotes within quotes
+        line=${line//$'\1'/\\}
     fi
     printf '%s\n' "$line"
 }
