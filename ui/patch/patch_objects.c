@@ -66,7 +66,8 @@ bool wr_patch_choose(WrApp *app, const WrPointer *at)
     char buffer[WR_OBJECT_LABEL];
     WrPatchSpot spot;
     const int object =
-        picks ? wr_object_picks_at(picks, at->x - room->x, at->y - room->y, &spot) : -1;
+        picks ? wr_object_picks_at(picks, scene->chosen, at->x - room->x, at->y - room->y, &spot)
+              : -1;
     if (object < 0) return false;
     if (object != scene->chosen) {
         WrText line = { 0 };

@@ -59,9 +59,10 @@ static bool spot_under(WrApp *app, double x, double y, WrPatchSpot *spot)
 {
     const WrObjectPicks *picks = wr_patch_picks(app);
     const SDL_Rect *room = &app->layout->patch;
+    const int chosen = wr_app_scene(app)->chosen;
     return picks && x >= room->x && x < room->x + room->w && y >= room->y &&
            y < room->y + room->h &&
-           wr_object_picks_at(picks, x - room->x, y - room->y, spot) == wr_app_scene(app)->chosen;
+           wr_object_picks_at(picks, chosen, x - room->x, y - room->y, spot) == chosen;
 }
 
 bool wr_patch_paint_uv(WrApp *app, const WrPointer *at, double *u, double *v)

@@ -23,6 +23,7 @@
 #define CLOSE_ENOUGH 1e-7 /* pixels */
 /* fraction of the object's radius: a surface nearer by more than this hides the point */
 #define HIDDEN_BY 0.02
+#define COINCIDE 1e-3 /* of the radius: objects nearer to each other share a surface */
 
 typedef struct Knot {
     double x, y, close; /* pixels; 1/depth or -depth: larger is nearer */
@@ -492,13 +493,15 @@ void wr_object_picks_free(WrObjectPicks *picks)
     wr_free(picks);
 }
 
-int wr_object_picks_at(const WrObjectPicks *picks, double x, double y, WrPatchSpot *out)
+int wr_object_picks_at(const WrObjectPicks *picks, int chosen, double x, double y, WrPatchSpot *out)
 {
     int found = -1;
     for (int i = 0; i < picks->count; i++) {
         WrPatchSpot spot;
         if (!picks->pick[i] || !wr_patch_pick_at(picks->pick[i], x, y, &spot)) continue;
-        if (found >= 0 && spot.depth >= out->depth) continue;
+        const double close = COINCIDE * picks->pick[i]->radius;
+        const double favour = i == chosen ? close : found == chosen ? -close : 0;
+        if (found >= 0 && spot.depth >= out->depth + favour) continue;
         found = i;
         *out = spot;
     }

@@ -61,7 +61,9 @@ typedef struct WrObjectPicks WrObjectPicks;
 WrObjectPicks *wr_object_picks_new(const WrScene *scene, double turn_deg, int width, int height,
                                    WrObjectPicks *before, WrError *err);
 void wr_object_picks_free(WrObjectPicks *picks); /* NULL is allowed */
-/* Index of the object visible at (x, y), and the point on it; -1: none. */
-int wr_object_picks_at(const WrObjectPicks *picks, double x, double y, WrPatchSpot *out);
+/* Index of the object visible at (x, y), and the point on it; -1: none. Where objects coincide, as two with relief on
+ * different materials of one mesh, it is the chosen one. */
+int wr_object_picks_at(const WrObjectPicks *picks, int chosen, double x, double y,
+                       WrPatchSpot *out);
 /* Picking of that object; NULL: hidden. Borrowed. */
 const WrPatchPick *wr_object_picks_of(const WrObjectPicks *picks, int object);
