@@ -164,7 +164,7 @@ static bool prepare(WrMeshTexels *t, WrError *err)
     if (!(t->side > 0))
         return wr_fail(err, "the mesh has no texture coordinates to paint on; give it some: "
                             "`surface mesh projection=box`");
-    t->tree = wr_ray_tree_new(t->mesh, 0, t->mesh->triangle_count, err);
+    if (!t->tree) t->tree = wr_ray_tree_new(t->mesh, 0, t->mesh->triangle_count, err);
     if (!t->tree || !wr_mesh_edges_find(t->mesh, &edges, err)) return false;
     int32_t *first = wr_try_alloc((size_t)edges.count, sizeof *first, "a mesh's edges", err);
     t->across = first ? wr_try_alloc(3 * count, sizeof *t->across, "a mesh's edges", err) : NULL;
@@ -183,11 +183,13 @@ static bool prepare(WrMeshTexels *t, WrError *err)
 }
 
 WrMeshTexels *wr_mesh_texels_new(const WrTriangles *mesh, const WrMeshTexelsTable *table,
-                                 WrError *err)
+                                 const WrMeshTexels *before, WrError *err)
 {
+    const WrRayTree *tree = before ? wr_mesh_texels_tree(before, mesh) : NULL;
     WrMeshTexels *t = wr_alloc(1, sizeof *t);
     t->mesh = wr_triangles_share(mesh);
     t->table = *table;
+    t->tree = tree ? wr_ray_tree_share(tree) : NULL;
     if (prepare(t, err)) return t;
     wr_mesh_texels_free(t);
     return NULL;
@@ -215,6 +217,11 @@ bool wr_mesh_texels_fit(const WrMeshTexels *t, const WrTriangles *mesh,
     return t->mesh->key == mesh->key && own->width == table->width &&
            own->height == table->height && own->periodic_u == table->periodic_u &&
            own->periodic_v == table->periodic_v && own->ru == table->ru && own->rv == table->rv;
+}
+
+const WrRayTree *wr_mesh_texels_tree(const WrMeshTexels *t, const WrTriangles *mesh)
+{
+    return t->mesh->key == mesh->key ? t->tree : NULL;
 }
 
 double wr_mesh_texel_side(const WrMeshTexels *t)

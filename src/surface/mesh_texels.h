@@ -18,6 +18,7 @@
 
 typedef struct WrError WrError;
 typedef struct WrTriangles WrTriangles;
+typedef struct WrRayTree WrRayTree;
 typedef struct WrMeshTexels WrMeshTexels;
 
 typedef struct WrMeshTexelsTable {
@@ -27,13 +28,16 @@ typedef struct WrMeshTexelsTable {
 } WrMeshTexelsTable;
 
 /* Shares the mesh. Its discs use scratch memory: one thread at a time. About 24 bytes per triangle and one per
- * texel, besides a ray tree. Errors: no (u,v), no memory, cancelled. */
+ * texel, besides a ray tree. 1.1 s for a million triangles. before: of another table, whose ray tree is shared if the
+ * mesh is the same; or NULL. Errors: no (u,v), no memory, cancelled. */
 WrMeshTexels *wr_mesh_texels_new(const WrTriangles *mesh, const WrMeshTexelsTable *table,
-                                 WrError *err);
+                                 const WrMeshTexels *before, WrError *err);
 void wr_mesh_texels_free(WrMeshTexels *texels); /* NULL is allowed */
 /* True if it was made for that mesh and table. */
 bool wr_mesh_texels_fit(const WrMeshTexels *texels, const WrTriangles *mesh,
                         const WrMeshTexelsTable *table);
+/* The ray tree of all its triangles; NULL for another mesh. Borrowed. */
+const WrRayTree *wr_mesh_texels_tree(const WrMeshTexels *texels, const WrTriangles *mesh);
 /* The mean side of a texel on the surface: the square root of area by area; object units. 0: no (u,v). */
 double wr_mesh_texel_side(const WrMeshTexels *texels);
 double wr_mesh_texel_side_of(const WrTriangles *mesh, const WrMeshTexelsTable *table);

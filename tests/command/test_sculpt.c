@@ -374,6 +374,37 @@ static void a_stroke_by_samples_is_repeated_by_its_line(void **state)
     wr_session_free(again);
 }
 
+/* The window prepares the mesh before the first stroke. */
+static void a_prepared_mesh_gives_the_same_stroke(void **state)
+{
+    (void)state;
+    static const char line[] = "sculpt points=0.3,0.1,1;1,0.37,0.2 radius=11 eye=4,3,5";
+    Said said;
+    WrError err;
+    WrSession *s = with_box(&said, 1, 3), *again = with_box(&said, 1, 3);
+    const WrTriangles *mesh = wr_session_document(s)->scene->triangles;
+    assert_true(wr_session_mesh_needs_preparing(s));
+    assert_null(wr_session_mesh_tree(s, mesh));
+    const WrHash before = wr_session_hash(s);
+    assert_true(wr_session_prepare_mesh(s, &err));
+    assert_true(wr_hash_equal(wr_session_hash(s), before));
+    assert_false(wr_session_mesh_needs_preparing(s));
+    const WrRayTree *tree = wr_session_mesh_tree(s, mesh);
+    assert_non_null(tree);
+    must_run(s, line);
+    must_run(again, line);
+    assert_true(wr_hash_equal(wr_session_hash(s), wr_session_hash(again)));
+    assert_false(wr_session_mesh_needs_preparing(again));
+    must_run(s, "replicate 2,1");
+    assert_true(wr_session_mesh_needs_preparing(s));
+    assert_true(wr_session_prepare_mesh(s, &err));
+    assert_ptr_equal(wr_session_mesh_tree(s, mesh), tree);
+    must_run(s, "surface sphere");
+    assert_false(wr_session_mesh_needs_preparing(s));
+    wr_session_free(s);
+    wr_session_free(again);
+}
+
 static void cancelled_it_changes_nothing(void **state)
 {
     (void)state;
@@ -434,6 +465,8 @@ int main(void)
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(a_stroke_by_samples_is_repeated_by_its_line,
                                         enter_own_folder, leave_own_folder),
+        cmocka_unit_test_setup_teardown(a_prepared_mesh_gives_the_same_stroke, enter_own_folder,
+                                        leave_own_folder),
         cmocka_unit_test_setup_teardown(cancelled_it_changes_nothing, enter_own_folder,
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(errors_name_the_cause_and_the_remedy, enter_own_folder,

@@ -403,6 +403,7 @@ static void overlay_clipped(WrApp *app)
     bool marks = hand->on_canvas && resting;
     WrPatchSpot spot;
     if (!over && !marks) return;
+    if (wr_patch_prepares_mesh(app) && !painting) return; /* picking would build the tree again */
     const WrPatchPick *pick = picker(app);
     if (!pick) return;
     if (!over) {

@@ -253,7 +253,6 @@ static void fill_spot(const WrPatchPick *pick, const WrRayHit *hit, WrVec3 d, Wr
     spot->pixel = (pick->orthographic ? 1.0 : spot->depth) / (pick->scale_y * at->size);
 }
 
-/* The tree is built when it is first needed: 0.8 s for a million triangles. */
 static bool hit_mesh(WrPatchPick *pick, double x, double y, WrPatchSpot *out)
 {
     WrVec3 o, d;
@@ -455,18 +454,17 @@ struct WrObjectPicks {
     int count;
 };
 
-static void take_tree(WrPatchPick *pick, WrObjectPicks *before)
+static void take_tree(WrPatchPick *pick, const WrObjectPicks *before)
 {
     for (int i = 0; pick->mesh && before && !pick->tree && i < before->count; i++) {
-        WrPatchPick *old = before->pick[i];
+        const WrPatchPick *old = before->pick[i];
         if (!old || !old->mesh || old->mesh->key != pick->mesh->key) continue;
-        pick->tree = old->tree;
-        old->tree = NULL;
+        if (old->tree) pick->tree = wr_ray_tree_share(old->tree);
     }
 }
 
 WrObjectPicks *wr_object_picks_new(const WrScene *scene, double turn_deg, int width, int height,
-                                   WrObjectPicks *before, WrError *err)
+                                   const WrObjectPicks *before, WrError *err)
 {
     WrObjectPicks *picks = wr_alloc(1, sizeof *picks);
     picks->count = wr_scene_object_count(scene);
@@ -484,6 +482,15 @@ WrObjectPicks *wr_object_picks_new(const WrScene *scene, double turn_deg, int wi
         return NULL;
     }
     return picks;
+}
+
+void wr_object_picks_share_tree(WrObjectPicks *picks, const WrRayTree *tree, uint64_t mesh_key)
+{
+    for (int i = 0; i < picks->count; i++) {
+        WrPatchPick *pick = picks->pick[i];
+        if (!pick || !pick->mesh || pick->tree || pick->mesh->key != mesh_key) continue;
+        pick->tree = wr_ray_tree_share(tree);
+    }
 }
 
 void wr_object_picks_free(WrObjectPicks *picks)
