@@ -158,6 +158,9 @@ typedef struct WrBrushGround {
     WrMeshTexels *mesh;
     bool clips; /* on a mesh: faces turned away from `eye` are not painted */
     WrVec3 eye; /* in the object's space */
+    unsigned
+        mirrors; /* on a mesh: axes across which mirrors stand, 1 x, 2 y, 4 z; each dab is drawn again in all */
+    WrVec3 mirror_at; /* where they cross, in the object's space */
 } WrBrushGround;
 
 /* wr_brush_dab on a table with mark and selection. */

@@ -281,6 +281,43 @@ static void move(WrDraw *draw, const WrDab *dab, const WrDabShape *shape, const 
 
 /* ---- dabs ---- */
 
+static WrVec3 reflected(WrVec3 v, unsigned axes)
+{
+    return (WrVec3){ axes & 1 ? -v.x : v.x, axes & 2 ? -v.y : v.y, axes & 4 ? -v.z : v.z };
+}
+
+/* Sets *out to the disc in the mirrors across these axes. False: the mesh is not there, it has no such symmetry. */
+static bool mirror_disc(const WrBrushGround *ground, const WrMeshDisc *disc, unsigned axes,
+                        WrMeshDisc *out)
+{
+    const WrVec3 at = ground->mirror_at;
+    const WrVec3 p = v3_add(at, reflected(v3_sub(disc->centre.p, at), axes));
+    *out = *disc;
+    out->centre = wr_mesh_texels_nearest(ground->mesh, p);
+    out->along = reflected(disc->along, axes);
+    out->eye = v3_add(at, reflected(v3_sub(disc->eye, at), axes));
+    out->mirrored = __builtin_popcount(axes) % 2 == 1;
+    return v3_len(v3_sub(out->centre.p, p)) < disc->radius;
+}
+
+static void lay_disc(WrDraw *draw, const WrDab *dab, const WrDabShape *shape,
+                     const WrMeshDisc *disc)
+{
+    int count;
+    const WrMeshTexel *texels = wr_mesh_texels_disc(draw->cover.maker.ground.mesh, disc, &count);
+    if (draw->moves) {
+        double most = 0; /* the mesh may be smaller than the dab */
+        for (int i = 0; i < count; i++)
+            most = fmax(most, fmax(fabs(texels[i].dx), fabs(texels[i].dy)));
+        move(draw, dab, shape, texels, count, (int)ceil(most) + 2);
+        return;
+    }
+    for (int i = 0; i < count; i++) {
+        const double c = texels[i].weight * cover_at(shape, texels[i].dx, texels[i].dy);
+        if (c > 0) wr_coverage_add_texel(&draw->cover, texels[i].x, texels[i].y, (float)c);
+    }
+}
+
 void wr_mesh_dab(WrDraw *draw, const WrDab *dab)
 {
     static const WrCopy same = { .a = 1, .d = 1 };
@@ -295,19 +332,11 @@ void wr_mesh_dab(WrDraw *draw, const WrDab *dab)
         shape.kind == WR_SHAPE_TIP ? hypot(shape.reach_x, shape.reach_y) : local.radius;
     const WrMoveMargin margin = draw->moves ? maker->work->margin : NULL;
     const double beside = margin ? margin(local.radius, dab->dx, dab->dy) : draw->moves ? 1 : 0;
-    WrMeshDisc disc = disc_at(draw, dab->x, dab->y);
-    int count;
+    WrMeshDisc disc = disc_at(draw, dab->x, dab->y), mirrored;
     disc.radius = (reach + beside) * wr_mesh_texel_side(mesh);
-    const WrMeshTexel *texels = wr_mesh_texels_disc(mesh, &disc, &count);
-    if (draw->moves) {
-        double most = 0; /* the mesh may be smaller than the dab */
-        for (int i = 0; i < count; i++)
-            most = fmax(most, fmax(fabs(texels[i].dx), fabs(texels[i].dy)));
-        move(draw, &local, &shape, texels, count, (int)ceil(most) + 2);
-        return;
-    }
-    for (int i = 0; i < count; i++) {
-        const double c = texels[i].weight * cover_at(&shape, texels[i].dx, texels[i].dy);
-        if (c > 0) wr_coverage_add_texel(&draw->cover, texels[i].x, texels[i].y, (float)c);
-    }
+    lay_disc(draw, &local, &shape, &disc);
+    for (unsigned axes = 1; axes <= maker->ground.mirrors; axes++)
+        if ((axes & ~maker->ground.mirrors) == 0 &&
+            mirror_disc(&maker->ground, &disc, axes, &mirrored))
+            lay_disc(draw, &local, &shape, &mirrored);
 }

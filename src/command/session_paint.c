@@ -608,6 +608,17 @@ const WrRayTree *wr_session_mesh_tree(const WrSession *session, const WrTriangle
     return session->mesh_texels ? wr_mesh_texels_tree(session->mesh_texels, mesh) : NULL;
 }
 
+/* `project` has none. */
+static void take_mirrors(const WrSession *session, const WrCall *call, WrBrushGround *ground)
+{
+    if (!wr_call_given(call, "mirror_axes")) return;
+    ground->mirrors = (unsigned)wr_call_choice(call, "mirror_axes");
+    ground->mirror_at = wr_mesh_mirrors_at(session->state.document->scene->triangles);
+    if (!wr_call_given(call, "mirror_at")) return;
+    const double *at = wr_call_arg(call, "mirror_at")->numbers;
+    ground->mirror_at = (WrVec3){ at[0], at[1], at[2] };
+}
+
 static bool take_mesh(WrSession *session, const WrCall *call, const WrBrush *brush,
                       WrBrushGround *ground, WrError *err)
 {
@@ -618,6 +629,7 @@ static bool take_mesh(WrSession *session, const WrCall *call, const WrBrush *bru
                             "mesh");
     if (!take_texels(session, ground->field, err)) return false;
     ground->mesh = session->mesh_texels;
+    take_mirrors(session, call, ground);
     ground->clips = wr_call_given(call, "eye");
     if (!ground->clips) return true;
     const double *eye = wr_call_arg(call, "eye")->numbers;

@@ -249,6 +249,13 @@ int64_t wr_mesh_texels_shared(const WrMeshTexels *t)
 
 /* ---- points ---- */
 
+WrVec3 wr_mesh_mirrors_at(const WrTriangles *mesh)
+{
+    const WrVec3 centre = { mesh->centre[0], mesh->centre[1], mesh->centre[2] };
+    const WrVec3 origin = { 0, 0, 0 };
+    return v3_len(centre) < mesh->radius ? origin : centre;
+}
+
 static double clamped(double x, double low, double high)
 {
     return x < low ? low : x > high ? high : x;
@@ -497,7 +504,7 @@ const WrMeshTexel *wr_mesh_texels_disc(WrMeshTexels *t, const WrMeshDisc *disc, 
     /* The plane of the mean normal: a disc on an edge lies on both faces alike. */
     const WrVec3 n = v3_unit(sum, disc->centre.n);
     const WrVec3 right = v3_unit(v3_mad(disc->along, n, -v3_dot(disc->along, n)), disc->along);
-    const WrVec3 up = v3_cross(n, right);
+    const WrVec3 up = v3_cross(disc->mirrored ? v3_neg(n) : n, right);
     for (int i = 0; i < t->places.count; i++) {
         const Place *p = &t->places.data[i];
         if (i > 0 && p[-1].index == p->index) continue;

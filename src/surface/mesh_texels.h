@@ -42,6 +42,9 @@ const WrRayTree *wr_mesh_texels_tree(const WrMeshTexels *texels, const WrTriangl
 double wr_mesh_texel_side(const WrMeshTexels *texels);
 double wr_mesh_texel_side_of(const WrTriangles *mesh, const WrMeshTexelsTable *table);
 
+/* Where mirrors of strokes cross unless they are placed: the origin if the mesh is about it, else its centre. */
+WrVec3 wr_mesh_mirrors_at(const WrTriangles *mesh);
+
 /* A point of the surface. */
 typedef struct WrMeshSpot {
     WrVec3 p, n; /* n: of the triangle, unit */
@@ -61,6 +64,7 @@ typedef struct WrMeshDisc {
     WrVec3 along;  /* direction of the local x axis; made tangent */
     bool clips;    /* leaves out faces turned away from `eye`, fading within 10 degrees */
     WrVec3 eye;
+    bool mirrored; /* the local y axis is turned round, as in a mirror */
 } WrMeshDisc;
 
 typedef struct WrMeshTexel {

@@ -332,6 +332,83 @@ static void a_projection_that_meets_nothing_is_an_error(void **state)
     wr_session_free(s);
 }
 
+/* ---- mirrors ---- */
+
+/* Largest difference between an island and another one, read from right to left. */
+static double unlike(const WrSession *s, int face, int other)
+{
+    double most = 0;
+    for (int j = -1; j <= SIDE; j++)
+        for (int i = -1; i <= SIDE; i++)
+            most = fmax(most, fabs(island(s, face, i, j) - island(s, other, SIDE - 1 - i, j)));
+    return most;
+}
+
+/* The dab is a slanted ellipse, so that a copy that is only moved or turned differs. */
+#define SLANTED "aspect=2.7 angle=31 radius=13 hardness=0.4 strength=0.8"
+#define PATH "points=0.31,0.12,1,0.6;0.62,0.47,1,1 "
+
+static void mirrors_draw_it_on_the_other_side(void **state)
+{
+    (void)state;
+    Said said;
+    WrSession *s = with_box(&said, 1, 3), *alone = with_box(&said, 1, 3);
+    must_run(alone, "sculpt " PATH SLANTED);
+    assert_true(unlike(alone, FRONT, FRONT) > 0.3);
+    must_run(s, "sculpt " PATH SLANTED " mirror_axes=x");
+    assert_true(unlike(s, FRONT, FRONT) < 1e-5);
+    assert_float_equal(island(s, FRONT, 57, 31), island(alone, FRONT, 57, 31), 1e-6);
+    assert_true(island(alone, FRONT, 57, 31) > 0.1);
+    must_run(s, "undo");
+    /* The eye is mirrored too: the back is towards its image. */
+    must_run(s, "sculpt " PATH SLANTED " mirror_axes=xz eye=0.3,0.2,6");
+    assert_true(unlike(s, FRONT, FRONT) < 1e-5 && unlike(s, FRONT, BACK) < 1e-5);
+    assert_true(island(s, BACK, 57, 31) > 0.1);
+    wr_session_free(s);
+    wr_session_free(alone);
+}
+
+static void moved_heights_stay_as_in_a_mirror(void **state)
+{
+    (void)state;
+    Said said;
+    WrSession *s = with_box(&said, 1, 3), *alone = with_box(&said, 1, 3);
+    must_run(s, "sculpt " PATH SLANTED " mirror_axes=x");
+    must_run(alone, "sculpt " PATH SLANTED " mirror_axes=x");
+    const double before = island(s, FRONT, 60, 25);
+    must_run(s, "sculpt mode=smear points=0.3,0.1,1;0.51,0.4,1;0.6,0.7,1 radius=9 mirror_axes=x");
+    must_run(alone, "sculpt mode=smear points=0.3,0.1,1;0.51,0.4,1;0.6,0.7,1 radius=9");
+    assert_true(unlike(alone, FRONT, FRONT) > 0.02);
+    assert_true(unlike(s, FRONT, FRONT) < 1e-5);
+    assert_true(fabs(island(s, FRONT, 60, 25) - before) > 0.01);
+    wr_session_free(s);
+    wr_session_free(alone);
+}
+
+static void a_mirrored_dab_beside_the_mesh_is_left_out(void **state)
+{
+    (void)state;
+    Said said;
+    WrSession *s = with_box(&said, 1, 3), *alone = with_box(&said, 1, 3);
+    must_run(alone, "sculpt points=0.31,0.12,1 radius=13");
+    must_run(s, "sculpt points=0.31,0.12,1 radius=13 mirror_axes=x mirror_at=2,0,0");
+    assert_true(wr_hash_equal(wr_session_hash(s), wr_session_hash(alone)));
+    must_run(s, "undo");
+    must_run(s, "sculpt points=0.31,0.12,1 radius=13 mirror_axes=x mirror_at=0.5,0,0");
+    assert_float_equal(island(s, FRONT, 67, 35), island(s, FRONT, 52, 35), 1e-5);
+    assert_true(island(s, FRONT, 67, 35) > 0.05);
+    wr_session_free(s);
+    /* A square from 3 to 4, away from the origin: mirrored about its own centre. */
+    write_text("far.obj", "v 3 0 0\nv 4 0 0\nv 4 1 0\nv 3 1 0\nvt 0.1 0.1\nvt 0.9 0.1\n"
+                          "vt 0.9 0.9\nvt 0.1 0.9\nf 1/1 2/2 3/3 4/4\n");
+    s = with_mesh(&said, "table 100x100", "surface mesh file=far.obj");
+    must_run(s, "sculpt points=3.2,0.4,0 radius=8 mirror_axes=x");
+    assert_float_equal(f_at(s, 25, 57), f_at(s, 74, 57), 1e-5);
+    assert_true(f_at(s, 25, 57) > 0.05);
+    wr_session_free(s);
+    wr_session_free(alone);
+}
+
 /* ---- the command ---- */
 
 static void shared_texels_are_noted_once(void **state)
@@ -464,6 +541,12 @@ int main(void)
         cmocka_unit_test_setup_teardown(shared_texels_are_noted_once, enter_own_folder,
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(a_stroke_by_samples_is_repeated_by_its_line,
+                                        enter_own_folder, leave_own_folder),
+        cmocka_unit_test_setup_teardown(mirrors_draw_it_on_the_other_side, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(moved_heights_stay_as_in_a_mirror, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(a_mirrored_dab_beside_the_mesh_is_left_out,
                                         enter_own_folder, leave_own_folder),
         cmocka_unit_test_setup_teardown(a_prepared_mesh_gives_the_same_stroke, enter_own_folder,
                                         leave_own_folder),

@@ -393,6 +393,29 @@ static void draw_marks(const WrApp *app, const WrPatchPick *pick)
     }
 }
 
+/* Where the mirrors repeat the dab, through the object too. */
+static void draw_mirrored(const WrApp *app, const WrPatchPick *pick, WrVec3 p)
+{
+    const bool *mirror = app->settings->mesh_mirror;
+    const WrVec3 middle = wr_mesh_mirrors_at(wr_app_scene(app)->triangles);
+    const double centre[3] = { middle.x, middle.y, middle.z };
+    const SDL_Rect *room = &app->layout->patch;
+    const double s = wr_gui_scale();
+    for (int axes = 1; axes < 8 && app->settings->symmetric; axes++) {
+        double x, y, at[3] = { p.x, p.y, p.z };
+        bool all = true;
+        for (int k = 0; k < 3; k++) {
+            if (!(axes >> k & 1)) continue;
+            all = all && mirror[k];
+            at[k] = 2 * centre[k] - at[k];
+        }
+        if (!all || !wr_patch_pick_project_point(pick, (WrVec3){ at[0], at[1], at[2] }, &x, &y))
+            continue;
+        wr_gui_draw_disc(room->x + x, room->y + y, 3.4 * s, 0xb0000000u);
+        wr_gui_draw_disc(room->x + x, room->y + y, 2.2 * s, 0xfff4f4f4u);
+    }
+}
+
 static void overlay_clipped(WrApp *app)
 {
     const WrInputRouter *hand = app->hand;
@@ -419,8 +442,10 @@ static void overlay_clipped(WrApp *app)
     WrBrushMark mark = wr_brush_mark(app);
     Ring ring;
     if (!spot_under(app, x, y, &spot)) return;
-    if (wr_patch_pick_is_mesh(pick)) make_mesh_ring(app, pick, &mark, &spot, &ring);
-    else make_ring(app, pick, &mark, &spot, &ring);
+    if (wr_patch_pick_is_mesh(pick)) {
+        make_mesh_ring(app, pick, &mark, &spot, &ring);
+        draw_mirrored(app, pick, spot.p);
+    } else make_ring(app, pick, &mark, &spot, &ring);
     draw_ring(&ring, mark.erases);
 }
 

@@ -192,6 +192,10 @@ bool wr_strokes_begin_on_mesh(WrApp *app, const WrBrush *brush, const WrPointer 
     WrText head = { 0 };
     strokes_head(app, "sculpt", brush, &head);
     if (eye) wr_line_vec(&head, "eye", *eye);
+    const bool *mirror = app->settings->mesh_mirror;
+    if (app->settings->symmetric && (mirror[0] || mirror[1] || mirror[2]))
+        wr_text_addf(&head, " mirror_axes=%s%s%s", mirror[0] ? "x" : "", mirror[1] ? "y" : "",
+                     mirror[2] ? "z" : "");
     const bool good = begin(app, wr_text_get(&head), brush, at);
     wr_text_fini(&head);
     return good;
