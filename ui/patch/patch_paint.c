@@ -23,7 +23,9 @@
 #include "ui/canvas/tools/brush_outline.h"
 #include "ui/canvas/tools/stroke_input.h"
 #include "ui/canvas/tools/tool_brush.h"
+#include "ui/canvas/tools/tool_stamp.h"
 
+#include "base/exactmath.h"
 #include "base/text.h"
 #include "brush/brush.h"
 #include "document/document.h"
@@ -96,11 +98,42 @@ static int mesh_digits(const WrApp *app)
 }
 
 /* Faces that turn away are not painted, unless that was chosen; where the back of an open sheet is seen, all are. */
+static const WrVec3 *eye_for(WrApp *app, const WrPatchSpot *spot, WrVec3 *eye)
+{
+    *eye = wr_line_round_vec(wr_patch_pick_eye(picker(app)), mesh_digits(app));
+    return spot->back || app->paint->round ? NULL : eye;
+}
+
 static bool begin_on_mesh(WrApp *app, WrBrush brush, const WrPointer *at, const WrPatchSpot *spot)
 {
-    const WrVec3 eye = wr_line_round_vec(wr_patch_pick_eye(picker(app)), mesh_digits(app));
+    WrVec3 eye;
     brush.symmetry = wr_brush_default().symmetry; /* of the table */
-    return wr_strokes_begin_on_mesh(app, &brush, at, spot->back || app->paint->round ? NULL : &eye);
+    return wr_strokes_begin_on_mesh(app, &brush, at, eye_for(app, spot, &eye));
+}
+
+/* The view's right, seen from u about the outer normal of a mesh, radians anticlockwise. */
+static double right_of_view(const WrApp *app, const WrPatchSpot *spot)
+{
+    WrPlacement at;
+    if (!wr_patch_place(app, &at)) return 0;
+    const WrVec3 right = wr_place_turn_back(&at, at.right);
+    const double turn =
+        atan2(v3_dot(v3_cross(spot->along, right), spot->n), v3_dot(spot->along, right));
+    return spot->back ? -turn : turn;
+}
+
+/* On a mesh it stands upright in the view, whichever way the island lies in the table. */
+static void stamp(WrApp *app, const WrPointer *at)
+{
+    WrVec3 eye;
+    WrPatchSpot spot;
+    const WrScene *scene = wr_app_scene(app);
+    app->hand->grab = WR_GRAB_NONE;
+    if (!spot_under(app, at->x, at->y, &spot)) return;
+    if (wr_patch_pick_is_mesh(picker(app)))
+        wr_stamp_on_mesh(app, wr_line_round_vec(spot.p, mesh_digits(app)),
+                         eye_for(app, &spot, &eye), right_of_view(app, &spot) * WR_DEG_PER_RAD);
+    else wr_stamp_at(app, scene->replicate_u * spot.u, scene->replicate_v * spot.v);
 }
 
 static void put_down(WrApp *app, const WrPointer *at, const WrPatchSpot *spot)
@@ -224,6 +257,10 @@ void wr_patch_paint_press(WrApp *app, const WrPointer *at)
             wr_brush_pick(app, &there);
         }
         app->hand->grab = WR_GRAB_PICK;
+        return;
+    }
+    if (wr_stamp_is_chosen(app)) {
+        stamp(app, at);
         return;
     }
     WrPointer from = *at;
@@ -439,10 +476,11 @@ static void overlay_clipped(WrApp *app)
         y = app->brush->steady.follower.y;
         wr_brush_show_string(app);
     }
-    WrBrushMark mark = wr_brush_mark(app);
+    WrBrushMark mark = wr_stamp_is_chosen(app) ? wr_stamp_mark(app) : wr_brush_mark(app);
     Ring ring;
     if (!spot_under(app, x, y, &spot)) return;
     if (wr_patch_pick_is_mesh(pick)) {
+        if (wr_stamp_is_chosen(app)) mark.turn += right_of_view(app, &spot);
         make_mesh_ring(app, pick, &mark, &spot, &ring);
         draw_mirrored(app, pick, spot.p);
     } else make_ring(app, pick, &mark, &spot, &ring);
