@@ -244,13 +244,6 @@ static double selected(const WrBrushGround *ground, const WrMeshTexel *at)
     return s > 0 ? fmin(s, 1) : 0;
 }
 
-static void write_mark(const WrStrokeResolver *maker, const WrMeshTexel *at, float w)
-{
-    float *mark = texel_of(maker->ground.mark, at);
-    if (maker->work->lowers_mark) *mark *= 1 - w;
-    else if (*mark < w) *mark = w;
-}
-
 /* The grid's change moves each texel; a texel's own detail, which the grid does not resolve, fades by its weight. */
 static void move(WrDraw *draw, const WrDab *dab, const WrDabShape *shape, const WrMeshTexel *texels,
                  int count, int half)
@@ -275,7 +268,9 @@ static void move(WrDraw *draw, const WrDab *dab, const WrDabShape *shape, const 
             made = f + w * drag * (dab->dragged - f) + (1 - drag) * (made - f);
         }
         *height = wr_finite_float(f + part * (made - f));
-        if (maker->ground.mark) write_mark(maker, at, (float)(w * part));
+        const float weight = (float)(w * part);
+        if (maker->ground.mark)
+            wr_move_write_mark(maker, &weight, 1, texel_of(maker->ground.mark, at));
     }
 }
 
