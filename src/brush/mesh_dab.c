@@ -274,6 +274,65 @@ static void move(WrDraw *draw, const WrDab *dab, const WrDabShape *shape, const 
     }
 }
 
+/* ---- modes that look around ---- */
+
+/* Texels beside a dab that the targets of sharpen, dilate and erode read. */
+static int looks_around(const WrStrokeResolver *maker)
+{
+    const WrBlendTargetKind kind = maker->targets.kind;
+    const bool does = kind == WR_BLEND_TARGET_SHARP || kind == WR_BLEND_TARGET_LARGEST ||
+                      kind == WR_BLEND_TARGET_SMALLEST;
+    return does ? maker->targets.reach : 0;
+}
+
+/* The grid's heights become the targets there. */
+static void target_grid(const WrStrokeResolver *maker, Grid *grid)
+{
+    float tile[WR_TILE * WR_TILE];
+    const int side = grid->side;
+    WrTargets targets = maker->targets;
+    WrField *field = wr_field_new(side, side, WR_WRAP_CLAMP, WR_WRAP_CLAMP, 0, NULL);
+    for (int i = 0; i < side * side; i++)
+        wr_field_tile_write(field, i % side / WR_TILE,
+                            i / side / WR_TILE)[i / side % WR_TILE * WR_TILE + i % side % WR_TILE] =
+            grid->before[i / side * grid->box.pitch + i % side];
+    targets.start = field;
+    for (int ty = 0; ty < wr_field_tiles_v(field); ty++)
+        for (int tx = 0; tx < wr_field_tiles_u(field); tx++) {
+            wr_targets_compute_tile(&targets, tx, ty, tile);
+            for (int k = 0; k < WR_TILE * WR_TILE; k++) {
+                const int x = tx * WR_TILE + k % WR_TILE, y = ty * WR_TILE + k / WR_TILE;
+                if (x < side && y < side) grid->box.heights[y * grid->box.pitch + x] = tile[k];
+            }
+        }
+    wr_field_free(field);
+}
+
+/* Targets from the surface around, where the table has a seam. What the grid does not resolve is kept: of the largest height
+   around no texel is above it, and so on. */
+static void set_targets(WrDraw *draw, const WrDabShape *shape, const WrMeshTexel *texels, int count,
+                        int half)
+{
+    const WrStrokeResolver *maker = &draw->cover.maker;
+    const WrBlendTargetKind kind = maker->targets.kind;
+    Grid grid;
+    if (!grid_new(draw, shape, half, &grid)) return;
+    splat(&grid, maker->start, texels, count);
+    fill(&grid, 2);
+    extend(&grid);
+    target_grid(maker, &grid);
+    for (int i = 0; i < count; i++) {
+        const WrMeshTexel *at = &texels[i];
+        const double f = height_of(maker->start, at);
+        double target = sample(&grid, grid.box.heights, at->dx, at->dy);
+        if (!(at->weight * cover_at(shape, at->dx, at->dy) > 0)) continue;
+        if (kind == WR_BLEND_TARGET_LARGEST) target = fmax(target, f);
+        else if (kind == WR_BLEND_TARGET_SMALLEST) target = fmin(target, f);
+        else target += f - sample(&grid, grid.before, at->dx, at->dy);
+        wr_coverage_set_target(&draw->cover, at->x, at->y, wr_finite_float(target));
+    }
+}
+
 /* ---- dabs ---- */
 
 static WrVec3 reflected(WrVec3 v, unsigned axes)
@@ -300,13 +359,15 @@ static void lay_disc(WrDraw *draw, const WrDab *dab, const WrDabShape *shape,
 {
     int count;
     const WrMeshTexel *texels = wr_mesh_texels_disc(draw->cover.maker.ground.mesh, disc, &count);
+    double most = 0; /* the mesh may be smaller than the dab */
+    for (int i = 0; i < count; i++) most = fmax(most, fmax(fabs(texels[i].dx), fabs(texels[i].dy)));
+    const int half = (int)ceil(most) + 2;
     if (draw->moves) {
-        double most = 0; /* the mesh may be smaller than the dab */
-        for (int i = 0; i < count; i++)
-            most = fmax(most, fmax(fabs(texels[i].dx), fabs(texels[i].dy)));
-        move(draw, dab, shape, texels, count, (int)ceil(most) + 2);
+        move(draw, dab, shape, texels, count, half);
         return;
     }
+    if (looks_around(&draw->cover.maker) && wr_mesh_texels_crossed(draw->cover.maker.ground.mesh))
+        set_targets(draw, shape, texels, count, half);
     for (int i = 0; i < count; i++) {
         const double c = texels[i].weight * cover_at(shape, texels[i].dx, texels[i].dy);
         if (c > 0) wr_coverage_add_texel(&draw->cover, texels[i].x, texels[i].y, (float)c);
@@ -326,7 +387,9 @@ void wr_mesh_dab(WrDraw *draw, const WrDab *dab)
     const double reach =
         shape.kind == WR_SHAPE_TIP ? hypot(shape.reach_x, shape.reach_y) : local.radius;
     const WrMoveMargin margin = draw->moves ? maker->work->margin : NULL;
-    const double beside = margin ? margin(local.radius, dab->dx, dab->dy) : draw->moves ? 1 : 0;
+    const double beside = margin        ? margin(local.radius, dab->dx, dab->dy)
+                          : draw->moves ? 1
+                                        : looks_around(maker);
     WrMeshDisc disc = disc_at(draw, dab->x, dab->y), mirrored;
     disc.radius = (reach + beside) * wr_mesh_texel_side(mesh);
     lay_disc(draw, &local, &shape, &disc);

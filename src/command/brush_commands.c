@@ -342,9 +342,9 @@ const WrCommand wr_command_sculpt = {
         "over the faces, so it goes on across the seams of (u,v) and does not come through a "
         "wall. The brush's texels have the mean size that texels have on the mesh. With tip= it "
         "lays a stamp on the surface. A texel that several places of the mesh share changes at "
-        "all of them; a note says so. clone, sharpen, dilate and erode look around in the table, "
-        "not across seams. mirror_axes= repeats each dab on the other side; where the mesh has no "
-        "surface within the dab's radius there, it is left out. No mirror=, radial= or repeat=.",
+        "all of them; a note says so. clone copies from another place of the table. mirror_axes= "
+        "repeats each dab on the other side; where the mesh has no surface within the dab's "
+        "radius there, it is left out. No mirror=, radial= or repeat=.",
     .example = "sculpt points=0,0,1;0.3,0,0.95,0.6 radius=12 eye=0,0,5"
 };
 

@@ -48,6 +48,7 @@ struct WrMeshTexels {
     uint8_t *covered; /* [height][width] bits */
     double side;
     int64_t shared;            /* texels with COUNTED */
+    bool crossed;              /* the present disc reaches over a seam */
     uint32_t *stamp, now;      /* [triangles] == now: reached by the present disc */
     WR_ARRAY(Reached) heap;    /* the flood's front, nearest first */
     WR_ARRAY(Reached) reached; /* in the order of their distance */
@@ -379,6 +380,17 @@ static double way_to(const Reached *r, WrVec3 p)
     return r->base + v3_len(v3_sub(end, r->source)) + v3_len(v3_sub(p, end));
 }
 
+/* True if the half-edges have the same (u,v) at their ends, in either order. */
+static bool joined(const WrTriangles *mesh, int32_t h, int32_t other)
+{
+    const WrTriangleCorner *a = wr_triangle_corner(mesh, h / 3, h % 3);
+    const WrTriangleCorner *b = wr_triangle_corner(mesh, h / 3, (h + 1) % 3);
+    const WrTriangleCorner *c = wr_triangle_corner(mesh, other / 3, other % 3);
+    const WrTriangleCorner *d = wr_triangle_corner(mesh, other / 3, (other + 1) % 3);
+    return (a->u == c->u && a->v == c->v && b->u == d->u && b->v == d->v) ||
+           (a->u == d->u && a->v == d->v && b->u == c->u && b->v == c->v);
+}
+
 /* Enters the neighbour behind half-edge h: its plane is unfolded about the edge. */
 static void enter(WrMeshTexels *t, const Reached *r, int32_t h, double radius)
 {
@@ -406,13 +418,16 @@ static void enter(WrMeshTexels *t, const Reached *r, int32_t h, double radius)
     next.source = v3_mad(v3_mad(a, next.e, along), next.in, -height);
     const double off = along - clamped(along, 0, next.length);
     next.key = fmax(r->key, next.base + sqrt(off * off + height * height));
-    if (next.key < radius) push(t, next);
+    if (!(next.key < radius)) return;
+    if (!joined(t->mesh, h, other)) t->crossed = true;
+    push(t, next);
 }
 
 /* Reaches every triangle with a point nearer than the radius, in the order of their distance (Dijkstra). */
 static void flood(WrMeshTexels *t, const WrMeshDisc *disc)
 {
     t->heap.count = t->reached.count = 0;
+    t->crossed = false;
     t->now++;
     push(t, (Reached){ .triangle = disc->centre.triangle, .source = disc->centre.p });
     while (t->heap.count > 0) {
@@ -520,6 +535,11 @@ const WrMeshTexel *wr_mesh_texels_disc(WrMeshTexels *t, const WrMeshDisc *disc, 
     }
     *count = t->texels.count;
     return t->texels.data;
+}
+
+bool wr_mesh_texels_crossed(const WrMeshTexels *t)
+{
+    return t->crossed;
 }
 
 /* ---- projection of a picture ---- */

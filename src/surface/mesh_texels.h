@@ -82,6 +82,9 @@ int64_t wr_mesh_texels_shared(const WrMeshTexels *texels);
  * Borrowed until the next call. */
 const WrMeshTexel *wr_mesh_texels_disc(WrMeshTexels *texels, const WrMeshDisc *disc, int *count);
 
+/* True if the last disc reaches over a seam of (u,v): neighbours on the surface are none in the table. */
+bool wr_mesh_texels_crossed(const WrMeshTexels *texels);
+
 /* A picture that is projected onto the mesh, as by a slide projector at the eye. */
 typedef struct WrMeshSlide {
     WrVec3 eye, middle; /* of the picture; it stands across the line between them */

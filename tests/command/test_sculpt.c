@@ -409,6 +409,65 @@ static void a_mirrored_dab_beside_the_mesh_is_left_out(void **state)
     wr_session_free(alone);
 }
 
+/* ---- modes that look around ---- */
+
+/* Two squares of 80 x 80 texels side by side, in one island; or the right one in another, a quarter turn on. */
+static void write_strip(const char *path, bool split)
+{
+    WrText text = { 0 };
+    for (int k = 0; k < 8; k++) {
+        const double x = k / 4 + (k % 4 == 1 || k % 4 == 2), y = k % 4 > 1;
+        const bool turned = split && k > 3;
+        wr_text_addf(&text, "v %g %g 0\nvt %.9g %.9g\n", x, y,
+                     (turned ? 10 + 80 * y : 10 + 80 * x) / 200,
+                     (turned ? 110 + 80 * (2 - x) : 10 + 80 * y) / 200);
+    }
+    wr_text_add(&text, "f 1/1 2/2 3/3 4/4\nf 5/5 6/6 7/7 8/8\n");
+    write_text(path, wr_text_get(&text));
+    wr_text_fini(&text);
+}
+
+/* The height at texel (a, b) of the strip, from its left and lower side. */
+static double strip(const WrSession *s, bool split, int a, int b)
+{
+    return split && a > 79 ? (double)f_at(s, 10 + b, a - 70) : (double)f_at(s, 10 + a, 189 - b);
+}
+
+static void targets_are_found_across_a_seam(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {
+        "sculpt mode=dilate reach=6 points=0.95,0.4,0;1.04,0.62,0 radius=15 hardness=0.7",
+        "sculpt mode=erode reach=4 points=0.97,0.41,0;1.05,0.6,0 radius=17 hardness=0.6",
+        "sculpt mode=sharpen reach=5 points=0.96,0.4,0;1.02,0.63,0 radius=16 strength=0.8",
+    };
+    Said said;
+    write_strip("whole.obj", false);
+    write_strip("split.obj", true);
+    WrSession *whole = with_mesh(&said, "table 200x200", "surface mesh file=whole.obj");
+    WrSession *parts = with_mesh(&said, "table 200x200", "surface mesh file=split.obj");
+    const char *relief = "sculpt points=1.06,0.47,0;1.1,0.7,0 radius=11 strength=0.7";
+    must_run(whole, relief);
+    must_run(parts, relief);
+    for (int k = 0; k < 3; k++) {
+        double most = 0, change = 0, before[80];
+        for (int b = 0; b < 80; b++) before[b] = strip(whole, false, 77, b);
+        must_run(whole, lines[k]);
+        must_run(parts, lines[k]);
+        for (int b = 0; b < 80; b++) {
+            change = fmax(change, fabs(strip(whole, false, 77, b) - before[b]));
+            for (int a = 40; a < 120; a++)
+                most = fmax(most, fabs(strip(whole, false, a, b) - strip(parts, true, a, b)));
+        }
+        assert_true(change > 0.05);
+        assert_true(most < 0.25 * change);
+        must_run(whole, "undo");
+        must_run(parts, "undo");
+    }
+    wr_session_free(whole);
+    wr_session_free(parts);
+}
+
 /* ---- the command ---- */
 
 static void shared_texels_are_noted_once(void **state)
@@ -548,6 +607,8 @@ int main(void)
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(a_mirrored_dab_beside_the_mesh_is_left_out,
                                         enter_own_folder, leave_own_folder),
+        cmocka_unit_test_setup_teardown(targets_are_found_across_a_seam, enter_own_folder,
+                                        leave_own_folder),
         cmocka_unit_test_setup_teardown(a_prepared_mesh_gives_the_same_stroke, enter_own_folder,
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(cancelled_it_changes_nothing, enter_own_folder,
