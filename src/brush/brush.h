@@ -153,11 +153,13 @@ typedef struct WrBrushGround {
     WrPool *pool; /* for large dabs; the bits do not depend on it; NULL: this thread */
     const WrProgress *progress; /* only for wr_brush_fill; NULL: not cancellable */
     /* Strokes are on this mesh (mesh_texels.h), of a table of that size; its texels are radius' and the other
-       lengths' unit. They are dabs, without symmetry; targets (clone, sharpen, dilate, erode) are those of the
-       table. NULL: strokes are on the table. */
+       lengths' unit. They are dabs, without the table's symmetry; the target of clone is that of the table. NULL: strokes are on the table. */
     WrMeshTexels *mesh;
     bool clips; /* on a mesh: faces turned away from `eye` are not painted */
     WrVec3 eye; /* in the object's space */
+    unsigned
+        mirrors; /* on a mesh: axes across which mirrors stand, 1 x, 2 y, 4 z; each dab is drawn again in all */
+    WrVec3 mirror_at; /* where they cross, in the object's space */
 } WrBrushGround;
 
 /* wr_brush_dab on a table with mark and selection. */

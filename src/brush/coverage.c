@@ -468,6 +468,14 @@ const float *wr_coverage_target(WrCoverage *cover, int tx, int ty)
     return page->target;
 }
 
+void wr_coverage_set_target(WrCoverage *cover, int x, int y, float target)
+{
+    const int at = y % WR_TILE * WR_TILE + x % WR_TILE;
+    wr_coverage_target(cover, x / WR_TILE, y / WR_TILE);
+    WrPage *page = page_of(cover, x / WR_TILE, y / WR_TILE);
+    if (page->cover[at] == 0.0f) page->target[at] = target;
+}
+
 static void make_one(int index, int worker, void *ctx)
 {
     (void)worker;

@@ -95,6 +95,8 @@ void wr_coverage_init(WrCoverage *cover, const WrBrushGround *ground, const WrBr
                       WrCoverageRule rule);
 void wr_coverage_fini(WrCoverage *cover);
 void wr_coverage_add(WrCoverage *cover, const WrDabShape *shape);
+/* Replaces the target of a texel that has no coverage yet, which then keeps it. The mode has targets. */
+void wr_coverage_set_target(WrCoverage *cover, int x, int y, float target);
 /* Adds coverage c > 0 to one texel of the table. */
 void wr_coverage_add_texel(WrCoverage *cover, int x, int y, float c);
 /* Computes the heights of changed pages until that time of the clock (HUGE_VAL: all), at least a few

@@ -81,7 +81,7 @@ static void weigh(const WrStrokeResolver *maker, const WrDabShape *shape, const 
     }
 }
 
-static void write_mark(const WrStrokeResolver *maker, const float *weights, int count, float *mark)
+void wr_move_write_mark(const WrStrokeResolver *maker, const float *weights, int count, float *mark)
 {
     for (int i = 0; i < count; i++) {
         float w = weights[i];
@@ -110,8 +110,9 @@ static void write_row(const WrStrokeResolver *maker, const WrMoveBox *box, int i
         for (int k = 0; k < run; k++)
             if (weights[x + k] > 0.0f) tile[k] = from[x + k];
         if (maker->ground.mark)
-            write_mark(maker, weights + x, run,
-                       wr_field_tile_write(maker->ground.mark, texel / WR_TILE, j / WR_TILE) + at);
+            wr_move_write_mark(
+                maker, weights + x, run,
+                wr_field_tile_write(maker->ground.mark, texel / WR_TILE, j / WR_TILE) + at);
     }
 }
 

@@ -44,5 +44,8 @@ float *wr_mover_reserve(WrMover *mover, size_t floats);
  * the previous dab. drag, dragged: as in WrDab. */
 void wr_move_dab(WrMover *mover, WrCoverage *cover, const WrDabShape *shape, double radius,
                  double way_x, double way_y, double drag, double dragged);
+/* Raises the mark to the weights, or lowers it by them if the mode does so. */
+void wr_move_write_mark(const WrStrokeResolver *maker, const float *weights, int count,
+                        float *mark);
 /* The mean height under a disc. */
 double wr_move_height(const WrField *field, double x, double y, double radius);

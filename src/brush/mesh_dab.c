@@ -244,13 +244,6 @@ static double selected(const WrBrushGround *ground, const WrMeshTexel *at)
     return s > 0 ? fmin(s, 1) : 0;
 }
 
-static void write_mark(const WrStrokeResolver *maker, const WrMeshTexel *at, float w)
-{
-    float *mark = texel_of(maker->ground.mark, at);
-    if (maker->work->lowers_mark) *mark *= 1 - w;
-    else if (*mark < w) *mark = w;
-}
-
 /* The grid's change moves each texel; a texel's own detail, which the grid does not resolve, fades by its weight. */
 static void move(WrDraw *draw, const WrDab *dab, const WrDabShape *shape, const WrMeshTexel *texels,
                  int count, int half)
@@ -275,11 +268,111 @@ static void move(WrDraw *draw, const WrDab *dab, const WrDabShape *shape, const 
             made = f + w * drag * (dab->dragged - f) + (1 - drag) * (made - f);
         }
         *height = wr_finite_float(f + part * (made - f));
-        if (maker->ground.mark) write_mark(maker, at, (float)(w * part));
+        const float weight = (float)(w * part);
+        if (maker->ground.mark)
+            wr_move_write_mark(maker, &weight, 1, texel_of(maker->ground.mark, at));
+    }
+}
+
+/* ---- modes that look around ---- */
+
+/* Texels beside a dab that the targets of sharpen, dilate and erode read. */
+static int looks_around(const WrStrokeResolver *maker)
+{
+    const WrBlendTargetKind kind = maker->targets.kind;
+    const bool does = kind == WR_BLEND_TARGET_SHARP || kind == WR_BLEND_TARGET_LARGEST ||
+                      kind == WR_BLEND_TARGET_SMALLEST;
+    return does ? maker->targets.reach : 0;
+}
+
+/* The grid's heights become the targets there. */
+static void target_grid(const WrStrokeResolver *maker, Grid *grid)
+{
+    float tile[WR_TILE * WR_TILE];
+    const int side = grid->side;
+    WrTargets targets = maker->targets;
+    WrField *field = wr_field_new(side, side, WR_WRAP_CLAMP, WR_WRAP_CLAMP, 0, NULL);
+    for (int i = 0; i < side * side; i++)
+        wr_field_tile_write(field, i % side / WR_TILE,
+                            i / side / WR_TILE)[i / side % WR_TILE * WR_TILE + i % side % WR_TILE] =
+            grid->before[i / side * grid->box.pitch + i % side];
+    targets.start = field;
+    for (int ty = 0; ty < wr_field_tiles_v(field); ty++)
+        for (int tx = 0; tx < wr_field_tiles_u(field); tx++) {
+            wr_targets_compute_tile(&targets, tx, ty, tile);
+            for (int k = 0; k < WR_TILE * WR_TILE; k++) {
+                const int x = tx * WR_TILE + k % WR_TILE, y = ty * WR_TILE + k / WR_TILE;
+                if (x < side && y < side) grid->box.heights[y * grid->box.pitch + x] = tile[k];
+            }
+        }
+    wr_field_free(field);
+}
+
+/* Targets from the surface around, where the table has a seam. What the grid does not resolve is kept: of the largest height
+   around no texel is above it, and so on. */
+static void set_targets(WrDraw *draw, const WrDabShape *shape, const WrMeshTexel *texels, int count,
+                        int half)
+{
+    const WrStrokeResolver *maker = &draw->cover.maker;
+    const WrBlendTargetKind kind = maker->targets.kind;
+    Grid grid;
+    if (!grid_new(draw, shape, half, &grid)) return;
+    splat(&grid, maker->start, texels, count);
+    fill(&grid, 2);
+    extend(&grid);
+    target_grid(maker, &grid);
+    for (int i = 0; i < count; i++) {
+        const WrMeshTexel *at = &texels[i];
+        const double f = height_of(maker->start, at);
+        double target = sample(&grid, grid.box.heights, at->dx, at->dy);
+        if (!(at->weight * cover_at(shape, at->dx, at->dy) > 0)) continue;
+        if (kind == WR_BLEND_TARGET_LARGEST) target = fmax(target, f);
+        else if (kind == WR_BLEND_TARGET_SMALLEST) target = fmin(target, f);
+        else target += f - sample(&grid, grid.before, at->dx, at->dy);
+        wr_coverage_set_target(&draw->cover, at->x, at->y, wr_finite_float(target));
     }
 }
 
 /* ---- dabs ---- */
+
+static WrVec3 reflected(WrVec3 v, unsigned axes)
+{
+    return (WrVec3){ axes & 1 ? -v.x : v.x, axes & 2 ? -v.y : v.y, axes & 4 ? -v.z : v.z };
+}
+
+/* Sets *out to the disc in the mirrors across these axes. False: the mesh is not there, it has no such symmetry. */
+static bool mirror_disc(const WrBrushGround *ground, const WrMeshDisc *disc, unsigned axes,
+                        WrMeshDisc *out)
+{
+    const WrVec3 at = ground->mirror_at;
+    const WrVec3 p = v3_add(at, reflected(v3_sub(disc->centre.p, at), axes));
+    *out = *disc;
+    out->centre = wr_mesh_texels_nearest(ground->mesh, p);
+    out->along = reflected(disc->along, axes);
+    out->eye = v3_add(at, reflected(v3_sub(disc->eye, at), axes));
+    out->mirrored = __builtin_popcount(axes) % 2 == 1;
+    return v3_len(v3_sub(out->centre.p, p)) < disc->radius;
+}
+
+static void lay_disc(WrDraw *draw, const WrDab *dab, const WrDabShape *shape,
+                     const WrMeshDisc *disc)
+{
+    int count;
+    const WrMeshTexel *texels = wr_mesh_texels_disc(draw->cover.maker.ground.mesh, disc, &count);
+    double most = 0; /* the mesh may be smaller than the dab */
+    for (int i = 0; i < count; i++) most = fmax(most, fmax(fabs(texels[i].dx), fabs(texels[i].dy)));
+    const int half = (int)ceil(most) + 2;
+    if (draw->moves) {
+        move(draw, dab, shape, texels, count, half);
+        return;
+    }
+    if (looks_around(&draw->cover.maker) && wr_mesh_texels_crossed(draw->cover.maker.ground.mesh))
+        set_targets(draw, shape, texels, count, half);
+    for (int i = 0; i < count; i++) {
+        const double c = texels[i].weight * cover_at(shape, texels[i].dx, texels[i].dy);
+        if (c > 0) wr_coverage_add_texel(&draw->cover, texels[i].x, texels[i].y, (float)c);
+    }
+}
 
 void wr_mesh_dab(WrDraw *draw, const WrDab *dab)
 {
@@ -294,20 +387,14 @@ void wr_mesh_dab(WrDraw *draw, const WrDab *dab)
     const double reach =
         shape.kind == WR_SHAPE_TIP ? hypot(shape.reach_x, shape.reach_y) : local.radius;
     const WrMoveMargin margin = draw->moves ? maker->work->margin : NULL;
-    const double beside = margin ? margin(local.radius, dab->dx, dab->dy) : draw->moves ? 1 : 0;
-    WrMeshDisc disc = disc_at(draw, dab->x, dab->y);
-    int count;
+    const double beside = margin        ? margin(local.radius, dab->dx, dab->dy)
+                          : draw->moves ? 1
+                                        : looks_around(maker);
+    WrMeshDisc disc = disc_at(draw, dab->x, dab->y), mirrored;
     disc.radius = (reach + beside) * wr_mesh_texel_side(mesh);
-    const WrMeshTexel *texels = wr_mesh_texels_disc(mesh, &disc, &count);
-    if (draw->moves) {
-        double most = 0; /* the mesh may be smaller than the dab */
-        for (int i = 0; i < count; i++)
-            most = fmax(most, fmax(fabs(texels[i].dx), fabs(texels[i].dy)));
-        move(draw, &local, &shape, texels, count, (int)ceil(most) + 2);
-        return;
-    }
-    for (int i = 0; i < count; i++) {
-        const double c = texels[i].weight * cover_at(&shape, texels[i].dx, texels[i].dy);
-        if (c > 0) wr_coverage_add_texel(&draw->cover, texels[i].x, texels[i].y, (float)c);
-    }
+    lay_disc(draw, &local, &shape, &disc);
+    for (unsigned axes = 1; axes <= maker->ground.mirrors; axes++)
+        if ((axes & ~maker->ground.mirrors) == 0 &&
+            mirror_disc(&maker->ground, &disc, axes, &mirrored))
+            lay_disc(draw, &local, &shape, &mirrored);
 }

@@ -110,6 +110,9 @@ static const WrComponent mesh_sample_parts[] = {
     { "seconds", -1e9, 1e9, false },
 };
 
+/* By the bits of WrBrushGround.mirrors. */
+static const char *const mirror_axes[] = { "none", "x", "y", "xy", "z", "xz", "yz", "xyz", NULL };
+
 static const WrArgSpec args_sculpt[] = {
     { .name = "points",
       .type = WR_ARG_LIST,
@@ -130,6 +133,20 @@ static const WrArgSpec args_sculpt[] = {
       .shape = "x,y,z",
       .help = "a place in the mesh's coordinates: faces turned away from it are not painted. Left "
               "out, all are" },
+    { .name = "mirror_axes",
+      .type = WR_ARG_CHOICE,
+      .words = mirror_axes,
+      .fallback_text = "none",
+      .help = "drawn again as in mirrors that stand across these axes of the mesh" },
+    { .name = "mirror_at",
+      .type = WR_ARG_TUPLE,
+      .components = 3,
+      .low = -WR_LENGTH_MAX,
+      .high = WR_LENGTH_MAX,
+      .shape = "x,y,z",
+      .help =
+          "where they cross, in the mesh's coordinates; left out: 0,0,0 if the mesh is about it, "
+          "else its centre" },
     { 0 }
 };
 
@@ -325,8 +342,9 @@ const WrCommand wr_command_sculpt = {
         "over the faces, so it goes on across the seams of (u,v) and does not come through a "
         "wall. The brush's texels have the mean size that texels have on the mesh. With tip= it "
         "lays a stamp on the surface. A texel that several places of the mesh share changes at "
-        "all of them; a note says so. clone, sharpen, dilate and erode look around in the table, "
-        "not across seams. No mirror=, radial= or repeat=.",
+        "all of them; a note says so. clone copies from another place of the table. mirror_axes= "
+        "repeats each dab on the other side; where the mesh has no surface within the dab's "
+        "radius there, it is left out. No mirror=, radial= or repeat=.",
     .example = "sculpt points=0,0,1;0.3,0,0.95,0.6 radius=12 eye=0,0,5"
 };
 

@@ -20,8 +20,10 @@ typedef struct WrError WrError;
 typedef struct WrExportKind WrExportKind;
 typedef struct WrFrame WrFrame;
 typedef struct WrPool WrPool;
+typedef struct WrRayTree WrRayTree;
 typedef struct WrSample WrSample;
 typedef struct WrText WrText;
+typedef struct WrTriangles WrTriangles;
 
 typedef struct WrSession WrSession;
 
@@ -91,6 +93,13 @@ bool wr_session_run_script(WrSession *session, const char *path, WrError *err);
 /* Run a script from an open stream (standard input), each line as soon as it arrives. `name` replaces the file name
    in errors; relative file names are resolved in the current folder. */
 bool wr_session_run_stream(WrSession *session, FILE *stream, const char *name, WrError *err);
+
+/* Prepare strokes on the active object's mesh, which take a second for a million triangles; else the first stroke
+   does. The document stays as it is. */
+bool wr_session_mesh_needs_preparing(const WrSession *session);
+bool wr_session_prepare_mesh(WrSession *session, WrError *err);
+/* The ray tree of that mesh if it is prepared, else NULL. Borrowed until the next stroke or command. */
+const WrRayTree *wr_session_mesh_tree(const WrSession *session, const WrTriangles *mesh);
 
 /* A stroke in progress is an open command: `head` is a stroke command without points, such as "stroke radius=20
    strength=0.1". Each sample is rounded to its printed text (u, v to 1e-7, pressure, tilt and seconds to 1e-4) and

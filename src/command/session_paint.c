@@ -559,26 +559,64 @@ static void prepare_erasing(WrSession *session, WrLayer *layer, WrPainting *pain
 
 /* ---- strokes on a mesh ---- */
 
+static WrMeshTexelsTable table_of(const WrScene *scene, const WrField *field)
+{
+    return (WrMeshTexelsTable){ .width = wr_field_width(field),
+                                .height = wr_field_height(field),
+                                .periodic_u = wr_field_wrap_u(field) == WR_WRAP_PERIODIC,
+                                .periodic_v = wr_field_wrap_v(field) == WR_WRAP_PERIODIC,
+                                .ru = scene->replicate_u,
+                                .rv = scene->replicate_v };
+}
+
 /* The texels of the active object's mesh for the table, made again for another mesh or table. */
 static bool take_texels(WrSession *session, const WrField *field, WrError *err)
 {
     const WrScene *scene = session->state.document->scene;
-    const WrMeshTexelsTable table = { .width = wr_field_width(field),
-                                      .height = wr_field_height(field),
-                                      .periodic_u = wr_field_wrap_u(field) == WR_WRAP_PERIODIC,
-                                      .periodic_v = wr_field_wrap_v(field) == WR_WRAP_PERIODIC,
-                                      .ru = scene->replicate_u,
-                                      .rv = scene->replicate_v };
+    const WrMeshTexelsTable table = table_of(scene, field);
     if (!scene->triangles || !wr_surfaces[scene->shape.kind]->held)
         return wr_fail(err,
                        "the object is a %s without triangles; paint in its table with `stroke`",
                        wr_surfaces[scene->shape.kind]->name);
     if (session->mesh_texels && wr_mesh_texels_fit(session->mesh_texels, scene->triangles, &table))
         return true;
-    wr_mesh_texels_free(session->mesh_texels);
-    session->mesh_texels = wr_mesh_texels_new(scene->triangles, &table, err);
+    WrMeshTexels *before = session->mesh_texels;
+    session->mesh_texels = wr_mesh_texels_new(scene->triangles, &table, before, err);
+    wr_mesh_texels_free(before);
     session->mesh_sharing_told = false;
     return session->mesh_texels != NULL;
+}
+
+bool wr_session_mesh_needs_preparing(const WrSession *session)
+{
+    const WrDocument *document = session->state.document;
+    const WrScene *scene = document->scene;
+    if (!scene->triangles || !wr_surfaces[scene->shape.kind]->held) return false;
+    const WrMeshTexelsTable table = table_of(scene, document->layers[document->active].heights);
+    return !session->mesh_texels ||
+           !wr_mesh_texels_fit(session->mesh_texels, scene->triangles, &table);
+}
+
+bool wr_session_prepare_mesh(WrSession *session, WrError *err)
+{
+    const WrDocument *document = session->state.document;
+    return take_texels(session, document->layers[document->active].heights, err);
+}
+
+const WrRayTree *wr_session_mesh_tree(const WrSession *session, const WrTriangles *mesh)
+{
+    return session->mesh_texels ? wr_mesh_texels_tree(session->mesh_texels, mesh) : NULL;
+}
+
+/* `project` has none. */
+static void take_mirrors(const WrSession *session, const WrCall *call, WrBrushGround *ground)
+{
+    if (!wr_call_given(call, "mirror_axes")) return;
+    ground->mirrors = (unsigned)wr_call_choice(call, "mirror_axes");
+    ground->mirror_at = wr_mesh_mirrors_at(session->state.document->scene->triangles);
+    if (!wr_call_given(call, "mirror_at")) return;
+    const double *at = wr_call_arg(call, "mirror_at")->numbers;
+    ground->mirror_at = (WrVec3){ at[0], at[1], at[2] };
 }
 
 static bool take_mesh(WrSession *session, const WrCall *call, const WrBrush *brush,
@@ -591,6 +629,7 @@ static bool take_mesh(WrSession *session, const WrCall *call, const WrBrush *bru
                             "mesh");
     if (!take_texels(session, ground->field, err)) return false;
     ground->mesh = session->mesh_texels;
+    take_mirrors(session, call, ground);
     ground->clips = wr_call_given(call, "eye");
     if (!ground->clips) return true;
     const double *eye = wr_call_arg(call, "eye")->numbers;

@@ -48,6 +48,7 @@ struct WrMeshTexels {
     uint8_t *covered; /* [height][width] bits */
     double side;
     int64_t shared;            /* texels with COUNTED */
+    bool crossed;              /* the present disc reaches over a seam */
     uint32_t *stamp, now;      /* [triangles] == now: reached by the present disc */
     WR_ARRAY(Reached) heap;    /* the flood's front, nearest first */
     WR_ARRAY(Reached) reached; /* in the order of their distance */
@@ -164,7 +165,7 @@ static bool prepare(WrMeshTexels *t, WrError *err)
     if (!(t->side > 0))
         return wr_fail(err, "the mesh has no texture coordinates to paint on; give it some: "
                             "`surface mesh projection=box`");
-    t->tree = wr_ray_tree_new(t->mesh, 0, t->mesh->triangle_count, err);
+    if (!t->tree) t->tree = wr_ray_tree_new(t->mesh, 0, t->mesh->triangle_count, err);
     if (!t->tree || !wr_mesh_edges_find(t->mesh, &edges, err)) return false;
     int32_t *first = wr_try_alloc((size_t)edges.count, sizeof *first, "a mesh's edges", err);
     t->across = first ? wr_try_alloc(3 * count, sizeof *t->across, "a mesh's edges", err) : NULL;
@@ -183,11 +184,13 @@ static bool prepare(WrMeshTexels *t, WrError *err)
 }
 
 WrMeshTexels *wr_mesh_texels_new(const WrTriangles *mesh, const WrMeshTexelsTable *table,
-                                 WrError *err)
+                                 const WrMeshTexels *before, WrError *err)
 {
+    const WrRayTree *tree = before ? wr_mesh_texels_tree(before, mesh) : NULL;
     WrMeshTexels *t = wr_alloc(1, sizeof *t);
     t->mesh = wr_triangles_share(mesh);
     t->table = *table;
+    t->tree = tree ? wr_ray_tree_share(tree) : NULL;
     if (prepare(t, err)) return t;
     wr_mesh_texels_free(t);
     return NULL;
@@ -217,6 +220,11 @@ bool wr_mesh_texels_fit(const WrMeshTexels *t, const WrTriangles *mesh,
            own->periodic_v == table->periodic_v && own->ru == table->ru && own->rv == table->rv;
 }
 
+const WrRayTree *wr_mesh_texels_tree(const WrMeshTexels *t, const WrTriangles *mesh)
+{
+    return t->mesh->key == mesh->key ? t->tree : NULL;
+}
+
 double wr_mesh_texel_side(const WrMeshTexels *t)
 {
     return t->side;
@@ -241,6 +249,13 @@ int64_t wr_mesh_texels_shared(const WrMeshTexels *t)
 }
 
 /* ---- points ---- */
+
+WrVec3 wr_mesh_mirrors_at(const WrTriangles *mesh)
+{
+    const WrVec3 centre = { mesh->centre[0], mesh->centre[1], mesh->centre[2] };
+    const WrVec3 origin = { 0, 0, 0 };
+    return v3_len(centre) < mesh->radius ? origin : centre;
+}
 
 static double clamped(double x, double low, double high)
 {
@@ -365,6 +380,17 @@ static double way_to(const Reached *r, WrVec3 p)
     return r->base + v3_len(v3_sub(end, r->source)) + v3_len(v3_sub(p, end));
 }
 
+/* True if the half-edges have the same (u,v) at their ends, in either order. */
+static bool joined(const WrTriangles *mesh, int32_t h, int32_t other)
+{
+    const WrTriangleCorner *a = wr_triangle_corner(mesh, h / 3, h % 3);
+    const WrTriangleCorner *b = wr_triangle_corner(mesh, h / 3, (h + 1) % 3);
+    const WrTriangleCorner *c = wr_triangle_corner(mesh, other / 3, other % 3);
+    const WrTriangleCorner *d = wr_triangle_corner(mesh, other / 3, (other + 1) % 3);
+    return (a->u == c->u && a->v == c->v && b->u == d->u && b->v == d->v) ||
+           (a->u == d->u && a->v == d->v && b->u == c->u && b->v == c->v);
+}
+
 /* Enters the neighbour behind half-edge h: its plane is unfolded about the edge. */
 static void enter(WrMeshTexels *t, const Reached *r, int32_t h, double radius)
 {
@@ -392,13 +418,16 @@ static void enter(WrMeshTexels *t, const Reached *r, int32_t h, double radius)
     next.source = v3_mad(v3_mad(a, next.e, along), next.in, -height);
     const double off = along - clamped(along, 0, next.length);
     next.key = fmax(r->key, next.base + sqrt(off * off + height * height));
-    if (next.key < radius) push(t, next);
+    if (!(next.key < radius)) return;
+    if (!joined(t->mesh, h, other)) t->crossed = true;
+    push(t, next);
 }
 
 /* Reaches every triangle with a point nearer than the radius, in the order of their distance (Dijkstra). */
 static void flood(WrMeshTexels *t, const WrMeshDisc *disc)
 {
     t->heap.count = t->reached.count = 0;
+    t->crossed = false;
     t->now++;
     push(t, (Reached){ .triangle = disc->centre.triangle, .source = disc->centre.p });
     while (t->heap.count > 0) {
@@ -490,7 +519,7 @@ const WrMeshTexel *wr_mesh_texels_disc(WrMeshTexels *t, const WrMeshDisc *disc, 
     /* The plane of the mean normal: a disc on an edge lies on both faces alike. */
     const WrVec3 n = v3_unit(sum, disc->centre.n);
     const WrVec3 right = v3_unit(v3_mad(disc->along, n, -v3_dot(disc->along, n)), disc->along);
-    const WrVec3 up = v3_cross(n, right);
+    const WrVec3 up = v3_cross(disc->mirrored ? v3_neg(n) : n, right);
     for (int i = 0; i < t->places.count; i++) {
         const Place *p = &t->places.data[i];
         if (i > 0 && p[-1].index == p->index) continue;
@@ -506,6 +535,11 @@ const WrMeshTexel *wr_mesh_texels_disc(WrMeshTexels *t, const WrMeshDisc *disc, 
     }
     *count = t->texels.count;
     return t->texels.data;
+}
+
+bool wr_mesh_texels_crossed(const WrMeshTexels *t)
+{
+    return t->crossed;
 }
 
 /* ---- projection of a picture ---- */

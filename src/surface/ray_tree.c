@@ -37,6 +37,7 @@ struct WrRayTree {
     Node *nodes;
     Facet *facets;
     int32_t node_count;
+    int refs;
 };
 
 /* ---- building ---- */
@@ -224,6 +225,7 @@ WrRayTree *wr_ray_tree_new(const WrTriangles *mesh, int32_t first, int32_t count
     WrRayTree *tree = wr_alloc(1, sizeof *tree);
     Builder b = { .tree = tree };
     WR_ASSERT(count > 0);
+    tree->refs = 1;
     tree->mesh = wr_triangles_share(mesh);
     bool good = (b.boxes = wr_try_alloc_unset(n, sizeof *b.boxes, purpose, err)) &&
                 (b.order = wr_try_alloc_unset(n, sizeof *b.order, purpose, err)) &&
@@ -241,9 +243,16 @@ WrRayTree *wr_ray_tree_new(const WrTriangles *mesh, int32_t first, int32_t count
     return NULL;
 }
 
+WrRayTree *wr_ray_tree_share(const WrRayTree *tree)
+{
+    WrRayTree *shared = (WrRayTree *)tree; /* only the reference count changes */
+    __atomic_fetch_add(&shared->refs, 1, __ATOMIC_RELAXED);
+    return shared;
+}
+
 void wr_ray_tree_free(WrRayTree *tree)
 {
-    if (!tree) return;
+    if (!tree || __atomic_sub_fetch(&tree->refs, 1, __ATOMIC_ACQ_REL) > 0) return;
     wr_triangles_free(tree->mesh);
     wr_free(tree->nodes);
     wr_free(tree->facets);

@@ -18,6 +18,7 @@ typedef struct WrRayTree WrRayTree;
 /* Builds the tree of triangles [first, first + count), count 1 or more; shares the mesh. 0.8 s for a million.
  * Errors: no memory; cancelled. */
 WrRayTree *wr_ray_tree_new(const WrTriangles *mesh, int32_t first, int32_t count, WrError *err);
+WrRayTree *wr_ray_tree_share(const WrRayTree *tree);
 void wr_ray_tree_free(WrRayTree *tree); /* NULL is allowed */
 
 typedef struct WrRayHit {

@@ -332,6 +332,142 @@ static void a_projection_that_meets_nothing_is_an_error(void **state)
     wr_session_free(s);
 }
 
+/* ---- mirrors ---- */
+
+/* Largest difference between an island and another one, read from right to left. */
+static double unlike(const WrSession *s, int face, int other)
+{
+    double most = 0;
+    for (int j = -1; j <= SIDE; j++)
+        for (int i = -1; i <= SIDE; i++)
+            most = fmax(most, fabs(island(s, face, i, j) - island(s, other, SIDE - 1 - i, j)));
+    return most;
+}
+
+/* The dab is a slanted ellipse, so that a copy that is only moved or turned differs. */
+#define SLANTED "aspect=2.7 angle=31 radius=13 hardness=0.4 strength=0.8"
+#define PATH "points=0.31,0.12,1,0.6;0.62,0.47,1,1 "
+
+static void mirrors_draw_it_on_the_other_side(void **state)
+{
+    (void)state;
+    Said said;
+    WrSession *s = with_box(&said, 1, 3), *alone = with_box(&said, 1, 3);
+    must_run(alone, "sculpt " PATH SLANTED);
+    assert_true(unlike(alone, FRONT, FRONT) > 0.3);
+    must_run(s, "sculpt " PATH SLANTED " mirror_axes=x");
+    assert_true(unlike(s, FRONT, FRONT) < 1e-5);
+    assert_float_equal(island(s, FRONT, 57, 31), island(alone, FRONT, 57, 31), 1e-6);
+    assert_true(island(alone, FRONT, 57, 31) > 0.1);
+    must_run(s, "undo");
+    /* The eye is mirrored too: the back is towards its image. */
+    must_run(s, "sculpt " PATH SLANTED " mirror_axes=xz eye=0.3,0.2,6");
+    assert_true(unlike(s, FRONT, FRONT) < 1e-5 && unlike(s, FRONT, BACK) < 1e-5);
+    assert_true(island(s, BACK, 57, 31) > 0.1);
+    wr_session_free(s);
+    wr_session_free(alone);
+}
+
+static void moved_heights_stay_as_in_a_mirror(void **state)
+{
+    (void)state;
+    Said said;
+    WrSession *s = with_box(&said, 1, 3), *alone = with_box(&said, 1, 3);
+    must_run(s, "sculpt " PATH SLANTED " mirror_axes=x");
+    must_run(alone, "sculpt " PATH SLANTED " mirror_axes=x");
+    const double before = island(s, FRONT, 60, 25);
+    must_run(s, "sculpt mode=smear points=0.3,0.1,1;0.51,0.4,1;0.6,0.7,1 radius=9 mirror_axes=x");
+    must_run(alone, "sculpt mode=smear points=0.3,0.1,1;0.51,0.4,1;0.6,0.7,1 radius=9");
+    assert_true(unlike(alone, FRONT, FRONT) > 0.02);
+    assert_true(unlike(s, FRONT, FRONT) < 1e-5);
+    assert_true(fabs(island(s, FRONT, 60, 25) - before) > 0.01);
+    wr_session_free(s);
+    wr_session_free(alone);
+}
+
+static void a_mirrored_dab_beside_the_mesh_is_left_out(void **state)
+{
+    (void)state;
+    Said said;
+    WrSession *s = with_box(&said, 1, 3), *alone = with_box(&said, 1, 3);
+    must_run(alone, "sculpt points=0.31,0.12,1 radius=13");
+    must_run(s, "sculpt points=0.31,0.12,1 radius=13 mirror_axes=x mirror_at=2,0,0");
+    assert_true(wr_hash_equal(wr_session_hash(s), wr_session_hash(alone)));
+    must_run(s, "undo");
+    must_run(s, "sculpt points=0.31,0.12,1 radius=13 mirror_axes=x mirror_at=0.5,0,0");
+    assert_float_equal(island(s, FRONT, 67, 35), island(s, FRONT, 52, 35), 1e-5);
+    assert_true(island(s, FRONT, 67, 35) > 0.05);
+    wr_session_free(s);
+    /* A square from 3 to 4, away from the origin: mirrored about its own centre. */
+    write_text("far.obj", "v 3 0 0\nv 4 0 0\nv 4 1 0\nv 3 1 0\nvt 0.1 0.1\nvt 0.9 0.1\n"
+                          "vt 0.9 0.9\nvt 0.1 0.9\nf 1/1 2/2 3/3 4/4\n");
+    s = with_mesh(&said, "table 100x100", "surface mesh file=far.obj");
+    must_run(s, "sculpt points=3.2,0.4,0 radius=8 mirror_axes=x");
+    assert_float_equal(f_at(s, 25, 57), f_at(s, 74, 57), 1e-5);
+    assert_true(f_at(s, 25, 57) > 0.05);
+    wr_session_free(s);
+    wr_session_free(alone);
+}
+
+/* ---- modes that look around ---- */
+
+/* Two squares of 80 x 80 texels side by side, in one island; or the right one in another, a quarter turn on. */
+static void write_strip(const char *path, bool split)
+{
+    WrText text = { 0 };
+    for (int k = 0; k < 8; k++) {
+        const double x = k / 4 + (k % 4 == 1 || k % 4 == 2), y = k % 4 > 1;
+        const bool turned = split && k > 3;
+        wr_text_addf(&text, "v %g %g 0\nvt %.9g %.9g\n", x, y,
+                     (turned ? 10 + 80 * y : 10 + 80 * x) / 200,
+                     (turned ? 110 + 80 * (2 - x) : 10 + 80 * y) / 200);
+    }
+    wr_text_add(&text, "f 1/1 2/2 3/3 4/4\nf 5/5 6/6 7/7 8/8\n");
+    write_text(path, wr_text_get(&text));
+    wr_text_fini(&text);
+}
+
+/* The height at texel (a, b) of the strip, from its left and lower side. */
+static double strip(const WrSession *s, bool split, int a, int b)
+{
+    return split && a > 79 ? (double)f_at(s, 10 + b, a - 70) : (double)f_at(s, 10 + a, 189 - b);
+}
+
+static void targets_are_found_across_a_seam(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {
+        "sculpt mode=dilate reach=6 points=0.95,0.4,0;1.04,0.62,0 radius=15 hardness=0.7",
+        "sculpt mode=erode reach=4 points=0.97,0.41,0;1.05,0.6,0 radius=17 hardness=0.6",
+        "sculpt mode=sharpen reach=5 points=0.96,0.4,0;1.02,0.63,0 radius=16 strength=0.8",
+    };
+    Said said;
+    write_strip("whole.obj", false);
+    write_strip("split.obj", true);
+    WrSession *whole = with_mesh(&said, "table 200x200", "surface mesh file=whole.obj");
+    WrSession *parts = with_mesh(&said, "table 200x200", "surface mesh file=split.obj");
+    const char *relief = "sculpt points=1.06,0.47,0;1.1,0.7,0 radius=11 strength=0.7";
+    must_run(whole, relief);
+    must_run(parts, relief);
+    for (int k = 0; k < 3; k++) {
+        double most = 0, change = 0, before[80];
+        for (int b = 0; b < 80; b++) before[b] = strip(whole, false, 77, b);
+        must_run(whole, lines[k]);
+        must_run(parts, lines[k]);
+        for (int b = 0; b < 80; b++) {
+            change = fmax(change, fabs(strip(whole, false, 77, b) - before[b]));
+            for (int a = 40; a < 120; a++)
+                most = fmax(most, fabs(strip(whole, false, a, b) - strip(parts, true, a, b)));
+        }
+        assert_true(change > 0.05);
+        assert_true(most < 0.25 * change);
+        must_run(whole, "undo");
+        must_run(parts, "undo");
+    }
+    wr_session_free(whole);
+    wr_session_free(parts);
+}
+
 /* ---- the command ---- */
 
 static void shared_texels_are_noted_once(void **state)
@@ -370,6 +506,37 @@ static void a_stroke_by_samples_is_repeated_by_its_line(void **state)
     assert_true(wr_hash_equal(wr_session_hash(s), wr_session_hash(again)));
     must_run(s, "undo");
     assert_true(wr_hash_equal(wr_session_hash(s), before));
+    wr_session_free(s);
+    wr_session_free(again);
+}
+
+/* The window prepares the mesh before the first stroke. */
+static void a_prepared_mesh_gives_the_same_stroke(void **state)
+{
+    (void)state;
+    static const char line[] = "sculpt points=0.3,0.1,1;1,0.37,0.2 radius=11 eye=4,3,5";
+    Said said;
+    WrError err;
+    WrSession *s = with_box(&said, 1, 3), *again = with_box(&said, 1, 3);
+    const WrTriangles *mesh = wr_session_document(s)->scene->triangles;
+    assert_true(wr_session_mesh_needs_preparing(s));
+    assert_null(wr_session_mesh_tree(s, mesh));
+    const WrHash before = wr_session_hash(s);
+    assert_true(wr_session_prepare_mesh(s, &err));
+    assert_true(wr_hash_equal(wr_session_hash(s), before));
+    assert_false(wr_session_mesh_needs_preparing(s));
+    const WrRayTree *tree = wr_session_mesh_tree(s, mesh);
+    assert_non_null(tree);
+    must_run(s, line);
+    must_run(again, line);
+    assert_true(wr_hash_equal(wr_session_hash(s), wr_session_hash(again)));
+    assert_false(wr_session_mesh_needs_preparing(again));
+    must_run(s, "replicate 2,1");
+    assert_true(wr_session_mesh_needs_preparing(s));
+    assert_true(wr_session_prepare_mesh(s, &err));
+    assert_ptr_equal(wr_session_mesh_tree(s, mesh), tree);
+    must_run(s, "surface sphere");
+    assert_false(wr_session_mesh_needs_preparing(s));
     wr_session_free(s);
     wr_session_free(again);
 }
@@ -434,6 +601,16 @@ int main(void)
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(a_stroke_by_samples_is_repeated_by_its_line,
                                         enter_own_folder, leave_own_folder),
+        cmocka_unit_test_setup_teardown(mirrors_draw_it_on_the_other_side, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(moved_heights_stay_as_in_a_mirror, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(a_mirrored_dab_beside_the_mesh_is_left_out,
+                                        enter_own_folder, leave_own_folder),
+        cmocka_unit_test_setup_teardown(targets_are_found_across_a_seam, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(a_prepared_mesh_gives_the_same_stroke, enter_own_folder,
+                                        leave_own_folder),
         cmocka_unit_test_setup_teardown(cancelled_it_changes_nothing, enter_own_folder,
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(errors_name_the_cause_and_the_remedy, enter_own_folder,

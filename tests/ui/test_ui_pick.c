@@ -5,6 +5,7 @@
 #include "base/pool.h"
 #include "field/field.h"
 #include "render/frame/frame.h"
+#include "scene/objects.h"
 #include "scene/scene.h"
 #include "surface/triangles.h"
 #include "base/vec.h"
@@ -261,6 +262,36 @@ static void a_mesh_is_picked_as_the_same_surface_by_a_formula(void **state)
     }
 }
 
+/* The second object is a copy of the first, farther away by `back` radii. */
+static int chosen_under_the_middle(int chosen, double back)
+{
+    WrError err = { "" };
+    WrScene *one = scene_of((WrSurfaceKind)wr_surface_find("sphere"), false);
+    WrScene *two = wr_scene_add_object(one, true);
+    two->at.z = -back;
+    WrScene *scene = wr_scene_choose(two, chosen);
+    WrObjectPicks *picks = wr_object_picks_new(scene, TURN, W, H, NULL, &err);
+    assert_non_null(picks);
+    WrPatchSpot spot;
+    const int found = wr_object_picks_at(picks, chosen, W / 2.0 + 7, H / 2.0 - 5, &spot);
+    wr_object_picks_free(picks);
+    wr_scene_free(scene);
+    wr_scene_free(two);
+    wr_scene_free(one);
+    return found;
+}
+
+/* Two objects with relief on different materials of one mesh share its surface. */
+static void of_coinciding_objects_the_chosen_one_is_picked(void **state)
+{
+    (void)state;
+    assert_int_equal(chosen_under_the_middle(0, 0), 0);
+    assert_int_equal(chosen_under_the_middle(1, 0), 1);
+    assert_int_equal(chosen_under_the_middle(0, 0.3), 0);
+    assert_int_equal(chosen_under_the_middle(1, 0.3), 0);
+    assert_int_equal(chosen_under_the_middle(0, -0.3), 1);
+}
+
 static void a_camera_that_cannot_look_is_an_error(void **state)
 {
     (void)state;
@@ -306,6 +337,7 @@ int main(void)
         cmocka_unit_test(the_back_of_a_sphere_is_hidden_and_its_front_is_not),
         cmocka_unit_test(slopes_say_how_uv_move_with_the_pixel),
         cmocka_unit_test(a_mesh_is_picked_as_the_same_surface_by_a_formula),
+        cmocka_unit_test(of_coinciding_objects_the_chosen_one_is_picked),
         cmocka_unit_test(a_camera_that_cannot_look_is_an_error),
         cmocka_unit_test(hc82_an_eye_within_the_object_does_no_harm),
     };

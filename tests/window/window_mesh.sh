@@ -56,6 +56,16 @@ search 'faces turned away'
 drag $((mx - 60)) $((my + 60)) 4 0 5
 becomes 'sculpt radius=*' "a stroke for all faces"
 key ctrl+z
+key shift+m
+drag $((mx - 60)) $((my + 60)) 4 0 5
+becomes 'sculpt *mirror_axes=x *' "a stroke in the mirror"
+key ctrl+z
+key shift+m
+search 'stamp'
+click $((mx - 70)) $((my + 40))
+becomes 'sculpt points=*,1 *angle=*' "a stamp upright in the view"
+key ctrl+z
+key b
 search 'project layer onto'
 becomes 'project 1 eye=*into=new*' "the layer as a slide on the mesh"
 home

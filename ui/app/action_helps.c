@@ -127,6 +127,7 @@ const char *const wr_action_helps[] = {
     ROW(fill, "Give all selected heights one value"),
     ROW(grid, "Draw lines at even distances into the table"),
     ROW(import, "Take a picture's brightness as heights of the active layer"),
+    ROW(mesh, "Show the active object as the mesh of an OBJ, PLY, STL, glTF or 3MF file"),
     ROW(gltf, "Take the materials and pictures of a glTF or GLB file for the objects"),
     ROW(bake, "Bake relief, normals and other maps of a detailed mesh onto the object's own mesh"),
     ROW(zoom_in, "Show the table larger"),

@@ -394,6 +394,7 @@ const WrAction wr_actions[] = {
     PAINT(fill, "Fill...", fill, NULL, NULL),
     PAINT(grid, "Grid...", grid, NULL, NULL),
     EDIT(import, "Import heights...", import, NULL, NULL),
+    EDIT(mesh, "Import mesh...", wr_app_choose_mesh, NULL, NULL),
     EDIT(gltf, "Materials of a glTF...", wr_app_choose_gltf, NULL, NULL),
     EDIT(bake, "Bake a detailed mesh...", bake, wr_app_can_bake, NULL),
     ROW(zoom_in, "Zoom in", zoom_in, NULL, NULL),

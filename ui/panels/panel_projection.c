@@ -19,6 +19,7 @@
 
 #include "base/exactmath.h"
 #include "base/text.h"
+#include "field/field.h"
 #include "scene/scene.h"
 #include "surface/projection.h"
 #include "surface/triangles.h"
@@ -55,6 +56,22 @@ static void take(WrApp *app, WrEdit edit, const WrProjection *is, const char *na
     if (edit == WR_EDIT_NONE) return;
     wr_projection_live(app, is);
     if (edit == WR_EDIT_DONE) run(app, name, values, count);
+}
+
+/* A projection begins with cells of the table's proportions, so that the relief is not stretched. */
+static void choose(WrApp *app, int kind)
+{
+    const WrProjection *is = &wr_app_scene(app)->projection;
+    const WrField *field = wr_app_field(app);
+    const double table = (double)wr_field_width(field) / wr_field_height(field);
+    WrText line = { 0 };
+    wr_text_addf(&line, "surface mesh projection=%s", wr_projection_names[kind]);
+    if (is->kind == WR_PROJECTION_UV && is->cell[0] == is->cell[1] && table != 1) {
+        wr_line_number(&line, "cell", is->cell[0]);
+        wr_text_add(&line, ",");
+        wr_text_add_number(&line, fmax(0.01, wr_line_round(is->cell[0] / table, 2)));
+    }
+    wr_scene_run(app, &line);
 }
 
 static void cell_row(WrApp *app)
@@ -314,8 +331,7 @@ void wr_projection_rows(WrApp *app)
     if (scene->shape.kind != WR_SURFACE_mesh || !scene->triangles) return;
     int kind = (int)scene->projection.kind, unit = (int)scene->projection.unit;
     wr_gui_label("Projection");
-    if (wr_gui_choice("projection", 0, labels, WR_PROJECTIONS, &kind))
-        run_word(app, "projection", wr_projection_names[kind]);
+    if (wr_gui_choice("projection", 0, labels, WR_PROJECTIONS, &kind)) choose(app, kind);
     wr_gui_tip("How the table is laid on the mesh");
     if (kind_of(app) != WR_PROJECTION_UV) {
         cell_row(app);

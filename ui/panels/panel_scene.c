@@ -1,7 +1,9 @@
 /* Scene panel: every field shows the document's value, changes the preview while it is dragged, and runs one command
    at the end. */
 #include "ui/app/state/app_state.h"
+#include "ui/app/state/background_command.h"
 #include "ui/app/state/dialog.h"
+#include "ui/app/state/line.h"
 #include "ui/app/state/scene_line.h"
 #include "ui/app/state/session_view.h"
 #include "ui/toolkit/gui.h"
@@ -21,6 +23,7 @@
 #include "scene/scene.h"
 #include "surface/data.h"
 #include "surface/patches.h"
+#include "surface/projection.h"
 #include "surface/surface.h"
 #include "system/path.h"
 
@@ -51,6 +54,22 @@ static const char *file_of(WrApp *app, WrSurfaceKind kind, int *table)
     return scene->triangles_path;
 }
 
+/* Another file of the same model keeps the projection, but not the materials, whose names may differ. */
+static void add_projection(WrText *line, const WrScene *scene)
+{
+    const WrProjection *is = &scene->projection;
+    if (scene->shape.kind != WR_SURFACE_mesh || is->kind == WR_PROJECTION_UV) return;
+    wr_text_addf(line, " projection=%s", wr_projection_names[is->kind]);
+    wr_line_number(line, "cell", is->cell[0]);
+    wr_text_add(line, ",");
+    wr_text_add_number(line, is->cell[1]);
+    wr_line_vec(line, "turn", (WrVec3){ is->turn_deg[0], is->turn_deg[1], is->turn_deg[2] });
+    if (is->placed) wr_line_vec(line, "at", (WrVec3){ is->at[0], is->at[1], is->at[2] });
+    wr_line_number(line, "blend", is->blend);
+    wr_line_number(line, "crease", is->crease_deg);
+    wr_text_addf(line, " facing=%s", wr_facing_names[is->facing]);
+}
+
 static void run_file(WrApp *app, const WrShape *shape, const char *const *text, const char *file,
                      int table)
 {
@@ -72,6 +91,7 @@ static void run_file(WrApp *app, const WrShape *shape, const char *const *text, 
     }
     const char *layer = wr_app_scene(app)->form_layer;
     if (info->held) add_file(&line, shape, file, table);
+    if (shape->kind == WR_SURFACE_mesh && *file) add_projection(&line, wr_app_scene(app));
     if (shape->kind == WR_SURFACE_terrain && !*file && layer) {
         wr_text_add(&line, " layer=");
         wr_text_add_word(&line, layer);
@@ -121,11 +141,15 @@ static void form_layer(WrApp *app)
 
 static void take_file(WrApp *app, WrSurfaceKind kind, const char *path)
 {
-    WrShape shape = wr_app_scene(app)->shape;
+    const WrScene *scene = wr_app_scene(app);
+    WrShape shape = scene->shape;
     int table;
-    file_of(app, kind, &table);
+    const bool first = !*file_of(app, kind, &table);
+    const bool repeats = scene->replicate_u != 1 || scene->replicate_v != 1;
     if (shape.kind != kind) wr_shape_default(kind, &shape); /* another kind was chosen meanwhile */
     run_file(app, &shape, NULL, path, table);
+    /* The repeats were those of the surface before; the mesh's own (u,v) or its projection place the table. */
+    if (kind == WR_SURFACE_mesh && first && repeats) wr_app_run_line(app, "replicate 1,1");
 }
 
 void wr_surface_take_mesh(WrApp *app, const char *path)

@@ -31,17 +31,16 @@ static void relief(WrApp *app)
 {
     wr_gui_space(8);
     wr_gui_heading("RELIEF");
-    flag(app, WR_SCENE_PARAM_SHADOW, "Throws shadows on itself",
-         "By how high the relief stands about each texel, seen from there; lamps only");
-    flag(
-        app, WR_SCENE_PARAM_OCCLUSION, "Keeps the sky from its hollows",
-        "Ambient occlusion: ambient light and that of surroundings, by the visible part of the sky "
-        "at each texel");
-    flag(app, WR_SCENE_PARAM_PARALLAX, "Hides objects behind it",
-         "Parallax: rays go on from the base to the relief, a rung between bump mapping and true "
+    flag(app, WR_SCENE_PARAM_SHADOW, "Self-shadowing",
+         "The relief throws shadows on itself, by its height about each texel; lamps only");
+    flag(app, WR_SCENE_PARAM_OCCLUSION, "Ambient occlusion",
+         "Ambient light and that of surroundings, by the visible part of the sky "
+         "at each texel");
+    flag(app, WR_SCENE_PARAM_PARALLAX, "Parallax",
+         "Rays go on from the base to the relief, a rung between bump mapping and true "
          "displacement. Outlines are true on planes, spheres and cylinders, on other bases they "
          "stay the base's");
-    flag(app, WR_SCENE_PARAM_DISPLACED, "Moves the surface itself",
+    flag(app, WR_SCENE_PARAM_DISPLACED, "Displacement",
          "True displacement, outline included, in place of bump mapping that imitates it. Slower; "
          "each edit cuts the surface anew");
 }

@@ -149,14 +149,17 @@ static bool message(WrApp *app, double from)
     }
     all_messages(app);
     if (!show) return false;
-    double room = wr_gui_width() - wr_gui_place() - wr_gui_px(error ? 190 : 12);
+    const double all = wr_gui_width() - wr_gui_place();
     wr_gui_as_it_is(true);
+    const bool cut = wr_gui_text_width(WR_FONT_TEXT, show->text) > all - wr_gui_px(12);
+    const double room = all - wr_gui_px(error ? 190 : cut ? 100 : 12);
     wr_gui_text_cut(WR_FONT_TEXT, error ? WR_COLOUR_STRONG : WR_COLOUR_TEXT, show->text, room);
     wr_gui_tip(show->text);
     wr_gui_as_it_is(false);
-    if (!error) return true;
+    if (!error && !cut) return true;
     wr_gui_same_line(8);
     if (wr_gui_chip(NULL, "Details")) wr_gui_popup_open("messages");
+    if (!error) return true;
     wr_gui_same_line(6);
     if (wr_gui_chip(NULL, "Dismiss")) dismiss(app);
     return true;

@@ -5,7 +5,9 @@
 #include "base/text.h"
 #include "scene/param.h"
 #include "scene/scene.h"
+#include "surface/triangles.h"
 
+#include <math.h>
 #include <string.h>
 
 WrNumber wr_param_slider(const WrSceneParam *param)
@@ -35,9 +37,13 @@ static void run(WrApp *app, const WrSceneParam *param, const double *values)
 
 void wr_param_row(WrApp *app, const WrSceneParam *param)
 {
-    const WrNumber spec = wr_param_slider(param);
+    const WrScene *scene = wr_app_scene(app);
+    WrNumber spec = wr_param_slider(param);
     double values[3];
-    wr_scene_param_get(param, wr_app_scene(app), values);
+    /* Built-in surfaces have a radius near 1; a mesh in millimetres needs other heights. */
+    if (param == &wr_scene_params[WR_SCENE_PARAM_HEIGHT] && scene->triangles)
+        spec.high *= fmax(1, scene->triangles->radius);
+    wr_scene_param_get(param, scene, values);
     wr_gui_label(param->label);
     const WrEdit edit = param->components == 1 ? wr_gui_number(param->name, 0, &spec, values)
                                                : wr_gui_colour(param->name, 0, values);

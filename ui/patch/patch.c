@@ -13,6 +13,7 @@
 #include "ui/toolkit/retained_frame.h"
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
+#include "ui/patch/patch_objects.h"
 #include "ui/patch/patch_paint.h"
 #include "ui/patch/preview/preview.h"
 #include "ui/patch/preview/rotation.h"
@@ -242,6 +243,7 @@ static void patch_update(WrApp *app)
         wr_patch_cube_update(app, false);
     }
     hold_still(app);
+    wr_patch_prepare_mesh(app);
     if (p->zoom_commit_at > 0.0 && now >= p->zoom_commit_at) wr_patch_commit_zoom(app, true);
     if (app->layout->patch.w <= 0 || !app->visible || app->drawn_at == 0.0) return;
     bool ready = !p->outstanding && now >= p->wished_at + picture_seconds(app);

@@ -13,8 +13,11 @@
 
 #include "base/text.h"
 #include "command/command_line.h"
+#include "command/session.h"
 #include "document/document.h"
 #include "scene/objects.h"
+#include "surface/triangles.h"
+#include "ui/canvas/tools/stroke_input.h"
 
 #include <math.h>
 #include <string.h>
@@ -31,14 +34,46 @@ const WrObjectPicks *wr_patch_picks(WrApp *app)
     const double turn = app->patch->turn_deg;
     const bool same = p->picks && p->scene == scene && p->turn_deg == turn &&
                       p->room.w == room->w && p->room.h == room->h;
-    if (same || room->w <= 0) return room->w > 0 ? p->picks : NULL;
-    WrObjectPicks *made = wr_object_picks_new(scene, turn, room->w, room->h, p->picks, NULL);
-    wr_object_picks_forget(app);
-    p->picks = made;
-    p->scene = wr_scene_share(scene);
-    p->turn_deg = turn;
-    p->room = *room;
+    if (room->w <= 0) return NULL;
+    if (!same) {
+        WrObjectPicks *made = wr_object_picks_new(scene, turn, room->w, room->h, p->picks, NULL);
+        wr_object_picks_forget(app);
+        p->picks = made;
+        p->scene = wr_scene_share(scene);
+        p->turn_deg = turn;
+        p->room = *room;
+    }
+    const WrRayTree *tree =
+        scene->triangles ? wr_session_mesh_tree(app->session, scene->triangles) : NULL;
+    if (p->picks && tree) wr_object_picks_share_tree(p->picks, tree, scene->triangles->key);
     return p->picks;
+}
+
+/* ---- strokes on a mesh, prepared ---- */
+
+static bool prepare(WrSession *session, void *ctx, WrError *err)
+{
+    (void)ctx;
+    return wr_session_prepare_mesh(session, err);
+}
+
+void wr_patch_prepare_mesh(WrApp *app)
+{
+    WrPatchPaint *p = app->paint;
+    if (app->busy) return;
+    p->preparing = false;
+    const uint64_t revision = wr_session_revision(app->session);
+    if (!p->on || wr_strokes_under_way(app) || p->tried == revision ||
+        !wr_session_mesh_needs_preparing(app->session))
+        return;
+    p->tried = revision; /* what fails now is reported by the stroke */
+    p->preparing = true;
+    wr_background_upkeep_start(app, "Preparing the mesh", prepare, NULL);
+}
+
+bool wr_patch_prepares_mesh(const WrApp *app)
+{
+    return app->busy && app->paint->preparing;
 }
 
 void wr_object_picks_forget(WrApp *app)
@@ -66,7 +101,8 @@ bool wr_patch_choose(WrApp *app, const WrPointer *at)
     char buffer[WR_OBJECT_LABEL];
     WrPatchSpot spot;
     const int object =
-        picks ? wr_object_picks_at(picks, at->x - room->x, at->y - room->y, &spot) : -1;
+        picks ? wr_object_picks_at(picks, scene->chosen, at->x - room->x, at->y - room->y, &spot)
+              : -1;
     if (object < 0) return false;
     if (object != scene->chosen) {
         WrText line = { 0 };

@@ -25,6 +25,10 @@ typedef struct WrPatchBall {
 
 /* Pick buffers for the displayed picture, rebuilt for another picture. NULL: none. Borrowed. */
 const WrObjectPicks *wr_patch_picks(WrApp *app);
+/* While the patch is painted: prepares strokes on a mesh in the background, once for each mesh and table. */
+void wr_patch_prepare_mesh(WrApp *app);
+/* True meanwhile: picking would build the mesh's tree a second time, in the window's thread. */
+bool wr_patch_prepares_mesh(const WrApp *app);
 void wr_object_picks_forget(WrApp *app);
 /* Make the object under the pointer the active one, and its layer the active layer if it has one of its own. False if
    there is no object. */

@@ -23,7 +23,9 @@
 #include "ui/canvas/tools/brush_outline.h"
 #include "ui/canvas/tools/stroke_input.h"
 #include "ui/canvas/tools/tool_brush.h"
+#include "ui/canvas/tools/tool_stamp.h"
 
+#include "base/exactmath.h"
 #include "base/text.h"
 #include "brush/brush.h"
 #include "document/document.h"
@@ -59,9 +61,10 @@ static bool spot_under(WrApp *app, double x, double y, WrPatchSpot *spot)
 {
     const WrObjectPicks *picks = wr_patch_picks(app);
     const SDL_Rect *room = &app->layout->patch;
+    const int chosen = wr_app_scene(app)->chosen;
     return picks && x >= room->x && x < room->x + room->w && y >= room->y &&
            y < room->y + room->h &&
-           wr_object_picks_at(picks, x - room->x, y - room->y, spot) == wr_app_scene(app)->chosen;
+           wr_object_picks_at(picks, chosen, x - room->x, y - room->y, spot) == chosen;
 }
 
 bool wr_patch_paint_uv(WrApp *app, const WrPointer *at, double *u, double *v)
@@ -95,11 +98,42 @@ static int mesh_digits(const WrApp *app)
 }
 
 /* Faces that turn away are not painted, unless that was chosen; where the back of an open sheet is seen, all are. */
+static const WrVec3 *eye_for(WrApp *app, const WrPatchSpot *spot, WrVec3 *eye)
+{
+    *eye = wr_line_round_vec(wr_patch_pick_eye(picker(app)), mesh_digits(app));
+    return spot->back || app->paint->round ? NULL : eye;
+}
+
 static bool begin_on_mesh(WrApp *app, WrBrush brush, const WrPointer *at, const WrPatchSpot *spot)
 {
-    const WrVec3 eye = wr_line_round_vec(wr_patch_pick_eye(picker(app)), mesh_digits(app));
+    WrVec3 eye;
     brush.symmetry = wr_brush_default().symmetry; /* of the table */
-    return wr_strokes_begin_on_mesh(app, &brush, at, spot->back || app->paint->round ? NULL : &eye);
+    return wr_strokes_begin_on_mesh(app, &brush, at, eye_for(app, spot, &eye));
+}
+
+/* The view's right, seen from u about the outer normal of a mesh, radians anticlockwise. */
+static double right_of_view(const WrApp *app, const WrPatchSpot *spot)
+{
+    WrPlacement at;
+    if (!wr_patch_place(app, &at)) return 0;
+    const WrVec3 right = wr_place_turn_back(&at, at.right);
+    const double turn =
+        atan2(v3_dot(v3_cross(spot->along, right), spot->n), v3_dot(spot->along, right));
+    return spot->back ? -turn : turn;
+}
+
+/* On a mesh it stands upright in the view, whichever way the island lies in the table. */
+static void stamp(WrApp *app, const WrPointer *at)
+{
+    WrVec3 eye;
+    WrPatchSpot spot;
+    const WrScene *scene = wr_app_scene(app);
+    app->hand->grab = WR_GRAB_NONE;
+    if (!spot_under(app, at->x, at->y, &spot)) return;
+    if (wr_patch_pick_is_mesh(picker(app)))
+        wr_stamp_on_mesh(app, wr_line_round_vec(spot.p, mesh_digits(app)),
+                         eye_for(app, &spot, &eye), right_of_view(app, &spot) * WR_DEG_PER_RAD);
+    else wr_stamp_at(app, scene->replicate_u * spot.u, scene->replicate_v * spot.v);
 }
 
 static void put_down(WrApp *app, const WrPointer *at, const WrPatchSpot *spot)
@@ -223,6 +257,10 @@ void wr_patch_paint_press(WrApp *app, const WrPointer *at)
             wr_brush_pick(app, &there);
         }
         app->hand->grab = WR_GRAB_PICK;
+        return;
+    }
+    if (wr_stamp_is_chosen(app)) {
+        stamp(app, at);
         return;
     }
     WrPointer from = *at;
@@ -392,6 +430,29 @@ static void draw_marks(const WrApp *app, const WrPatchPick *pick)
     }
 }
 
+/* Where the mirrors repeat the dab, through the object too. */
+static void draw_mirrored(const WrApp *app, const WrPatchPick *pick, WrVec3 p)
+{
+    const bool *mirror = app->settings->mesh_mirror;
+    const WrVec3 middle = wr_mesh_mirrors_at(wr_app_scene(app)->triangles);
+    const double centre[3] = { middle.x, middle.y, middle.z };
+    const SDL_Rect *room = &app->layout->patch;
+    const double s = wr_gui_scale();
+    for (int axes = 1; axes < 8 && app->settings->symmetric; axes++) {
+        double x, y, at[3] = { p.x, p.y, p.z };
+        bool all = true;
+        for (int k = 0; k < 3; k++) {
+            if (!(axes >> k & 1)) continue;
+            all = all && mirror[k];
+            at[k] = 2 * centre[k] - at[k];
+        }
+        if (!all || !wr_patch_pick_project_point(pick, (WrVec3){ at[0], at[1], at[2] }, &x, &y))
+            continue;
+        wr_gui_draw_disc(room->x + x, room->y + y, 3.4 * s, 0xb0000000u);
+        wr_gui_draw_disc(room->x + x, room->y + y, 2.2 * s, 0xfff4f4f4u);
+    }
+}
+
 static void overlay_clipped(WrApp *app)
 {
     const WrInputRouter *hand = app->hand;
@@ -402,6 +463,7 @@ static void overlay_clipped(WrApp *app)
     bool marks = hand->on_canvas && resting;
     WrPatchSpot spot;
     if (!over && !marks) return;
+    if (wr_patch_prepares_mesh(app) && !painting) return; /* picking would build the tree again */
     const WrPatchPick *pick = picker(app);
     if (!pick) return;
     if (!over) {
@@ -414,11 +476,14 @@ static void overlay_clipped(WrApp *app)
         y = app->brush->steady.follower.y;
         wr_brush_show_string(app);
     }
-    WrBrushMark mark = wr_brush_mark(app);
+    WrBrushMark mark = wr_stamp_is_chosen(app) ? wr_stamp_mark(app) : wr_brush_mark(app);
     Ring ring;
     if (!spot_under(app, x, y, &spot)) return;
-    if (wr_patch_pick_is_mesh(pick)) make_mesh_ring(app, pick, &mark, &spot, &ring);
-    else make_ring(app, pick, &mark, &spot, &ring);
+    if (wr_patch_pick_is_mesh(pick)) {
+        if (wr_stamp_is_chosen(app)) mark.turn += right_of_view(app, &spot);
+        make_mesh_ring(app, pick, &mark, &spot, &ring);
+        draw_mirrored(app, pick, spot.p);
+    } else make_ring(app, pick, &mark, &spot, &ring);
     draw_ring(&ring, mark.erases);
 }
 

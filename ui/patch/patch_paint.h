@@ -13,6 +13,8 @@
 typedef struct WrPatchPaint {
     bool on;              /* dragging over the patch paints instead of rotating it */
     bool round;           /* on a mesh: faces turned away are painted too */
+    bool preparing;       /* the mesh, in the background */
+    uint64_t tried;       /* revision of the document for which that began */
     WrObjectPicks *picks; /* owned */
     WrScene *scene;       /* scene for which they were made; shared, owned */
     double turn_deg;

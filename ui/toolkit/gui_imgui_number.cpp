@@ -98,6 +98,13 @@ static void start_typing(WrGui *gui, ImGuiID item, const WrNumber *spec, double 
     else wr_number_print(value, gui->typed);
 }
 
+static void print_field(const WrNumber *spec, double value, char *text, size_t size)
+{
+    print_value(spec, value, text, size - 24);
+    const size_t used = strlen(text);
+    if (spec->unit) snprintf(text + used, size - used, " %s", wr_gui_said(spec->unit));
+}
+
 static void draw_field(const WrNumber *spec, ImVec2 at, ImVec2 end, double value, bool hovered)
 {
     ImDrawList *list = ImGui::GetWindowDrawList();
@@ -111,17 +118,18 @@ static void draw_field(const WrNumber *spec, ImVec2 at, ImVec2 end, double value
             ImGui::GetColorU32(wr_gui_colour_u32(hovered ? WR_COLOUR_FILL_HOT : WR_COLOUR_FILL)));
     wr_gui_edge(list, at, end);
     char text[96];
-    print_value(spec, value, text, sizeof text - 24);
-    if (spec->unit) {
-        size_t used = strlen(text);
-        snprintf(text + used, sizeof text - used, " %s", wr_gui_said(spec->unit));
-    }
+    print_field(spec, value, text, sizeof text);
     ImVec2 size = ImGui::CalcTextSize(text);
     const bool tight = size.x > end.x - at.x - 2 * pad;
     if (tight) {
         ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
         size = ImGui::CalcTextSize(text);
         pad = floorf(pad / 2);
+    }
+    /* A number without its first digits would be another one: decimals go first. */
+    for (WrNumber shown = *spec; size.x > end.x - at.x - pad && shown.decimals-- > 0;) {
+        print_field(&shown, value, text, sizeof text);
+        size = ImGui::CalcTextSize(text);
     }
     wr_gui_fits(text, size.x, end.x - at.x - pad);
     list->PushClipRect(at, end, true);

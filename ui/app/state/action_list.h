@@ -120,6 +120,7 @@
     X(offset_half, "Ctrl+Shift+H")                                                                 \
     X(fill, "")                                                                                    \
     X(grid, "")                                                                                    \
+    X(mesh, "")                                                                                    \
     X(gltf, "")                                                                                    \
     X(bake, "")                                                                                    \
     X(import, "")                                                                                  \

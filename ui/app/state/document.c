@@ -531,6 +531,11 @@ void wr_app_choose_gltf(WrApp *app)
     choose(app, WR_FILE_GLTF);
 }
 
+void wr_app_choose_mesh(WrApp *app)
+{
+    choose(app, WR_FILE_MESH);
+}
+
 bool wr_app_can_bake(const WrApp *app)
 {
     const WrScene *scene = wr_app_scene(app);

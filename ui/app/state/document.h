@@ -29,8 +29,9 @@ typedef struct WrForms { /* values of open dialogs */
     double solid_size, solid_error, solid_thickness; /* mm; thickness 0: default of the export */
     double mesh_size;                                /* mm; 0: the file's unit */
     int mesh_round, mesh_limited;                    /* of a mesh as a solid: 0 or 1 */
-    char export_more[200];                           /* further options of the line, as typed */
-    char bake_file[4096];                            /* detailed mesh to bake; "": none */
+    int own_table;         /* 1: a solid has the object's own table, if there is one */
+    char export_more[200]; /* further options of the line, as typed */
+    char bake_file[4096];  /* detailed mesh to bake; "": none */
     int bake_map, bake_match, bake_size; /* WrBakeKind; 0 or 1; texels a side, 0: as the table */
     double bake_cage;                    /* 0: automatic */
     double bake_samples, bake_padding;
@@ -80,6 +81,7 @@ void wr_file_take_save(WrApp *app, const char *path);
 void wr_file_take_import(WrApp *app, const char *path);
 void wr_file_take_gltf(WrApp *app, const char *path);
 void wr_app_choose_gltf(WrApp *app);    /* choose a file whose material the active object gets */
+void wr_app_choose_mesh(WrApp *app);    /* choose a mesh that the active object becomes */
 bool wr_app_can_bake(const WrApp *app); /* the active object is a mesh of a file */
 void wr_file_take_export(WrApp *app, const char *path);
 void wr_file_take_history(WrApp *app, const char *path);

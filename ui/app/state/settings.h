@@ -66,6 +66,7 @@ typedef struct WrSettings {
     char *fonts[WR_FONTS_MAX];
     bool symmetric;      /* brush.symmetry is `symmetry`; else there is no symmetry */
     WrSymmetry symmetry; /* kept while symmetry is off */
+    bool mesh_mirror[3]; /* on meshes it has mirrors across these axes instead */
     bool symmetry_panel; /* visible */
     int key_map;         /* index into wr_key_maps */
     WrDrawSettings drawing;

@@ -186,12 +186,21 @@ bool wr_strokes_begin(WrApp *app, const WrBrush *brush, const WrPointer *at)
     return good;
 }
 
+void wr_strokes_mesh_line(const WrApp *app, const WrVec3 *eye, WrText *line)
+{
+    const bool *mirror = app->settings->mesh_mirror;
+    if (eye) wr_line_vec(line, "eye", *eye);
+    if (app->settings->symmetric && (mirror[0] || mirror[1] || mirror[2]))
+        wr_text_addf(line, " mirror_axes=%s%s%s", mirror[0] ? "x" : "", mirror[1] ? "y" : "",
+                     mirror[2] ? "z" : "");
+}
+
 bool wr_strokes_begin_on_mesh(WrApp *app, const WrBrush *brush, const WrPointer *at,
                               const WrVec3 *eye)
 {
     WrText head = { 0 };
     strokes_head(app, "sculpt", brush, &head);
-    if (eye) wr_line_vec(&head, "eye", *eye);
+    wr_strokes_mesh_line(app, eye, &head);
     const bool good = begin(app, wr_text_get(&head), brush, at);
     wr_text_fini(&head);
     return good;

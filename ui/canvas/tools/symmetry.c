@@ -18,7 +18,7 @@
 
 #define AXIS 0xb04a8fdcu
 #define WIDE_UNITS 262
-#define TALL_UNITS 232
+#define TALL_UNITS 261
 
 void wr_symmetry_apply(WrApp *app)
 {
@@ -153,6 +153,19 @@ static bool mirrors(WrSymmetry *s)
     return changed;
 }
 
+static bool mesh_mirrors(bool mirror[3])
+{
+    static const char *const labels[] = { "x", "y", "z" };
+    bool changed = false;
+    wr_gui_label("On meshes");
+    for (int k = 0; k < 3; k++) {
+        if (k > 0) wr_gui_same_line(12);
+        changed |= wr_gui_check(labels[k], &mirror[k]);
+        wr_gui_tip("Strokes on a mesh are drawn again in mirrors across its axes");
+    }
+    return changed;
+}
+
 static bool numbers(WrSymmetry *s)
 {
     static const WrNumber place = { .low = 0,
@@ -209,6 +222,7 @@ void wr_panel_symmetry(WrApp *app)
     if (wr_gui_glyph("close", WR_ICON_CLOSE, 24, WR_COLOUR_LABEL)) settings->symmetry_panel = false;
     wr_gui_tip("Close; the symmetry stays as it is");
     bool moved = mirrors(&settings->symmetry);
+    moved |= mesh_mirrors(settings->mesh_mirror);
     moved |= numbers(&settings->symmetry);
     if (moved) close_lattice(&settings->symmetry);
     if (moved) on = true; /* a change of the parameters makes the symmetry visible */

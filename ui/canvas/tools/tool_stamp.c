@@ -254,13 +254,20 @@ static void leave(WrApp *app)
     app->stamp->trying = false;
 }
 
-/* ---- dragging ---- */
+/* ---- commands ---- */
+
+static void add_brush(const WrApp *app, WrBrush brush, WrText *line)
+{
+    const WrBrush base = wr_brush_default();
+    const WrBrushNames names = { .tip = app->stamp->tip_path };
+    brush.radius = wr_line_round(brush.radius, 3);
+    brush.angle_deg = wr_line_round(brush.angle_deg, 3);
+    wr_brush_line(line, &brush, &base, &names);
+}
 
 static void commit(WrApp *app)
 {
     WrStampState *draw = app->stamp;
-    WrBrush brush = brush_of(app), base = wr_brush_default();
-    WrBrushNames names = { .tip = draw->tip_path };
     WrText line = { 0 };
     double u, v;
     place_of(app, &u, &v);
@@ -268,15 +275,53 @@ static void commit(WrApp *app)
     wr_text_add_number(&line, u);
     wr_text_add(&line, ",");
     wr_text_add_number(&line, v);
-    brush.radius = wr_line_round(brush.radius, 3);
-    brush.angle_deg = wr_line_round(brush.angle_deg, 3);
-    wr_brush_line(&line, &brush, &base, &names);
+    add_brush(app, brush_of(app), &line);
     app->hand->grab = WR_GRAB_NONE;
     draw->placed = draw->dragged = draw->trying = false;
     app->hints = false;
     wr_app_run_line(app, wr_text_get(&line));
     wr_text_fini(&line);
 }
+
+/* ---- on the patch ---- */
+
+bool wr_stamp_is_chosen(const WrApp *app)
+{
+    return wr_tool_now(app) == &wr_tool_stamp;
+}
+
+WrBrushMark wr_stamp_mark(const WrApp *app)
+{
+    return (WrBrushMark){ .radius = radius_of(app),
+                          .aspect = 1,
+                          .turn = app->stamp->angle_deg * WR_RAD_PER_DEG,
+                          .square = app->stamp->tip != NULL };
+}
+
+void wr_stamp_at(WrApp *app, double u, double v)
+{
+    app->stamp->placed = true;
+    app->stamp->u = u;
+    app->stamp->v = v;
+    commit(app);
+}
+
+void wr_stamp_on_mesh(WrApp *app, WrVec3 p, const WrVec3 *eye, double turn_deg)
+{
+    WrBrush brush = brush_of(app);
+    WrText line = { 0 };
+    brush.symmetry = wr_brush_default().symmetry; /* of the table */
+    brush.angle_deg = remainder(brush.angle_deg + turn_deg, 360.0);
+    wr_text_add(&line, "sculpt");
+    wr_line_vec(&line, "points", p);
+    wr_strokes_mesh_line(app, eye, &line);
+    add_brush(app, brush, &line);
+    app->hints = false;
+    wr_app_run_line(app, wr_text_get(&line));
+    wr_text_fini(&line);
+}
+
+/* ---- dragging ---- */
 
 static void press(WrApp *app, const WrPointer *at)
 {

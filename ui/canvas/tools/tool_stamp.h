@@ -7,6 +7,7 @@
 #include "base/array.h"
 #include "brush/brush.h"
 #include "brush/tip.h"
+#include "ui/canvas/tools/brush_outline.h"
 
 #include <stdbool.h>
 
@@ -26,6 +27,14 @@ typedef struct WrStampState {
 
 void wr_stamp_file_chosen(WrApp *app, const char *path); /* handler of a chosen file */
 void wr_stamp_forget(WrApp *app);                        /* free it */
+
+/* ---- stamps on the patch ---- */
+
+bool wr_stamp_is_chosen(const WrApp *app); /* the tool */
+WrBrushMark wr_stamp_mark(const WrApp *app);
+void wr_stamp_at(WrApp *app, double u, double v);
+/* At a point of the mesh, turned about its normal against u, degrees anticlockwise. eye: as in `sculpt`, or NULL. */
+void wr_stamp_on_mesh(WrApp *app, WrVec3 p, const WrVec3 *eye, double turn_deg);
 
 extern const WrPart wr_part_stamp;
 
