@@ -178,19 +178,19 @@ static void note_bake(WrSession *session, const char *path, const WrBakeOptions 
     wr_message_addf(&text, "; %lld texels", (long long)report->texels);
     if (report->missed)
         wr_message_addf(&text,
-                        ", %lld of which missed it (%lld met only backs) and are filled from their "
+                        ", %lld of which missed it (%lld met only backs) and took values of "
                         "neighbours",
                         (long long)report->missed, (long long)report->backs);
     else wr_message_addf(&text, ", none missed");
     if (report->frameless)
-        wr_message_addf(&text, "; %lld have no tangent frame", (long long)report->frameless);
+        wr_message_addf(&text, "; without a tangent frame: %lld", (long long)report->frameless);
     if (overlap.share > WR_UV_OVERLAP_NOTED)
         wr_message_addf(&text,
                         "; %.1f%% of the object's texture coordinates are met twice, the first at "
                         "u, v of %.3g,%.3g: one of the places is baked there",
                         100 * overlap.share, overlap.at[0], overlap.at[1]);
     if (report->alone)
-        wr_message_addf(&text, "; %d parts of the object have none of their name in the file",
+        wr_message_addf(&text, "; parts of the object without one of their name in the file: %d",
                         report->alone);
     wr_session_note(session, "%s", wr_text_get(&text));
     wr_text_fini(&text);

@@ -260,7 +260,7 @@ static void patches_and_terrains_are_kept(void **state)
         wr_session_free(b);
     }
     assert_non_null(strstr(wr_text_get(&notes), "2 patches in"));
-    assert_non_null(strstr(wr_text_get(&notes), "1 shared edges; 6 open ones in 1 loops"));
+    assert_non_null(strstr(wr_text_get(&notes), "; shared edges: 1; open edges: 6"));
     assert_non_null(strstr(wr_text_get(&notes), "8 x 8 patches in"));
     write_file("bad.bpt", "1\n3 3\n0 0 zero\n");
     WrSession *s = session_with(&notes);
@@ -380,8 +380,8 @@ static void a_mesh_is_projected_without_its_file(void **state)
     assert_int_equal(scene_in(s)->triangles->corner_count, 24);
     assert_non_null(strstr(wr_text_get(&notes),
                            "projection=box: 12 triangles; the file's numbers are taken as "
-                           "millimetres: unit= states another unit; the table does not run on "
-                           "across 12 edges, the longest run of them 360 long, at "));
+                           "millimetres: unit= states another unit; edges that the table does "
+                           "not run on across: 12, the longest run of them 360 long, at "));
     must_run(s, "surface mesh cell=14mm");
     assert_non_null(strstr(surface_line(s, &text), " projection=box cell=14mm crease=30\n"));
     must_run(s, "surface mesh unit=in");
