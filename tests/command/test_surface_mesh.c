@@ -552,6 +552,42 @@ static void exports_leave_the_file_alone(void **state)
 }
 
 /* Maps that lie by (u,v): refused without any, noted where they overlap. Relief below the error is noted with both. */
+/* The error that a solid with too many triangles names has fewer, and is not wastefully large. */
+static void a_fitting_error_is_named(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    WrSession *s = session_with(&notes);
+    WrError err = { "" };
+    write_cube("cube.stl", 30);
+    must_run(s, "table 128x128");
+    must_run(s, "pattern bricks");
+    must_run(s, "bump height=0.1");
+    for (int k = 0; k < 3; k++) {
+        /* on the plane the first estimate does not fit */
+        static const char *const surfaces[] = {
+            "surface mesh file=cube.stl projection=box cell=7mm", "surface torus", "surface plane"
+        };
+        char line[160];
+        double fits = 0;
+        const int most = k < 2 ? 3000 : 9000;
+        must_run(s, surfaces[k]);
+        snprintf(line, sizeof line, "export stl out.stl triangles=%d error=0.0003", most);
+        assert_false(wr_session_run(s, line, &err));
+        const char *named = strstr(err.text, "triangles: error=");
+        if (!named || sscanf(named, "triangles: error=%lf fits", &fits) != 1)
+            fail_msg("%s", err.text);
+        snprintf(line, sizeof line, "export stl out.stl triangles=%d error=%.6g", most, fits);
+        must_run(s, line);
+        snprintf(line, sizeof line, "export stl out.stl triangles=%d error=%.6g", most, fits / 6);
+        must_fail(s, line, "needs more than");
+    }
+    wr_session_free(s);
+    wr_text_fini(&notes);
+    assert_int_equal(unlink("cube.stl"), 0);
+    assert_int_equal(unlink("out.stl"), 0);
+}
+
 static void maps_and_relief_that_are_lost_are_noted(void **state)
 {
     (void)state;
@@ -757,6 +793,8 @@ int main(void)
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(faults_are_noted, enter_own_folder, leave_own_folder),
         cmocka_unit_test_setup_teardown(exports_leave_the_file_alone, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(a_fitting_error_is_named, enter_own_folder,
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(maps_and_relief_that_are_lost_are_noted, enter_own_folder,
                                         leave_own_folder),
