@@ -220,18 +220,15 @@ static void note_mixed_tiles(WrSession *session, const WrTriangles *low)
 
 /* ---- the command bake ---- */
 
+/* Relative to the same place of the file as the object's mesh, which may have been moved near the origin. */
 static WrTriangles *read_high(WrSession *session, WrCall *call, const char *path, WrError *err)
 {
     WrMeshFacts facts;
+    const double *origin = session->state.document->scene->projection.origin;
     WrTriangles *high = wr_session_check_sha256(call, path, err)
-                            ? wr_session_read_mesh(session, path, &facts, err)
+                            ? wr_session_read_mesh(session, path, origin, &facts, err)
                             : NULL;
     if (!high) return NULL;
-    if (facts.origin[0] != 0 || facts.origin[1] != 0 || facts.origin[2] != 0) {
-        wr_fail(err, "%s: lies far from its file's origin; move both meshes near it", path);
-        wr_triangles_free(high);
-        return NULL;
-    }
     WrProjection normals = wr_projection_default;
     normals.crease_deg = wr_call_number(call, "crease");
     WrTriangles *creased = wr_triangles_project(high, &normals, err);

@@ -275,6 +275,16 @@ static void note_origin(WrSession *session, const char *path, const WrMesh *mesh
     wr_text_fini(&text);
 }
 
+/* Its points relative to that place of the file; the caller frees them. NULL: no memory. */
+static float (*points_about(const WrMesh *mesh, const double about[3], WrError *err))[3]
+{
+    float(*points)[3] = wr_try_alloc((size_t)mesh->point_count, sizeof *points, "a mesh", err);
+    for (int32_t i = 0; i < mesh->point_count && points; i++)
+        for (int k = 0; k < 3; k++)
+            points[i][k] = (float)((double)mesh->points[i][k] + (mesh->origin[k] - about[k]));
+    return points;
+}
+
 /* Note points whose (u,v) are no numbers. */
 static void note_bad_uv(WrSession *session, const char *path, const WrMesh *mesh)
 {
@@ -286,13 +296,14 @@ static void note_bad_uv(WrSession *session, const char *path, const WrMesh *mesh
                         path, (int)mesh->bad_uv, at[0], at[1], at[2]);
 }
 
-WrTriangles *wr_session_read_mesh(WrSession *session, const char *path, WrMeshFacts *facts,
-                                  WrError *err)
+WrTriangles *wr_session_read_mesh(WrSession *session, const char *path, const double *about,
+                                  WrMeshFacts *facts, WrError *err)
 {
     WrMesh mesh;
     if (!wr_mesh_read_attributes(path, &mesh, err)) return NULL;
     WrTrianglePart *parts = parts_of(&mesh);
-    const WrTrianglesSource source = { .points = mesh.points,
+    float(*moved)[3] = about ? points_about(&mesh, about, err) : NULL;
+    const WrTrianglesSource source = { .points = moved ? (const float(*)[3])moved : mesh.points,
                                        .normals = mesh.normals,
                                        .uv = mesh.uv,
                                        .corners = mesh.corners,
@@ -300,11 +311,13 @@ WrTriangles *wr_session_read_mesh(WrSession *session, const char *path, WrMeshFa
                                        .triangle_count = mesh.triangle_count,
                                        .parts = parts,
                                        .part_count = mesh.part_count };
-    WrTriangles *made = wr_triangles_new(&source, err);
+    WrTriangles *made = !about || moved ? wr_triangles_new(&source, err) : NULL;
     facts->unit = mesh.unit;
-    memcpy(facts->origin, mesh.origin, sizeof facts->origin);
-    if (made) note_origin(session, path, &mesh), note_bad_uv(session, path, &mesh);
+    memcpy(facts->origin, about ? about : mesh.origin, sizeof facts->origin);
+    if (made && (!about || mesh.single)) note_origin(session, path, &mesh);
+    if (made) note_bad_uv(session, path, &mesh);
     else wr_error_prefix(err, "%s: ", path);
+    wr_free(moved);
     wr_free(parts);
     wr_mesh_fini(&mesh);
     return made;
@@ -435,7 +448,8 @@ static WrTriangles *read_held(WrSession *session, const WrCall *call, const WrSh
                               const char *path, WrMeshFacts *facts, WrError *err)
 {
     if (shape->kind == WR_SURFACE_terrain) return terrain_read(session, path, shape, err);
-    if (shape->kind == WR_SURFACE_mesh) return wr_session_read_mesh(session, path, facts, err);
+    if (shape->kind == WR_SURFACE_mesh)
+        return wr_session_read_mesh(session, path, NULL, facts, err);
     return read_patches(path, (WrPatchTable)wr_call_choice(call, "table"), err);
 }
 
