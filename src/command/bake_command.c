@@ -192,6 +192,10 @@ static void note_bake(WrSession *session, const char *path, const WrBakeOptions 
     if (report->alone)
         wr_message_addf(&text, "; parts of the object without one of their name in the file: %d",
                         report->alone);
+    const double radius = session->state.document->scene->triangles->radius;
+    if (!(options->cage > 0) && report->missed > 0 && report->cage > radius)
+        wr_message_addf(&text, "; the cage exceeds the object's radius: are both meshes at one "
+                               "place, in one unit and with the same axis up?");
     wr_session_note(session, "%s", wr_text_get(&text));
     wr_text_fini(&text);
 }

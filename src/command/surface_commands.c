@@ -290,10 +290,11 @@ static void note_bad_uv(WrSession *session, const char *path, const WrMesh *mesh
 {
     const double *at = mesh->bad_uv_at;
     if (mesh->bad_uv > 0)
-        wr_session_note(session,
-                        "%s: %d points have texture coordinates that are no numbers, or beyond "
-                        "1e6, the first at %.6g,%.6g,%.6g: their triangles have none",
-                        path, (int)mesh->bad_uv, at[0], at[1], at[2]);
+        wr_session_note(
+            session,
+            "%s: points with texture coordinates that are no numbers, or beyond 1e6: %d, "
+            "the first at %.6g,%.6g,%.6g: their triangles have none",
+            path, (int)mesh->bad_uv, at[0], at[1], at[2]);
 }
 
 WrTriangles *wr_session_read_mesh(WrSession *session, const char *path, const double *about,

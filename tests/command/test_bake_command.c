@@ -63,6 +63,7 @@ static void heights_become_a_layer_in_the_tables_unit(void **state)
     assert_int_equal(doc(s)->active, 1);
     assert_non_null(strstr(said.text, "high.obj: height baked into 48x36"));
     assert_non_null(strstr(said.text, "1728 texels, none missed"));
+    assert_null(strstr(said.text, "the cage exceeds"));
     for (int j = 0; j < 36; j++)
         for (int i = 0; i < 48; i++) {
             const double u = (i + 0.5) / 48, v = 1 - (j + 0.5) / 36;
@@ -136,6 +137,10 @@ static void misses_are_noted_and_padded(void **state)
     assert_near((double)f_at(s, 26, 20), (double)f_at(s, 23, 20), 0.01);
     assert_near((double)f_at(s, 27, 20), 0, 0); /* beyond; u wraps round at the other side */
     assert_true(f_at(s, 45, 20) > 0);
+    assert_null(strstr(said.text, "the cage exceeds"));
+    must_run(s, "undo");
+    must_run(s, "bake half.obj"); /* which begins 1.4 from the square, whose radius is 0.71 */
+    assert_non_null(strstr(said.text, "the cage exceeds the object's radius"));
     wr_session_free(s);
 }
 

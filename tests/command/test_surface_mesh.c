@@ -483,8 +483,8 @@ static void faults_are_noted(void **state)
     must_run(s, "noise simplex");
     must_run(s, "surface mesh file=fin.obj");
     assert_non_null(strstr(wr_text_get(&notes),
-                           "fin.obj: 1 points have texture coordinates that are no "
-                           "numbers, or beyond 1e6, the first at 0,0,0"));
+                           "fin.obj: points with texture coordinates that are no numbers, or "
+                           "beyond 1e6: 1, the first at 0,0,0"));
     for (int k = 0; k < 2; k++) {
         assert_non_null(strstr(wr_text_get(&notes), ", open"));
         assert_non_null(strstr(wr_text_get(&notes), "; open edges: 2, the first at "));
@@ -500,6 +500,14 @@ static void faults_are_noted(void **state)
     must_run(s, "surface mesh crease=180");
     assert_non_null(strstr(wr_text_get(&notes), "the file has no normals"));
     assert_non_null(strstr(wr_text_get(&notes), "crease=30"));
+    char name[240], line[300]; /* a long note is whole */
+    snprintf(name, sizeof name, "%0230d.obj", 7);
+    assert_int_equal(rename("fin.obj", name), 0);
+    snprintf(line, sizeof line, "surface mesh file=%s", name);
+    wr_text_clear(&notes);
+    must_run(s, line);
+    assert_non_null(strstr(wr_text_get(&notes), "but with exact slopes: 4"));
+    assert_int_equal(rename(name, "fin.obj"), 0);
     wr_session_free(s);
     wr_text_fini(&notes);
 }
