@@ -46,8 +46,8 @@ static void add_tiles(const WrScene *object, bool json, WrText *text)
         wr_text_addf(text, "  tiles    %d of UDIM, with triangles: ", tiles.count);
         wr_uv_tiles_print(&tiles, text);
         if (tiles.crossing)
-            wr_text_addf(text, "; %d triangles cross their borders", (int)tiles.crossing);
-        if (tiles.outside) wr_text_addf(text, "; %d reach outside UDIM", (int)tiles.outside);
+            wr_text_addf(text, "; triangles across their borders: %d", (int)tiles.crossing);
+        if (tiles.outside) wr_text_addf(text, "; triangles outside UDIM: %d", (int)tiles.outside);
         if (udim) wr_text_addf(text, "; the table is that of %d\n", udim);
         else wr_text_add(text, "; the table repeats on all\n");
     }
@@ -69,8 +69,10 @@ static void add_faults_json(const WrMeshFaults *faults, WrText *text)
 }
 
 /* Two lines, or a JSON object, for each object with a mesh: edges at which the table does not run on, and faults of the
-   mesh. Every model with an atlas has such edges, and many have open ones, so they are no problem of the file. */
-static bool add_mesh(const WrScene *object, int number, bool json, WrText *text, WrError *err)
+   mesh. Every model with an atlas has such edges, and many have open ones, so they are no problem of the file; faults that
+   make its inside ambiguous are: bits of WrMeshFault, added to problems. */
+static bool add_mesh(const WrScene *object, int number, bool json, WrText *text, unsigned *problems,
+                     WrError *err)
 {
     WrTextureSeams seams;
     WrMeshFaults faults;
@@ -78,6 +80,8 @@ static bool add_mesh(const WrScene *object, int number, bool json, WrText *text,
     if (!wr_triangles_seams(object->triangles, &seams, err) ||
         !wr_mesh_faults_find(file, object->projection.origin, &faults, err))
         return false;
+    for (int i = 0; i < WR_MESH_FAULTS; i++)
+        if (wr_mesh_fault_rows[i].ambiguous && faults.count[i] > 0) *problems |= 1u << i;
     const double *origin = object->projection.origin;
     const double at[3] = { seams.at.x + origin[0], seams.at.y + origin[1], seams.at.z + origin[2] };
     if (json) {
@@ -102,8 +106,8 @@ static bool add_mesh(const WrScene *object, int number, bool json, WrText *text,
                      "all edges but %d; the longest run of them is %.4g long, at %.7g,%.7g,%.7g\n",
                      (int)seams.edges, seams.length, at[0], at[1], at[2]);
     add_tiles(object, false, text);
-    wr_text_addf(text, "  mesh %-3d %d triangles, %s", number, (int)file->triangle_count,
-                 file->closed ? "closed" : "open");
+    wr_text_addf(text, "  mesh %-3d %d triangle%s, %s", number, (int)file->triangle_count,
+                 file->triangle_count == 1 ? "" : "s", wr_mesh_faults_body(&faults, file));
     wr_mesh_faults_text(&faults, text);
     wr_text_add(text, "\n");
     return true;
@@ -131,7 +135,8 @@ static bool read_mesh(WrSession *session, const char *path, WrError *err)
     return good;
 }
 
-static bool add_meshes(const WrCli *cli, const char *path, WrText *text, WrError *err)
+static bool add_meshes(const WrCli *cli, const char *path, WrText *text, unsigned *problems,
+                       WrError *err)
 {
     const CheckSource source = source_of(path);
     if (source == CHECK_PICTURE && !wr_document_recognise(path)) return true;
@@ -142,7 +147,7 @@ static bool add_meshes(const WrCli *cli, const char *path, WrText *text, WrError
     for (int i = 0; good && i < wr_scene_object_count(scene); i++) {
         const WrScene *object = wr_scene_object(scene, i);
         if (object->triangles && object->shape.kind == WR_SURFACE_mesh)
-            good = add_mesh(object, i + 1, cli->json, text, err);
+            good = add_mesh(object, i + 1, cli->json, text, problems, err);
     }
     wr_session_free(session);
     if (good && source == CHECK_SCRIPT && text->length == 0)
@@ -223,7 +228,18 @@ static const char *problem_text(WrCheckProblem problem)
     return "";
 }
 
-static void add_lines(WrText *text, const char *path, const WrCheck *check, const char *meshes)
+/* The last lines of a file. */
+static void add_problems(WrText *text, unsigned picture, unsigned mesh)
+{
+    for (int i = 0; i < WR_CHECK_PROBLEM_COUNT; i++)
+        if (picture >> i & 1)
+            wr_text_addf(text, "  PROBLEM  %s\n", problem_text((WrCheckProblem)i));
+    for (int i = 0; i < WR_MESH_FAULTS; i++)
+        if (mesh >> i & 1) wr_text_addf(text, "  PROBLEM  %s\n", wr_mesh_fault_rows[i].label);
+    if (!picture && !mesh) wr_text_add(text, "  good\n");
+}
+
+static void add_lines(WrText *text, const char *path, const WrCheck *check)
 {
     wr_text_addf(text, "%s: %dx%d, %d channel%s of %s, %s", path, check->width, check->height,
                  check->channels, check->channels == 1 ? "" : "s",
@@ -237,11 +253,6 @@ static void add_lines(WrText *text, const char *path, const WrCheck *check, cons
     add_edge(text, "v", &check->v);
     add_numbers(text, check);
     add_normals(text, check);
-    wr_text_add(text, meshes);
-    for (int i = 0; i < WR_CHECK_PROBLEM_COUNT; i++)
-        if (check->problems >> i & 1)
-            wr_text_addf(text, "  PROBLEM  %s\n", problem_text((WrCheckProblem)i));
-    if (!check->problems) wr_text_add(text, "  good\n");
 }
 
 /* ---- JSON output ---- */
@@ -309,10 +320,23 @@ static void json_normals(WrText *text, const WrCheck *check)
     wr_text_addf(text, ",\"away\":%lld}", (long long)n->away);
 }
 
-static void add_object(WrText *text, const char *path, const WrCheck *check, const char *meshes)
+/* The last members of a file's object. */
+static void json_problems(WrText *text, unsigned picture, unsigned mesh)
 {
-    wr_text_add(text, "{\"file\":");
-    wr_text_add_json_string(text, path);
+    const char *separator = "";
+    wr_text_add(text, ",\"problems\":[");
+    for (int i = 0; i < WR_CHECK_PROBLEM_COUNT + WR_MESH_FAULTS; i++) {
+        const int fault = i - WR_CHECK_PROBLEM_COUNT;
+        if (!((fault < 0 ? picture >> i : mesh >> fault) & 1)) continue;
+        wr_text_addf(text, "%s\"%s\"", separator,
+                     fault < 0 ? wr_check_problems[i] : wr_mesh_fault_rows[fault].name);
+        separator = ",";
+    }
+    wr_text_add(text, "]}\n");
+}
+
+static void json_picture(WrText *text, const WrCheck *check)
+{
     wr_text_addf(text, ",\"width\":%d,\"height\":%d,\"channels\":%d,\"depth\":%d", check->width,
                  check->height, check->channels, check->depth);
     json_string(text, "kind", wr_check_kinds[check->kind]);
@@ -321,26 +345,26 @@ static void add_object(WrText *text, const char *path, const WrCheck *check, con
     json_edge(text, "v", &check->v);
     json_numbers(text, &check->numbers);
     json_normals(text, check);
-    if (*meshes) wr_text_addf(text, ",\"meshes\":[%s]", meshes);
-    wr_text_addf(text, ",\"not_finite\":%lld,\"problems\":[", (long long)check->replaced);
-    bool any = false;
-    for (int i = 0; i < WR_CHECK_PROBLEM_COUNT; i++) {
-        if (!(check->problems >> i & 1)) continue;
-        wr_text_addf(text, "%s\"%s\"", any ? "," : "", wr_check_problems[i]);
-        any = true;
-    }
-    wr_text_add(text, "]}\n");
+    wr_text_addf(text, ",\"not_finite\":%lld", (long long)check->replaced);
 }
 
-static void add_meshes_alone(WrText *text, const char *path, const char *meshes, bool json)
+/* check: NULL if the file is no picture. meshes: lines or objects of its meshes, or "". */
+static void add_file(WrText *text, const char *path, const WrCheck *check, const char *meshes,
+                     unsigned problems, bool json)
 {
+    const unsigned picture = check ? check->problems : 0;
     if (!json) {
-        wr_text_addf(text, "%s:\n%s", path, meshes);
+        if (check) add_lines(text, path, check);
+        else wr_text_addf(text, "%s:\n", path);
+        wr_text_add(text, meshes);
+        add_problems(text, picture, problems);
         return;
     }
     wr_text_add(text, "{\"file\":");
     wr_text_add_json_string(text, path);
-    wr_text_addf(text, ",\"meshes\":[%s],\"problems\":[]}\n", meshes);
+    if (check) json_picture(text, check);
+    if (*meshes) wr_text_addf(text, ",\"meshes\":[%s]", meshes);
+    json_problems(text, picture, problems);
 }
 
 /* ---- the subcommand ---- */
@@ -367,14 +391,14 @@ static int check_one(const WrCli *cli, const char *path, int kind, WrCoding codi
     WrCheck check;
     WrError err = { "" };
     WrText text = { 0 }, meshes = { 0 };
+    unsigned problems = 0;
     const bool picture = source_of(path) == CHECK_PICTURE;
     const bool read = (!picture || wr_check_picture(path, kind, coding, &check, &err)) &&
-                      add_meshes(cli, path, &meshes, &err);
+                      add_meshes(cli, path, &meshes, &problems, &err);
     int status = read ? WR_EXIT_DONE : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
     if (!picture) check.problems = 0;
-    if (read && !picture) add_meshes_alone(&text, path, wr_text_get(&meshes), cli->json);
-    else if (read && cli->json) add_object(&text, path, &check, wr_text_get(&meshes));
-    else if (read) add_lines(&text, path, &check, wr_text_get(&meshes));
+    if (read)
+        add_file(&text, path, picture ? &check : NULL, wr_text_get(&meshes), problems, cli->json);
     else if (cli->json && status != WR_EXIT_INTERRUPTED) {
         wr_text_add(&text, "{\"file\":");
         wr_text_add_json_string(&text, path);
@@ -382,7 +406,7 @@ static int check_one(const WrCli *cli, const char *path, int kind, WrCoding codi
         wr_text_add(&text, "}\n");
     }
     if (status != WR_EXIT_INTERRUPTED &&
-        (wr_cli_print(cli, &text) != WR_EXIT_DONE || (read && check.problems)))
+        (wr_cli_print(cli, &text) != WR_EXIT_DONE || (read && (check.problems || problems))))
         status = WR_EXIT_FAILED;
     wr_text_fini(&meshes);
     wr_text_fini(&text);

@@ -31,7 +31,7 @@ const WrSubcommand wr_subcommands[] = {
       "those of your own, NAME.set in the folder sets of your settings.",
       wr_cli_export },
     { "check", "check FILE... [--as KIND] [--coding CODING] [--json]",
-      "whether pictures are seamless cells, and their content",
+      "whether pictures are seamless cells and meshes closed bodies, and their content",
       BIT(CHECK) | BIT(JSON) | BIT(ALL_WORDS),
       "Of any picture, whoever made it: do opposite edges meet, beside the breaks inside; how fine "
       "are its "
@@ -40,6 +40,8 @@ const WrSubcommand wr_subcommands[] = {
       "slopes.\n"
       "Of meshes, also those of documents and scripts: open, crowded and turned edges, doubled "
       "faces, edges of the table.\n"
+      "Problems are edges of more than two faces, turned faces and doubled ones, which slicers "
+      "refuse or guess at; open edges and faces without area are only counted.\n"
       "The status is 1 where a problem is found or a file cannot be read; all files are looked at. "
       "--json: one\n"
       "object a line.",

@@ -179,20 +179,24 @@ static void note_bake(WrSession *session, const char *path, const WrBakeOptions 
     wr_message_addf(&text, "; %lld texels", (long long)report->texels);
     if (report->missed)
         wr_message_addf(&text,
-                        ", %lld of which missed it (%lld met only backs) and are filled from their "
+                        ", %lld of which missed it (%lld met only backs) and took values of "
                         "neighbours",
                         (long long)report->missed, (long long)report->backs);
     else wr_message_addf(&text, ", none missed");
     if (report->frameless)
-        wr_message_addf(&text, "; %lld have no tangent frame", (long long)report->frameless);
+        wr_message_addf(&text, "; without a tangent frame: %lld", (long long)report->frameless);
     if (overlap.share > WR_UV_OVERLAP_NOTED)
         wr_message_addf(&text,
                         "; %.1f%% of the object's texture coordinates are met twice, the first at "
                         "u, v of %.3g,%.3g: one of the places is baked there",
                         100 * overlap.share, overlap.at[0], overlap.at[1]);
     if (report->alone)
-        wr_message_addf(&text, "; %d parts of the object have none of their name in the file",
+        wr_message_addf(&text, "; parts of the object without one of their name in the file: %d",
                         report->alone);
+    const double radius = session->state.document->scene->triangles->radius;
+    if (!(options->cage > 0) && report->missed > 0 && report->cage > radius)
+        wr_message_addf(&text, "; the cage exceeds the object's radius: are both meshes at one "
+                               "place, in one unit and with the same axis up?");
     wr_session_note(session, "%s", wr_text_get(&text));
     wr_text_fini(&text);
 }
@@ -221,18 +225,15 @@ static void note_mixed_tiles(WrSession *session, const WrTriangles *low)
 
 /* ---- the command bake ---- */
 
+/* Relative to the same place of the file as the object's mesh, which may have been moved near the origin. */
 static WrTriangles *read_high(WrSession *session, WrCall *call, const char *path, WrError *err)
 {
     WrMeshFacts facts;
+    const double *origin = session->state.document->scene->projection.origin;
     WrTriangles *high = wr_session_check_sha256(call, path, err)
-                            ? wr_session_read_mesh(session, path, &facts, err)
+                            ? wr_session_read_mesh(session, path, origin, &facts, err)
                             : NULL;
     if (!high) return NULL;
-    if (facts.origin[0] != 0 || facts.origin[1] != 0 || facts.origin[2] != 0) {
-        wr_fail(err, "%s: lies far from its file's origin; move both meshes near it", path);
-        wr_triangles_free(high);
-        return NULL;
-    }
     WrProjection normals = wr_projection_default;
     normals.crease_deg = wr_call_number(call, "crease");
     WrTriangles *creased = wr_triangles_project(high, &normals, err);

@@ -334,10 +334,12 @@ void wr_session_set_outputs(WrSession *session, bool outputs)
     session->options.outputs = outputs;
 }
 
+#define NOTE_TEXT 4096 /* bytes; a report on a mesh has a dozen parts, and paths */
+
 void wr_session_note(WrSession *session, const char *format, ...)
 {
     if (!session->options.note) return;
-    char text[WR_ERROR_TEXT], message[WR_ERROR_MESSAGE];
+    char text[NOTE_TEXT], message[2 * NOTE_TEXT];
     va_list args;
     va_start(args, format);
     wr_message_format(text, sizeof text, message, sizeof message, format, args);

@@ -213,13 +213,14 @@ bool wr_session_check_sha256(WrCall *call, const char *path, WrError *err);
 /* Check the checksum of a file that was hashed already; name: the argument that holds it. */
 bool wr_call_check_sha256(WrCall *call, const char *name, const char *path, const char *hex,
                           WrError *err);
-/* Read a mesh file, with notes of points that were moved to the origin, and of bad (u,v). */
+/* Read a mesh file, with notes of points that were moved to the origin, and of bad (u,v). about: the place of the file that
+   becomes the origin; NULL: its own, or one near a mesh that is far from it. */
 typedef struct WrMeshFacts {
     WrLengthUnit unit; /* that the file states */
     double origin[3];  /* that was subtracted from its points; 0,0,0: none */
 } WrMeshFacts;
-WrTriangles *wr_session_read_mesh(WrSession *session, const char *path, WrMeshFacts *facts,
-                                  WrError *err);
+WrTriangles *wr_session_read_mesh(WrSession *session, const char *path, const double *about,
+                                  WrMeshFacts *facts, WrError *err);
 /* The channel= and part= arguments of a call. */
 WrImageRequest wr_call_request(WrCall *call);
 /* Note which part of a picture file was read if it has several, and the number of values that were not finite. */

@@ -642,10 +642,11 @@ static void note_sharing(WrSession *session)
     const int64_t shared = wr_mesh_texels_shared(session->mesh_texels);
     if (shared == 0 || session->mesh_sharing_told) return;
     session->mesh_sharing_told = true;
-    wr_session_note(session,
-                    "%lld texels of the stroke belong to several places of the mesh, whose (u,v) "
-                    "overlap; they change at all of them",
-                    (long long)shared);
+    wr_session_note(
+        session,
+        "texels of the stroke at several places of the mesh, whose (u,v) overlap: %lld; "
+        "they change at all of them",
+        (long long)shared);
 }
 
 bool wr_painting_begin(WrSession *session, WrCall *call, WrPainting *painting, WrError *err)

@@ -276,24 +276,36 @@ static void note_origin(WrSession *session, const char *path, const WrMesh *mesh
     wr_text_fini(&text);
 }
 
+/* Its points relative to that place of the file; the caller frees them. NULL: no memory. */
+static float (*points_about(const WrMesh *mesh, const double about[3], WrError *err))[3]
+{
+    float(*points)[3] = wr_try_alloc((size_t)mesh->point_count, sizeof *points, "a mesh", err);
+    for (int32_t i = 0; i < mesh->point_count && points; i++)
+        for (int k = 0; k < 3; k++)
+            points[i][k] = (float)((double)mesh->points[i][k] + (mesh->origin[k] - about[k]));
+    return points;
+}
+
 /* Note points whose (u,v) are no numbers. */
 static void note_bad_uv(WrSession *session, const char *path, const WrMesh *mesh)
 {
     const double *at = mesh->bad_uv_at;
     if (mesh->bad_uv > 0)
-        wr_session_note(session,
-                        "%s: %d points have texture coordinates that are no numbers, or beyond "
-                        "1e6, the first at %.6g,%.6g,%.6g: their triangles have none",
-                        path, (int)mesh->bad_uv, at[0], at[1], at[2]);
+        wr_session_note(
+            session,
+            "%s: points with texture coordinates that are no numbers, or beyond 1e6: %d, "
+            "the first at %.6g,%.6g,%.6g: their triangles have none",
+            path, (int)mesh->bad_uv, at[0], at[1], at[2]);
 }
 
-WrTriangles *wr_session_read_mesh(WrSession *session, const char *path, WrMeshFacts *facts,
-                                  WrError *err)
+WrTriangles *wr_session_read_mesh(WrSession *session, const char *path, const double *about,
+                                  WrMeshFacts *facts, WrError *err)
 {
     WrMesh mesh;
     if (!wr_mesh_read_attributes(path, &mesh, err)) return NULL;
     WrTrianglePart *parts = parts_of(&mesh);
-    const WrTrianglesSource source = { .points = mesh.points,
+    float(*moved)[3] = about ? points_about(&mesh, about, err) : NULL;
+    const WrTrianglesSource source = { .points = moved ? (const float(*)[3])moved : mesh.points,
                                        .normals = mesh.normals,
                                        .uv = mesh.uv,
                                        .corners = mesh.corners,
@@ -301,11 +313,13 @@ WrTriangles *wr_session_read_mesh(WrSession *session, const char *path, WrMeshFa
                                        .triangle_count = mesh.triangle_count,
                                        .parts = parts,
                                        .part_count = mesh.part_count };
-    WrTriangles *made = wr_triangles_new(&source, err);
+    WrTriangles *made = !about || moved ? wr_triangles_new(&source, err) : NULL;
     facts->unit = mesh.unit;
-    memcpy(facts->origin, mesh.origin, sizeof facts->origin);
-    if (made) note_origin(session, path, &mesh), note_bad_uv(session, path, &mesh);
+    memcpy(facts->origin, about ? about : mesh.origin, sizeof facts->origin);
+    if (made && (!about || mesh.single)) note_origin(session, path, &mesh);
+    if (made) note_bad_uv(session, path, &mesh);
     else wr_error_prefix(err, "%s: ", path);
+    wr_free(moved);
     wr_free(parts);
     wr_mesh_fini(&mesh);
     return made;
@@ -315,7 +329,7 @@ WrTriangles *wr_session_read_mesh(WrSession *session, const char *path, WrMeshFa
 
 static void add_count(WrText *text, int32_t count, const char *what)
 {
-    if (count > 0) wr_text_addf(text, "; %d %s", (int)count, what);
+    if (count > 0) wr_text_addf(text, "; %s: %d", what, (int)count);
 }
 
 static void add_parts(WrText *text, const WrTriangles *mesh)
@@ -344,14 +358,13 @@ static void add_map(WrText *text, const WrTriangles *mesh, int udim)
                      "; %.1f%% of its texture coordinates are met twice, the first at u, v of "
                      "%.3g,%.3g: paint there shows in several places",
                      100 * overlap.share, overlap.at[0], overlap.at[1]);
-    add_count(text, overlap.outside,
-              "triangles reach beyond u, v of 0..1, where the table repeats");
-    add_count(text, mesh->report.no_map, "triangles without texture coordinates: no slope there");
+    add_count(text, overlap.outside, "triangles beyond u, v of 0..1, where the table repeats");
+    add_count(text, mesh->report.no_map, "triangles without texture coordinates, without slope");
     add_count(text, mesh->report.collinear,
-              "with u, v along a line: no tangent frame, slopes are exact");
-    add_count(text, mesh->report.mirrored, "mirrored");
+              "triangles with u, v along a line, without tangent frame but with exact slopes");
+    add_count(text, mesh->report.mirrored, "mirrored triangles");
     add_count(text, mesh->report.near_uv,
-              "corners differ from another by a rounding of u, v: tangent frames part there");
+              "corners that differ from another by a rounding of u, v, where tangent frames part");
 }
 
 /* own: its own texture coordinates are used, of the tile `udim`, or of all, 0. */
@@ -362,16 +375,15 @@ static void note_mesh(WrSession *session, const char *path, const WrTriangles *m
     const WrTrianglesReport *report = &mesh->report;
     WrMeshFaults faults;
     const bool found = wr_mesh_faults_find(mesh, facts->origin, &faults, NULL);
-    wr_text_addf(&text, "%s: %d triangles", path, (int)mesh->triangle_count);
+    wr_text_addf(&text, "%s: %d triangle%s", path, (int)mesh->triangle_count,
+                 mesh->triangle_count == 1 ? "" : "s");
     add_parts(&text, mesh);
-    wr_text_add(&text, mesh->closed                                     ? ", closed"
-                       : found && faults.count[WR_MESH_FAULT_OPEN] == 0 ? ", no closed body"
-                                                                        : ", open");
+    if (found) wr_text_addf(&text, ", %s", wr_mesh_faults_body(&faults, mesh));
     if (report->inside_out) wr_text_add(&text, "; it was inside out and has been turned");
     if (found) wr_mesh_faults_text(&faults, &text);
     add_count(&text, report->no_normal + report->bad_normal,
-              "corners without a normal have the mean of their faces'");
-    add_count(&text, report->face_normal, "corners have their face's normal");
+              "corners without a normal, given the mean of their faces'");
+    add_count(&text, report->face_normal, "corners given their face's normal");
     if (own) add_map(&text, mesh, udim);
     char ending[16];
     wr_path_ending(path, ending);
@@ -408,21 +420,23 @@ static void note_patches(WrSession *session, const char *path, const WrTriangles
     WrText text = { 0 };
     const WrPatches *set = mesh->patches;
     const WrPatchesReport *report = &set->report;
-    wr_text_addf(&text, "%s: %d patches in %d triangles, %s; %d shared edges", path,
-                 (int)set->count, (int)mesh->triangle_count, mesh->closed ? "closed" : "open",
-                 (int)report->shared);
-    if (report->open > 0)
-        wr_text_addf(&text, "; %d open ones in %d loops", (int)report->open, (int)report->loops);
-    add_count(&text, report->collapsed, "collapsed to a point");
-    add_count(&text, report->crowded, "of more than two patches");
-    add_count(&text, report->turned, "patches were turned to the side of the others");
-    add_count(&text, report->against, "between patches that face to different sides");
+    wr_text_addf(&text, "%s: %d patch%s in %d triangles, %s", path, (int)set->count,
+                 set->count == 1 ? "" : "es", (int)mesh->triangle_count,
+                 mesh->closed ? "closed" : "open");
+    add_count(&text, report->shared, "shared edges");
+    add_count(&text, report->open, "open edges");
+    if (report->loops > 1) wr_text_addf(&text, " in %d loops", (int)report->loops);
+    add_count(&text, report->collapsed, "edges collapsed to a point");
+    add_count(&text, report->crowded, "edges of more than two patches");
+    add_count(&text, report->turned, "patches turned to the side of the others");
+    add_count(&text, report->against, "edges between patches that face to different sides");
     if (report->crease_deg > 0)
-        wr_text_addf(&text, "; %d creased, patches %d and %d by %.2f degrees", (int)report->creased,
-                     (int)report->crease_of[0] + 1, (int)report->crease_of[1] + 1,
-                     report->crease_deg);
+        wr_text_addf(&text,
+                     "; creased edges: %d, the sharpest between patches %d and %d by %.2f degrees",
+                     (int)report->creased, (int)report->crease_of[0] + 1,
+                     (int)report->crease_of[1] + 1, report->crease_deg);
     if (set->table == WR_PATCH_JOINED || set->table == WR_PATCH_SPLIT)
-        wr_text_addf(&text, "; the table runs on across %d of the shared edges",
+        wr_text_addf(&text, "; shared edges that the table runs on across: %d",
                      (int)report->joined);
     if (set->columns > 1 || set->rows > 1)
         wr_text_addf(&text, ", in cells of %d x %d", (int)set->columns, (int)set->rows);
@@ -436,7 +450,8 @@ static WrTriangles *read_held(WrSession *session, const WrCall *call, const WrSh
                               const char *path, WrMeshFacts *facts, WrError *err)
 {
     if (shape->kind == WR_SURFACE_terrain) return terrain_read(session, path, shape, err);
-    if (shape->kind == WR_SURFACE_mesh) return wr_session_read_mesh(session, path, facts, err);
+    if (shape->kind == WR_SURFACE_mesh)
+        return wr_session_read_mesh(session, path, NULL, facts, err);
     return read_patches(path, (WrPatchTable)wr_call_choice(call, "table"), err);
 }
 
@@ -480,12 +495,13 @@ static void note_tiles(WrSession *session, const WrScene *scene)
     WrUvTiles tiles = wr_uv_tiles(wr_scene_mesh_source(scene));
     WrText text = { 0 };
     if (tiles.count > 1 || udim) {
-        wr_message_addf(&text, "%d UDIM tiles, with triangles: ", tiles.count);
+        wr_message_addf(&text, "UDIM tiles, with triangles: ");
         wr_uv_tiles_print(&tiles, &text);
         if (tiles.crossing)
-            wr_message_addf(&text, "; %d triangles cross their borders", (int)tiles.crossing);
+            wr_message_addf(&text, "; triangles across their borders: %d", (int)tiles.crossing);
         if (tiles.outside)
-            wr_message_addf(&text, "; %d reach outside UDIM, which has u of 0 to 10 and v from 0",
+            wr_message_addf(&text,
+                            "; triangles outside UDIM, which has u of 0 to 10 and v from 0: %d",
                             (int)tiles.outside);
         if (udim)
             wr_message_addf(&text, "; the table is that of %d, the others have no relief", udim);
@@ -590,19 +606,20 @@ static bool note_projection(WrSession *session, const WrScene *scene, WrError *e
         return true;
     }
     if (!wr_triangles_seams(scene->triangles, &seams, err)) return false;
-    wr_text_addf(&text, "projection=%s: %d triangles", wr_projection_names[is->kind],
-                 (int)scene->triangles->triangle_count);
+    wr_text_addf(&text, "projection=%s: %d triangle%s", wr_projection_names[is->kind],
+                 (int)scene->triangles->triangle_count,
+                 scene->triangles->triangle_count == 1 ? "" : "s");
     if (is->unit == WR_UNIT_UNKNOWN)
         wr_text_add(&text,
                     "; the file's numbers are taken as millimetres: unit= states another unit");
     if (is->kind >= WR_PROJECTION_CYLINDRICAL) {
         const int round = wr_projection_round(file, is, &radius);
-        wr_text_addf(&text, "; %d cells round, at a radius of %.4g mm", round, radius);
+        wr_text_addf(&text, "; cells round: %d, at a radius of %.4g mm", round, radius);
     }
     if (seams.edges > 0)
         wr_text_addf(&text,
-                     "; the table does not run on across %d edges, the longest run of them %.4g "
-                     "long, at %.7g,%.7g,%.7g",
+                     "; edges that the table does not run on across: %d, the longest run of them "
+                     "%.4g long, at %.7g,%.7g,%.7g",
                      (int)seams.edges, seams.length, seams.at.x + is->origin[0],
                      seams.at.y + is->origin[1], seams.at.z + is->origin[2]);
     if (is->kind == WR_PROJECTION_BOX && is->crease_deg >= WR_CREASE_NONE &&

@@ -474,34 +474,36 @@ static void add_receipt(const WrExportReport *report, WrText *text)
 static void add_solid(const WrExportReport *report, WrText *text)
 {
     const double *size = report->solid_size;
-    wr_text_addf(text, "%lld triangles, off by at most %.3g mm; %.6g x %.6g x %.6g mm",
-                 (long long)report->triangles, report->solid_error, size[0], size[1], size[2]);
+    wr_text_addf(text, "%lld triangle%s, off by at most %.3g mm; %.6g x %.6g x %.6g mm",
+                 (long long)report->triangles, report->triangles == 1 ? "" : "s",
+                 report->solid_error, size[0], size[1], size[2]);
     if (report->solid_open)
         wr_text_add(text, report->solid_faults.count[WR_MESH_FAULT_OPEN] > 0
                               ? ", open, as the mesh is"
                               : ", no closed body, as the mesh is none");
     else wr_text_addf(text, ", volume %.6g mm3", report->solid_volume);
     if (report->solid_missed > 0)
-        wr_text_addf(text, "; in %lld triangles the relief is too steep for the requested error",
+        wr_text_addf(text,
+                     "; triangles in which the relief is too steep for the requested error: %lld",
                      (long long)report->solid_missed);
     if (report->solid_steps > 0)
-        wr_text_addf(text,
-                     "; %lld triangles span a step of the relief at hard edges or seams of u, v",
-                     (long long)report->solid_steps);
-    if (report->solid_limited > 0)
         wr_text_addf(
-            text, "; relief lowered at %lld points, where it would fold over or meet other relief",
-            (long long)report->solid_limited);
+            text, "; triangles that span a step of the relief at hard edges or seams of u, v: %lld",
+            (long long)report->solid_steps);
+    if (report->solid_limited > 0)
+        wr_text_addf(text,
+                     "; points of lowered relief, which would fold over or meet other relief: %lld",
+                     (long long)report->solid_limited);
     if (report->solid_thin > 0)
         wr_text_addf(
             text,
-            "; at %lld points the relief is deeper than half the wall or gap there, most at "
+            "; points at which the relief is deeper than half the wall or gap: %lld, most at "
             "%.6g,%.6g,%.6g: a lower height, or folds=limit",
             (long long)report->solid_thin, report->solid_thinnest[0], report->solid_thinnest[1],
             report->solid_thinnest[2]);
     if (report->solid_folds > 0)
         wr_text_addf(text,
-                     "; %lld triangles are folded over by the relief, the highest at "
+                     "; triangles folded over by the relief: %lld, the highest at "
                      "%.6g,%.6g,%.6g: a lower height, or folds=limit",
                      (long long)report->solid_folds, report->solid_fold[0], report->solid_fold[1],
                      report->solid_fold[2]);
@@ -531,8 +533,9 @@ static void add_object(const WrExportReport *report, WrText *text)
 static void add_facts(const WrExportReport *report, WrText *text)
 {
     if (report->model) {
-        wr_text_addf(text, "%lld triangles, %d map%s", (long long)report->triangles,
-                     report->pictures, report->pictures == 1 ? "" : "s");
+        wr_text_addf(text, "%lld triangle%s, %d map%s", (long long)report->triangles,
+                     report->triangles == 1 ? "" : "s", report->pictures,
+                     report->pictures == 1 ? "" : "s");
         add_object(report, text);
         return;
     }

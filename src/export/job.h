@@ -33,7 +33,8 @@ struct WrExportJob {
     bool sidecar;                    /* a sidecar is written beside the file */
     bool analytic;                   /* F is the scene's formula, not the table */
     double *u;                       /* [width] texel centres */
-    WrExportReport report;           /* pieces add their counts atomically */
+    double solid_guess; /* after a solid failed with too many triangles: an error= that may fit */
+    WrExportReport report; /* pieces add their counts atomically */
     const char *attribute_names[WR_EXPORT_ATTRIBUTES];
     WrText attribute_texts[WR_EXPORT_ATTRIBUTES];
     int attribute_count;

@@ -259,11 +259,7 @@ bool wr_mesh_solid_make(WrExportJob *job, WrSolidBody *body, WrError *err)
         good = wr_fail(err, "the mesh has too many texels of the table for a solid: fewer repeats "
                             "(replicate), or a larger cell=");
     if (good && relief.full)
-        good =
-            wr_fail(err,
-                    "error=%.6g mm needs more than %d triangles: a larger error, a smaller size, "
-                    "a coarser mesh, or triangles=",
-                    ask.error, ask.most);
+        good = wr_export_solid_full(job, wr_mesh_relief_fitting_error(&relief), err);
     const WrTriangles *file = wr_scene_mesh_source(job->scene);
     good = good &&
            wr_mesh_faults_find(file, job->scene->projection.origin, &job->report.solid_faults, err);

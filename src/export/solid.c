@@ -24,6 +24,7 @@
 #include "export/solid_body.h"
 #include "field/field.h"
 #include "render/tessellation/facet.h"
+#include "render/tessellation/mesh_relief.h"
 #include "scene/scene.h"
 #include "surface/surface.h"
 #include "system/thread.h"
@@ -677,9 +678,20 @@ static bool settle(WrSolid *s, WrError *err)
         s->error, s->worst);
 }
 
-/* Bisects triangles until every sample's error is at most `error`. */
-static bool solid_refine(WrSolid *solid, WrError *err)
+/* With more triangles than there may be: an error that needs fewer. laid: triangles before all bisections. */
+static double fitting_error(const WrSolid *s, int32_t laid)
 {
+    const int32_t step = wr_fitting_error_step(s->relief.count);
+    double sum = 0.0;
+    for (int32_t i = 0; i < s->relief.count; i += step)
+        sum += step * error_of(s, &s->relief.data[i], INFINITY);
+    return wr_fitting_error(sum, laid, s->most);
+}
+
+/* Bisects triangles until every sample's error is at most `error`. */
+static bool solid_refine(WrSolid *solid, WrExportJob *job, WrError *err)
+{
+    const int32_t laid = solid->relief.count;
     int32_t halved = 1;
     /* Each round measures new triangles only (error < 0) and ends when none fails. Progress 1 - 8 / (8 + round) is an
        estimate: the number of rounds is unknown before. */
@@ -693,10 +705,7 @@ static bool solid_refine(WrSolid *solid, WrError *err)
         if (!wr_progress_report(1.0 - 8.0 / (8.0 + round))) return wr_fail(err, "cancelled");
     }
     if (halved == 0) return settle(solid, err);
-    return wr_fail(err,
-                   "error=%.6g mm needs more than %d triangles: a larger error, a smaller size, or "
-                   "triangles=",
-                   solid->error, solid->most);
+    return wr_export_solid_full(job, fitting_error(solid, laid), err);
 }
 
 /* ---- Back of a relief, walls around it, and caps over open ends: they close the mesh ---- */
@@ -1098,6 +1107,8 @@ static WrScene *true_scene(const WrExportJob *job, WrSolid *s)
     return own;
 }
 
+#define FITTING_TRIES 8
+
 static bool check(const WrExportJob *job, WrError *err)
 {
     const WrExportOptions *o = &job->options;
@@ -1121,7 +1132,7 @@ static double thickness_of(const WrExportJob *job)
 
 /* ---- the export ---- */
 
-static bool make(WrSolid *s, WrError *err)
+static bool make(WrSolid *s, WrExportJob *job, WrError *err)
 {
     WrProgressPart part;
     const WrProgress *whole = wr_progress_enter(&part, 0.0, 0.4);
@@ -1130,7 +1141,7 @@ static bool make(WrSolid *s, WrError *err)
     if (!good) return false;
     solid_lay(s);
     wr_progress_enter(&part, 0.4, 1.0);
-    good = solid_refine(s, err);
+    good = solid_refine(s, job, err);
     wr_progress_set(whole);
     return good && solid_close(s, err);
 }
@@ -1173,7 +1184,7 @@ static bool make_solid(WrExportJob *job, WrSolidBody *body, WrError *err)
     WrScene *own = true_scene(job, &s);
     if (own) s.scene = own;
     else set_scale(&s);
-    const bool good = make(&s, err);
+    const bool good = make(&s, job, err);
     job->report.solid_error = s.worst;
     job->report.solid_relief = (s.high - s.low) * s.scale;
     job->report.low = s.low;
@@ -1185,13 +1196,66 @@ static bool make_solid(WrExportJob *job, WrSolidBody *body, WrError *err)
     return good;
 }
 
+static bool make_any(WrExportJob *job, WrSolidBody *body, WrError *err)
+{
+    job->solid_guess = 0.0;
+    return wr_surfaces[job->scene->shape.kind]->held ? wr_mesh_solid_make(job, body, err)
+                                                     : make_solid(job, body, err);
+}
+
+bool wr_export_solid_full(WrExportJob *job, double guess, WrError *err)
+{
+    job->solid_guess = guess;
+    return wr_fail(err,
+                   "error=%.6g mm needs more than %d triangles: a larger error, a smaller size, or "
+                   "more triangles=",
+                   job->options.solid_error, job->options.solid_most);
+}
+
+/* Two digits, rounded up, as the message prints and the option reads them. */
+static double round_up(double x)
+{
+    const double unit = pow(10.0, floor(log10(x)) - 1.0);
+    char text[32];
+    snprintf(text, sizeof text, "%.2g", ceil(x / unit - 1e-9) * unit);
+    wr_number_parse(text, strlen(text), &x);
+    return x;
+}
+
+/* After a failure with too many triangles: tries errors from the guess on, and names the first that fits. */
+static bool name_fitting(const WrExportJob *job, WrError *err)
+{
+    const double asked = job->options.solid_error;
+    double error = job->solid_guess;
+    for (int i = 0; i < FITTING_TRIES && error < INFINITY; i++) {
+        WrExportJob trial = *job;
+        WrSolidBody body = { 0 };
+        WrError failed;
+        WrProgressPart part;
+        const WrProgress *whole =
+            wr_progress_enter(&part, 1.0 - 1.0 / (2 << i), 1.0 - 1.0 / (4 << i));
+        trial.options.solid_error = round_up(error);
+        const bool good = make_any(&trial, &body, &failed);
+        wr_solid_body_fini(&body);
+        wr_progress_set(whole);
+        if (good)
+            return wr_fail(err,
+                           "error=%.6g mm needs more than %d triangles: error=%.6g fits; or a "
+                           "smaller size, or more triangles=",
+                           asked, job->options.solid_most, trial.options.solid_error);
+        if (wr_progress_stopped()) return wr_fail(err, "cancelled");
+        if (!(trial.solid_guess > 0.0)) break; /* another failure */
+        error = fmax(1.3 * error, trial.solid_guess);
+    }
+    return false;
+}
+
 bool wr_export_solid_make(WrExportJob *job, WrSolidBody *body, WrError *err)
 {
     if (!check(job, err)) return false;
-    const bool good = wr_surfaces[job->scene->shape.kind]->held ? wr_mesh_solid_make(job, body, err)
-                                                                : make_solid(job, body, err);
-    if (good) report_body(job, body);
-    return good;
+    if (!make_any(job, body, err)) return job->solid_guess > 0.0 && name_fitting(job, err);
+    report_body(job, body);
+    return true;
 }
 
 bool wr_export_solid_write(WrExportJob *job, const char *path, WrError *err)

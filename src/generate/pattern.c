@@ -51,6 +51,19 @@ static void fill(const void *ctx, const WrGenerateBlock *b, int worker, float *h
     }
 }
 
+/* Joints as wide as the cells leave no piece, and cells of a few texels average to grey. */
+static void note_flat(const WrGenerateJob *job, const WrField *heights)
+{
+    float low, high;
+    wr_field_range(heights, &low, &high);
+    if (low == high)
+        wr_generate_note(job,
+                         "all texels have the same height: cells are too small for %dx%d texels: "
+                         "fewer of them (across=, rows=), narrower joints and lines, or a larger "
+                         "table",
+                         wr_field_width(heights), wr_field_height(heights));
+}
+
 bool wr_pattern_make(const WrParams *params, const WrGenerateJob *job, WrPatternAt at,
                      const void *ctx, int samples, WrRelief *out, WrError *err)
 {
@@ -61,7 +74,9 @@ bool wr_pattern_make(const WrParams *params, const WrGenerateJob *job, WrPattern
                   .up = wr_origin(wr_field_height(job->like), origin[1]),
                   .samples = job->coarse ? 1 : samples,
                   .height = wr_param_number(params, "height") };
-    return wr_generate_build(job, fill, &d, false, 0.0, out, err);
+    if (!wr_generate_build(job, fill, &d, false, 0.0, out, err)) return false;
+    if (d.height != 0.0 && !job->coarse) note_flat(job, out->heights);
+    return true;
 }
 
 /* ---- cells ---- */

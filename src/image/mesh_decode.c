@@ -540,8 +540,11 @@ static bool read_kind(const void *bytes, size_t length, const char *ending, WrMe
     if (wr_ply_is(bytes, length) || strcmp(ending, "ply") == 0)
         return wr_ply_read(bytes, length, build, err);
     if (strcmp(ending, "stl") == 0) return wr_stl_read(bytes, length, build, err);
-    if ((strcmp(ending, "gltf") == 0 || strcmp(ending, "glb") == 0) && wr_gltf_is(bytes, length))
-        return wr_gltf_read(bytes, length, build, err);
+    if (strcmp(ending, "gltf") == 0 || strcmp(ending, "glb") == 0)
+        return wr_gltf_is(bytes, length) ? wr_gltf_read(bytes, length, build, err)
+                                         : read_by_library(bytes, length, ending, build, NULL) ||
+                                               wr_fail(err, "is damaged, or glTF 1.0, which is not "
+                                                            "read: save it as glTF 2.0");
     if (!*ending || strcmp(ending, "obj") == 0) {
         WrError wrong = { "" };
         if (wr_obj_read(bytes, length, build, &wrong)) return true;

@@ -595,6 +595,19 @@ has out 'mesh 1   10 triangles, open; open edges: 4, the first at '
 "$program" check --json cube.obj >out 2>err
 is "a mesh's file as JSON" "$(jq -c '[.file, .meshes[0].open.count, .meshes[0].doubled, .problems]' out)" \
     '["cube.obj",4,{"count":0,"at":null},[]]'
+# a cube's last face once more, a fin, the face turned, a face without area: where a slicer guesses, status 1
+printf 'v %s\n' '0 0 0' '3 0 0' '3 3 0' '0 3 0' '0 0 3' '3 0 3' '3 3 3' '0 3 3' '9 9 6' >cube.obj
+printf 'f %s\n' '1 4 3' '5 6 7 8' '1 2 6 5' '2 3 7 6' '3 4 8 7' '4 1 5 8' >>cube.obj
+for fault in 'f 1 3 2 f 1 3 2:doubled' 'f 1 3 2 f 1 3 9:crowded' 'f 1 2 3:turned' 'f 1 3 2 f 1 3 3:'; do
+    { cat cube.obj && sed 's/ f /\nf /' <<<"${fault%:*}"; } >fault.obj
+    "$program" check --json fault.obj >out 2>err
+    is "status of '$fault'" $? "$([[ $fault == *: ]] && echo 0 || echo 1)"
+    is "problems of '$fault'" "$(jq -r '.problems | join(",")' out)" "${fault#*:}"
+done
+"$program" check fault.obj >out 2>err
+has out '; faces without area, left out: 1, the first at '
+has out '  good'
+rm fault.obj
 echo 'table 8x8' >plain.wrinkle
 expect 1 check plain.wrinkle
 has err 'plain.wrinkle: is a script without a mesh'

@@ -63,6 +63,7 @@ static void heights_become_a_layer_in_the_tables_unit(void **state)
     assert_int_equal(doc(s)->active, 1);
     assert_non_null(strstr(said.text, "high.obj: height baked into 48x36"));
     assert_non_null(strstr(said.text, "1728 texels, none missed"));
+    assert_null(strstr(said.text, "the cage exceeds"));
     for (int j = 0; j < 36; j++)
         for (int i = 0; i < 48; i++) {
             const double u = (i + 0.5) / 48, v = 1 - (j + 0.5) / 36;
@@ -85,6 +86,45 @@ static void heights_become_a_layer_in_the_tables_unit(void **state)
     wr_session_free(s);
 }
 
+/* Both meshes far from their file's origin, moved by whole numbers so that the floats are the same: the same table. The mesh
+   that is baked begins elsewhere, so that it is moved by other numbers than the object's. */
+static void far_meshes_bake_as_near_ones(void **state)
+{
+    (void)state;
+    Said said;
+    WrHash hash[2];
+    for (int k = 0; k < 2; k++) {
+        const double far[3] = { 30000 * k, -70000 * k, 50000 * k };
+        WrText text = { 0 };
+        for (int i = 0; i < 4; i++)
+            wr_text_addf(&text, "v %.9g %.9g %.9g\n", far[0] + (i == 1 || i == 2),
+                         far[1] + (i >= 2), far[2]);
+        wr_text_add(&text, strstr(low, "vt 0 0"));
+        write_text("low.obj", wr_text_get(&text));
+        wr_text_clear(&text);
+        for (int i = 0; i < 25;
+             i++) { /* squares of side 1, from -2,-1 on, on the hills of a parabola */
+            const int x = i % 5 - 2, y = i / 5 - 1;
+            wr_text_addf(&text, "v %.9g %.9g %.9g\n", far[0] + x, far[1] + y,
+                         far[2] + (x * x + 2 * y) / 16.0);
+        }
+        for (int i = 0; i < 20; i++)
+            if (i % 5 < 4)
+                wr_text_addf(&text, "f %d %d %d\nf %d %d %d\n", i + 1, i + 2, i + 7, i + 1, i + 7,
+                             i + 6);
+        write_text("high.obj", wr_text_get(&text));
+        wr_text_fini(&text);
+        WrSession *s = listening(&said);
+        must_run(s, "table 48x36");
+        must_run(s, "surface mesh file=low.obj");
+        must_run(s, "bake high.obj cage=1");
+        assert_non_null(strstr(said.text, "none missed"));
+        hash[k] = wr_field_hash(doc(s)->layers[1].heights);
+        wr_session_free(s);
+    }
+    assert_true(wr_hash_equal(hash[0], hash[1]));
+}
+
 static void misses_are_noted_and_padded(void **state)
 {
     (void)state;
@@ -97,6 +137,10 @@ static void misses_are_noted_and_padded(void **state)
     assert_near((double)f_at(s, 26, 20), (double)f_at(s, 23, 20), 0.01);
     assert_near((double)f_at(s, 27, 20), 0, 0); /* beyond; u wraps round at the other side */
     assert_true(f_at(s, 45, 20) > 0);
+    assert_null(strstr(said.text, "the cage exceeds"));
+    must_run(s, "undo");
+    must_run(s, "bake half.obj"); /* which begins 1.4 from the square, whose radius is 0.71 */
+    assert_non_null(strstr(said.text, "the cage exceeds the object's radius"));
     wr_session_free(s);
 }
 
@@ -258,6 +302,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(heights_become_a_layer_in_the_tables_unit, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(far_meshes_bake_as_near_ones, enter_own_folder,
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(misses_are_noted_and_padded, enter_own_folder,
                                         leave_own_folder),

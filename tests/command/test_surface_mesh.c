@@ -260,7 +260,7 @@ static void patches_and_terrains_are_kept(void **state)
         wr_session_free(b);
     }
     assert_non_null(strstr(wr_text_get(&notes), "2 patches in"));
-    assert_non_null(strstr(wr_text_get(&notes), "1 shared edges; 6 open ones in 1 loops"));
+    assert_non_null(strstr(wr_text_get(&notes), "; shared edges: 1; open edges: 6"));
     assert_non_null(strstr(wr_text_get(&notes), "8 x 8 patches in"));
     write_file("bad.bpt", "1\n3 3\n0 0 zero\n");
     WrSession *s = session_with(&notes);
@@ -380,8 +380,8 @@ static void a_mesh_is_projected_without_its_file(void **state)
     assert_int_equal(scene_in(s)->triangles->corner_count, 24);
     assert_non_null(strstr(wr_text_get(&notes),
                            "projection=box: 12 triangles; the file's numbers are taken as "
-                           "millimetres: unit= states another unit; the table does not run on "
-                           "across 12 edges, the longest run of them 360 long, at "));
+                           "millimetres: unit= states another unit; edges that the table does "
+                           "not run on across: 12, the longest run of them 360 long, at "));
     must_run(s, "surface mesh cell=14mm");
     assert_non_null(strstr(surface_line(s, &text), " projection=box cell=14mm crease=30\n"));
     must_run(s, "surface mesh unit=in");
@@ -483,8 +483,8 @@ static void faults_are_noted(void **state)
     must_run(s, "noise simplex");
     must_run(s, "surface mesh file=fin.obj");
     assert_non_null(strstr(wr_text_get(&notes),
-                           "fin.obj: 1 points have texture coordinates that are no "
-                           "numbers, or beyond 1e6, the first at 0,0,0"));
+                           "fin.obj: points with texture coordinates that are no numbers, or "
+                           "beyond 1e6: 1, the first at 0,0,0"));
     for (int k = 0; k < 2; k++) {
         assert_non_null(strstr(wr_text_get(&notes), ", open"));
         assert_non_null(strstr(wr_text_get(&notes), "; open edges: 2, the first at "));
@@ -500,6 +500,14 @@ static void faults_are_noted(void **state)
     must_run(s, "surface mesh crease=180");
     assert_non_null(strstr(wr_text_get(&notes), "the file has no normals"));
     assert_non_null(strstr(wr_text_get(&notes), "crease=30"));
+    char name[240], line[300]; /* a long note is whole */
+    snprintf(name, sizeof name, "%0230d.obj", 7);
+    assert_int_equal(rename("fin.obj", name), 0);
+    snprintf(line, sizeof line, "surface mesh file=%s", name);
+    wr_text_clear(&notes);
+    must_run(s, line);
+    assert_non_null(strstr(wr_text_get(&notes), "but with exact slopes: 4"));
+    assert_int_equal(rename(name, "fin.obj"), 0);
     wr_session_free(s);
     wr_text_fini(&notes);
 }
@@ -552,6 +560,42 @@ static void exports_leave_the_file_alone(void **state)
 }
 
 /* Maps that lie by (u,v): refused without any, noted where they overlap. Relief below the error is noted with both. */
+/* The error that a solid with too many triangles names has fewer, and is not wastefully large. */
+static void a_fitting_error_is_named(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    WrSession *s = session_with(&notes);
+    WrError err = { "" };
+    write_cube("cube.stl", 30);
+    must_run(s, "table 128x128");
+    must_run(s, "pattern bricks");
+    must_run(s, "bump height=0.1");
+    for (int k = 0; k < 3; k++) {
+        /* on the plane the first estimate does not fit */
+        static const char *const surfaces[] = {
+            "surface mesh file=cube.stl projection=box cell=7mm", "surface torus", "surface plane"
+        };
+        char line[160];
+        double fits = 0;
+        const int most = k < 2 ? 3000 : 9000;
+        must_run(s, surfaces[k]);
+        snprintf(line, sizeof line, "export stl out.stl triangles=%d error=0.0003", most);
+        assert_false(wr_session_run(s, line, &err));
+        const char *named = strstr(err.text, "triangles: error=");
+        if (!named || sscanf(named, "triangles: error=%lf fits", &fits) != 1)
+            fail_msg("%s", err.text);
+        snprintf(line, sizeof line, "export stl out.stl triangles=%d error=%.6g", most, fits);
+        must_run(s, line);
+        snprintf(line, sizeof line, "export stl out.stl triangles=%d error=%.6g", most, fits / 6);
+        must_fail(s, line, "needs more than");
+    }
+    wr_session_free(s);
+    wr_text_fini(&notes);
+    assert_int_equal(unlink("cube.stl"), 0);
+    assert_int_equal(unlink("out.stl"), 0);
+}
+
 static void maps_and_relief_that_are_lost_are_noted(void **state)
 {
     (void)state;
@@ -757,6 +801,8 @@ int main(void)
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(faults_are_noted, enter_own_folder, leave_own_folder),
         cmocka_unit_test_setup_teardown(exports_leave_the_file_alone, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(a_fitting_error_is_named, enter_own_folder,
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(maps_and_relief_that_are_lost_are_noted, enter_own_folder,
                                         leave_own_folder),

@@ -234,6 +234,35 @@ static void a_bond_that_does_not_close_is_said_and_so_is_stretch(void **state)
     wr_field_free(like);
 }
 
+/* Joints of 7 texels leave nothing of rows of 6.4; a knurl of four texels a turn is grey. */
+static void a_pattern_without_pieces_is_said(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *row, *param;
+        double value;
+        int side;
+        bool flat;
+    } cases[] = { { "bricks", "joint", 7, 64, true },   { "bricks", "joint", 2, 64, false },
+                  { "bricks", "height", 0, 64, false }, { "tiles", "joint", 5, 16, true },
+                  { "knurl", "height", 1, 32, true },   { "knurl", "height", 1, 64, false } };
+    for (int k = 0; k < 6; k++) {
+        const WrGenerator *g = wr_generator_find("pattern", cases[k].row);
+        WrParamValue values[WR_GENERATOR_PARAMS];
+        WrField *like = table_of(cases[k].side, cases[k].side);
+        Said said = { "" };
+        WrGenerateJob job = { .like = like, .note = hear, .note_ctx = &said };
+        WrRelief relief = { NULL, NULL };
+        wr_generator_defaults(g, values);
+        value_of(g, values, cases[k].param)->number[0] = cases[k].value;
+        assert_true(wr_generator_make(g, values, &job, &relief, NULL));
+        assert_int_equal(strstr(said.text, "all texels have the same height") != NULL,
+                         cases[k].flat);
+        wr_relief_fini(&relief);
+        wr_field_free(like);
+    }
+}
+
 /* With points at the centres of square cells, f1 is the distance to the cell's centre. */
 static void voronoi_of_unscattered_points_is_known(void **state)
 {
@@ -371,6 +400,7 @@ int main(void)
         cmocka_unit_test(plain_cloth_changes_warp_and_weft_in_the_next_thread),
         cmocka_unit_test(a_draft_that_cannot_close_is_refused_by_name),
         cmocka_unit_test(a_bond_that_does_not_close_is_said_and_so_is_stretch),
+        cmocka_unit_test(a_pattern_without_pieces_is_said),
         cmocka_unit_test(voronoi_of_unscattered_points_is_known),
         cmocka_unit_test(voronoi_finds_the_nearest_of_all_scattered_points),
         cmocka_unit_test(scratches_only_lower_where_there_is_no_burr_and_height_scales_them),

@@ -399,6 +399,8 @@ static void what_a_file_points_to_is_not_opened(void **state)
     refuse("thief.gltf", gltf, strlen(gltf), "keeps a part in another file");
     setenv("WRINKLE_READER", "inside", 1);
     refuse("thief.gltf", gltf, strlen(gltf), "cannot be read");
+    memcpy(strstr(gltf, "2.0"), "1.0", 3);
+    refuse("old.gltf", gltf, strlen(gltf), "glTF 1.0, which is not read: save it as glTF 2.0");
     unsetenv("WRINKLE_READER");
     free(rest);
     unlink(other);

@@ -146,19 +146,21 @@ static void faults_are_counted(void **state)
     WrMeshFaults f;
     WrError err = { "" };
     float points[9][3];
-    int32_t corners[16][3];
+    int32_t corners[24][3];
     WrTrianglesSource source = cube_source();
     memcpy(points, source.points, 8 * sizeof *points);
     memcpy(corners, cube_corners, sizeof cube_corners);
     points[8][0] = 5, points[8][1] = 6, points[8][2] = 7;
     source.points = (const float(*)[3])points, source.point_count = 9;
     source.corners = (const int32_t(*)[3])corners;
-    for (int k = 0; k < 6; k++) {
+    for (int k = 0; k < 10; k++) {
         const int32_t *face = corners[3];
         /* open, crowded, turned, doubled, without area */
-        static const int32_t counts[6][WR_MESH_FAULTS] = { { 0, 0, 0, 0, 0 }, { 3, 0, 0, 0, 0 },
-                                                           { 0, 0, 3, 0, 0 }, { 0, 3, 0, 1, 0 },
-                                                           { 2, 1, 0, 0, 0 }, { 0, 0, 0, 0, 2 } };
+        static const int32_t counts[10][WR_MESH_FAULTS] = {
+            { 0, 0, 0, 0, 0 }, { 3, 0, 0, 0, 0 },  { 0, 0, 3, 0, 0 }, { 0, 0, 0, 1, 0 },
+            { 2, 1, 0, 0, 0 }, { 0, 0, 0, 0, 2 },  { 0, 0, 0, 1, 0 }, { 0, 0, 3, 1, 0 },
+            { 0, 0, 0, 2, 0 }, { 0, 0, 0, 12, 0 },
+        };
         memcpy(corners, cube_corners, sizeof cube_corners);
         source.triangle_count = 12;
         const int32_t a = face[0], b = face[1], c = face[2];
@@ -169,8 +171,18 @@ static void faults_are_counted(void **state)
         if (k == 3) memcpy(corners[source.triangle_count++], again, sizeof again);
         if (k == 4) memcpy(corners[source.triangle_count++], fin, sizeof fin);
         if (k == 5) memcpy(corners[12], flat, sizeof flat), source.triangle_count += 2;
+        if (k == 6) memcpy(corners[source.triangle_count++], corners[3], sizeof turned);
+        if (k == 7 || k == 8) /* the turned face twice, and the right one behind them */
+            for (int i = 0; i < 2; i++) memcpy(corners[i ? 12 : 3], turned, sizeof turned);
+        if (k == 8) memcpy(corners[13], cube_corners[3], sizeof turned);
+        if (k == 7 || k == 8) source.triangle_count = k + 6;
+        if (k == 9) memcpy(corners[12], cube_corners, sizeof cube_corners);
+        if (k == 9) source.triangle_count = 24;
         WrTriangles *t = make(&source);
         if (!wr_mesh_faults_find(t, k == 1 ? origin : none, &f, &err)) fail_msg("%s", err.text);
+        assert_string_equal(wr_mesh_faults_body(&f, t), k == 0 || k == 5   ? "closed"
+                                                        : k == 1 || k == 4 ? "open"
+                                                                           : "no closed body");
         for (int i = 0; i < WR_MESH_FAULTS; i++) {
             if (f.count[i] != counts[k][i])
                 fail_msg("case %d: %d %s", k, (int)f.count[i], wr_mesh_fault_rows[i].label);

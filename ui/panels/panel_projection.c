@@ -282,8 +282,8 @@ static void seam_rows(WrApp *app)
     const WrTextureSeams *seams = &app->surface->seams;
     char text[160];
     if (seams->edges == 0) return;
-    snprintf(text, sizeof text, wr_words("The table breaks along %d edges, in %d runs:"),
-             (int)seams->edges, (int)seams->runs);
+    snprintf(text, sizeof text, wr_words("Edges where the table breaks: %d. Longest runs:"),
+             (int)seams->edges);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
     for (int i = 0; i < WR_TEXTURE_SEAMS && i < seams->runs; i++) {
         snprintf(text, sizeof text, wr_words("%.4g long"), seams->run[i].length);

@@ -28,6 +28,7 @@
 #include "surface/relief_weights.h"
 #include "surface/triangles.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -742,6 +743,39 @@ static bool refine_all(WrMeshRelief *r, WrError *err)
             return wr_fail(err, "cancelled");
     }
     return true;
+}
+
+/* ---- the error that fits ---- */
+
+#define MEASURED 4096 /* triangles */
+/* Triangles that pass have half the allowed error or more, those that make the mesh conforming have less. */
+#define FITTING 1.5
+
+int32_t wr_fitting_error_step(int32_t count)
+{
+    return count / MEASURED + 1;
+}
+
+double wr_fitting_error(double sum, int32_t base, int32_t most)
+{
+    const double room = 0.8 * most - base;
+    return room > 0.0 ? FITTING * sum / room : INFINITY;
+}
+
+double wr_mesh_relief_fitting_error(const WrMeshRelief *r)
+{
+    const int32_t step = wr_fitting_error_step(r->triangles.count);
+    const WrVec3 size = r->request.stretch;
+    const double most = (r->high - r->low) * fabs(r->request.scale) *
+                        fmax(fabs(size.x), fmax(fabs(size.y), fabs(size.z)));
+    double sum = 0.0;
+    for (int32_t i = 0; i < r->triangles.count; i += step) {
+        WrMeshReliefTriangle t = r->triangles.data[i];
+        t.allowed = FLT_MAX;
+        const double error = error_of(r, &t);
+        sum += step * (error < INFINITY ? error : most);
+    }
+    return wr_fitting_error(sum, r->request.mesh->triangle_count, r->request.most);
 }
 
 /* ---- the whole ---- */

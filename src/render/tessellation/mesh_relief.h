@@ -74,6 +74,15 @@ typedef struct WrMeshReliefPlace {
 bool wr_mesh_relief_make(WrMeshRelief *relief, const WrMeshReliefRequest *request, WrError *err);
 void wr_mesh_relief_fini(WrMeshRelief *relief);
 
+/* Bisection divides an error by about the number of triangles. So from errors of a refinement that stopped at too many triangles
+   follows one that needs fewer than `most`, of which `base` are there before: errors of every step-th triangle, their sum
+   times step. INFINITY: the base alone has too many. */
+int32_t wr_fitting_error_step(int32_t count);
+double wr_fitting_error(double sum, int32_t base, int32_t most);
+
+/* Of a relief that is `full`: such an error. */
+double wr_mesh_relief_fitting_error(const WrMeshRelief *relief);
+
 /* The triangles for rays and rasters, in the order of the mesh's faces, so that consecutive ones are near each other.
    Corners have no normals and are not shared; their u and v are weights of the face's corners 1 and 2.
    base_of: [triangles] the face of each; owned by the caller. NULL: no memory. */
