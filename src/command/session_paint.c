@@ -563,20 +563,21 @@ static void prepare_erasing(WrSession *session, WrLayer *layer, WrPainting *pain
 static bool take_texels(WrSession *session, const WrField *field, WrError *err)
 {
     const WrScene *scene = session->state.document->scene;
+    double ru, rv;
+    const WrTriangles *mesh = wr_document_painted_mesh(session->state.document, &ru, &rv);
     const WrMeshTexelsTable table = { .width = wr_field_width(field),
                                       .height = wr_field_height(field),
                                       .periodic_u = wr_field_wrap_u(field) == WR_WRAP_PERIODIC,
                                       .periodic_v = wr_field_wrap_v(field) == WR_WRAP_PERIODIC,
-                                      .ru = scene->replicate_u,
-                                      .rv = scene->replicate_v };
+                                      .ru = ru,
+                                      .rv = rv };
     if (!scene->triangles || !wr_surfaces[scene->shape.kind]->held)
         return wr_fail(err,
                        "the object is a %s without triangles; paint in its table with `stroke`",
                        wr_surfaces[scene->shape.kind]->name);
-    if (session->mesh_texels && wr_mesh_texels_fit(session->mesh_texels, scene->triangles, &table))
-        return true;
+    if (session->mesh_texels && wr_mesh_texels_fit(session->mesh_texels, mesh, &table)) return true;
     wr_mesh_texels_free(session->mesh_texels);
-    session->mesh_texels = wr_mesh_texels_new(scene->triangles, &table, err);
+    session->mesh_texels = wr_mesh_texels_new(mesh, &table, err);
     session->mesh_sharing_told = false;
     return session->mesh_texels != NULL;
 }

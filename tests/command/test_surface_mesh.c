@@ -11,11 +11,13 @@
 #include "base/text.h"
 #include "command/session.h"
 #include "document/document.h"
+#include "field/field.h"
 #include "image/image.h"
 #include "image/mesh.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
 #include "surface/patches.h"
+#include "surface/relief_weights.h"
 #include "surface/triangles.h"
 
 #include <sys/stat.h>
@@ -679,6 +681,140 @@ static void masks_are_told_of(void **state)
     wr_text_fini(&notes);
 }
 
+/* A sheet 4 x 2 of two squares in four triangles, with its own u along x. */
+static const char sheet[] = "v 0 0 0\nv 2 0 0\nv 4 0 0\nv 0 2 0\nv 2 2 0\nv 4 2 0\n"
+                            "vt 0 0\nvt 0.5 0\nvt 1 0\nvt 0 1\nvt 0.5 1\nvt 1 1\n"
+                            "f 1/1 2/2 5/5 4/4\nf 2/2 3/3 6/6 5/5\n";
+
+/* The mask at the centre of a triangle, which is at x. */
+static double mask_of(const WrScene *scene, int32_t triangle, double *x)
+{
+    WrReliefTap taps[WR_RELIEF_TAPS];
+    const WrTriangles *t = scene->triangles;
+    *x = 0;
+    for (int k = 0; k < 3; k++) *x += (double)wr_triangle_corner(t, triangle, k)->p[0] / 3;
+    return wr_relief_taps(t, triangle, 1.0 / 3, 1.0 / 3, taps) ? taps[0].weight : 0;
+}
+
+static void assert_halves_at(const WrScene *scene, bool right, bool left, int at)
+{
+    for (int32_t i = 0; i < scene->triangles->triangle_count; i++) {
+        double x;
+        const double m = mask_of(scene, i, &x);
+        if (!(fabs(m - ((x > 2 ? right : left) ? 1 : 0)) < 1e-6))
+            fail_msg("line %d: at x = %g the mask is %g", at, x, m);
+    }
+}
+#define assert_halves(scene, right, left) assert_halves_at(scene, right, left, __LINE__)
+
+/* The layer is read as it is painted, in the mesh's own (u,v), and follows edits, undo, other names, documents and its
+   own removal. */
+static void a_layer_is_a_mask(void **state)
+{
+    (void)state;
+    WrText notes = { 0 }, line = { 0 }, other = { 0 };
+    WrError err = { "" };
+    WrSession *s = session_with(&notes);
+    write_file("sheet.obj", sheet);
+    must_run(s, "table 40x24");
+    must_run(s, "fill 0.7");
+    must_run(s, "layer add where");
+    must_run(s, "select rect from=0.5,0 to=1,1");
+    must_run(s, "fill 1.3");
+    must_run(s, "surface mesh file=sheet.obj mask=2 projection=box cell=3mm turn=0,0,31");
+    assert_non_null(strstr(wr_text_get(&notes), "layer 2 is hidden: it is a mask now"));
+    assert_non_null(strstr(wr_text_get(&notes), "masks leave relief on 2 of 4 triangles"));
+    if (!strstr(surface_line(s, &line), " mask=where\n")) fail_msg("%s", wr_text_get(&line));
+    must_run(s, "replicate 3,2");
+    assert_halves(scene_in(s), true, false);
+    must_run(s, "layer use where"); /* it is painted though it is hidden */
+    must_run(s, "select invert");
+    must_run(s, "fill 1");
+    assert_halves(scene_in(s), true, true);
+    must_run(s, "undo");
+    assert_halves(scene_in(s), true, false);
+    must_run(s, "surface mesh cell=2mm materials=1 projection=planar");
+    assert_halves(scene_in(s), true, false);
+    must_run(s, "surface mesh projection=uv");
+    assert_halves(scene_in(s), true, false);
+    must_run(s, "layer rename 2 \"its place\"");
+    for (int i = 0; i < 2; i++) {
+        const char *const name = i ? "m.ora" : "m.exr";
+        WrSession *b = session_with(&notes);
+        char save[40];
+        snprintf(save, sizeof save, "save %s", name);
+        must_run(s, save);
+        if (!wr_session_open(b, name, &err)) fail_msg("%s", err.text);
+        assert_string_equal(surface_line(s, &line), surface_line(b, &other));
+        assert_true(scene_in(s)->triangles->key == scene_in(b)->triangles->key);
+        assert_halves(scene_in(b), true, false);
+        wr_session_free(b);
+    }
+    must_run(s, "layer delete 2"); /* nothing limits the relief then */
+    assert_halves(scene_in(s), true, true);
+    must_run(s, "undo");
+    assert_halves(scene_in(s), true, false);
+    must_run(s, "object add second"); /* the edited layer may be the mask of another object */
+    must_run(s, "surface sphere");
+    must_run(s, "fill 2");
+    assert_halves(wr_scene_object(scene_in(s), 0), true, true);
+    must_run(s, "object choose \"object 1\"");
+    must_run(s, "surface mesh mask=\"\" materials=\"\"");
+    assert_null(scene_in(s)->triangles->weights);
+    assert_null(scene_in(s)->mask_layer);
+    wr_session_free(s);
+    wr_text_fini(&notes);
+    wr_text_fini(&line);
+    wr_text_fini(&other);
+}
+
+/* A dab on the mesh in the mask layer lies in the mesh's own (u,v), though the mesh shows the table by a projection. */
+static void a_mask_is_painted_on_the_mesh(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    WrSession *s = session_with(&notes);
+    write_file("sheet.obj", sheet);
+    must_run(s, "table 80x40");
+    must_run(s, "layer add where");
+    must_run(s, "surface mesh file=sheet.obj projection=planar cell=1.7mm at=9,7,0 mask=where");
+    must_run(s, "replicate 2,3");
+    must_run(s, "sculpt radius=6 strength=1 hardness=0.9 points=3,0.5,0");
+    const WrField *where = wr_session_document(s)->layers[1].heights;
+    int inside = 0;
+    for (int j = 0; j < 40; j++)
+        for (int i = 0; i < 80; i++) {
+            const double dx = i + 0.5 - 80 * 3 / 4.0, dy = j + 0.5 - 40 * (1 - 0.5 / 2);
+            const double away = hypot(dx, dy);
+            if (away > 8) assert_near(wr_field_get(where, i, j), 0, 0);
+            if (away < 4) assert_true(wr_field_get(where, i, j) > 0.2F);
+            inside += away < 4;
+        }
+    assert_true(inside > 30);
+    wr_session_free(s);
+    wr_text_fini(&notes);
+}
+
+static void masks_of_layers_are_refused(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    WrSession *s = session_with(&notes);
+    write_file("sheet.obj", sheet);
+    write_cube("cube.stl", 30);
+    must_run(s, "layer add where");
+    must_fail(s, "surface mesh file=cube.stl projection=box mask=where",
+              "mask=where: the mesh has no texture coordinates of its own");
+    must_run(s, "surface mesh file=sheet.obj");
+    must_fail(s, "surface mesh mask=there", "there");
+    must_run(s, "object set layer=where");
+    must_fail(s, "surface mesh mask=where",
+              "the object wears that layer: its mask must be another");
+    assert_true(wr_session_document(s)->layers[1].visible);
+    wr_session_free(s);
+    wr_text_fini(&notes);
+}
+
 static void hostile_projections_are_refused(void **state)
 {
     (void)state;
@@ -751,6 +887,11 @@ int main(void)
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(masks_are_kept, enter_own_folder, leave_own_folder),
         cmocka_unit_test_setup_teardown(masks_are_told_of, enter_own_folder, leave_own_folder),
+        cmocka_unit_test_setup_teardown(a_layer_is_a_mask, enter_own_folder, leave_own_folder),
+        cmocka_unit_test_setup_teardown(a_mask_is_painted_on_the_mesh, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(masks_of_layers_are_refused, enter_own_folder,
+                                        leave_own_folder),
         cmocka_unit_test_setup_teardown(hostile_projections_are_refused, enter_own_folder,
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(a_far_mesh_returns_to_its_place, enter_own_folder,
