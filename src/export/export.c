@@ -507,7 +507,9 @@ static void add_solid(const WrExportReport *report, WrText *text)
                      report->solid_fold[2]);
     const double *place = report->solid_left_out, relief = report->solid_relief;
     /* a flat face is off by a third of it or more */
-    if (relief > 0 && relief <= 3 * report->solid_error)
+    if (!(relief > 1e-6 * report->solid_allowed))
+        wr_text_add(text, "; no relief: the table is flat, or its height 0");
+    else if (relief <= 3 * report->solid_error)
         wr_text_addf(text,
                      "; the relief is %.3g mm from its lowest to its highest and error=%.3g: much "
                      "of it is lost; error=%.1g keeps it",
