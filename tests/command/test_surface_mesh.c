@@ -795,6 +795,47 @@ static void a_mask_is_painted_on_the_mesh(void **state)
     wr_text_fini(&notes);
 }
 
+/* The height of the exported body over the sheet. */
+static double top_of(WrSession *s, const char *line, const char *path)
+{
+    WrMesh mesh;
+    WrError err = { "" };
+    double top = -1;
+    must_run(s, line);
+    if (!wr_mesh_read_attributes(path, &mesh, &err)) fail_msg("%s", err.text);
+    for (int32_t i = 0; i < mesh.point_count; i++) top = fmax(top, (double)mesh.points[i][2]);
+    wr_mesh_fini(&mesh);
+    return top;
+}
+
+/* A solid has the heights of the object's own layer, as its picture; without one, those of all layers. A flat one is
+   noted. */
+static void solids_have_the_objects_table(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    WrSession *s = session_with(&notes);
+    write_file("sheet.obj", sheet);
+    must_run(s, "table 9x7");
+    must_run(s, "fill 0.3");
+    must_run(s, "layer add own");
+    must_run(s, "fill 0.4");
+    must_run(s, "surface mesh file=sheet.obj");
+    must_run(s, "bump height=1");
+    assert_near(top_of(s, "export ply all.ply", "all.ply"), 0.7, 1e-6);
+    assert_non_null(strstr(wr_text_get(&notes), "no relief: the table is flat"));
+    must_run(s, "object set layer=own");
+    assert_near(top_of(s, "export ply own.ply", "own.ply"), 0.4, 1e-6);
+    must_run(s, "object set name=sheet");
+    assert_near(top_of(s, "export ply named.ply object=sheet", "named.ply"), 0.4, 1e-6);
+    wr_text_fini(&notes);
+    must_run(s, "noise perlin cells=3 amplitude=0.5");
+    must_run(s, "export ply rough.ply");
+    assert_null(strstr(wr_text_get(&notes), "no relief"));
+    wr_session_free(s);
+    wr_text_fini(&notes);
+}
+
 static void masks_of_layers_are_refused(void **state)
 {
     (void)state;
@@ -889,6 +930,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(masks_are_told_of, enter_own_folder, leave_own_folder),
         cmocka_unit_test_setup_teardown(a_layer_is_a_mask, enter_own_folder, leave_own_folder),
         cmocka_unit_test_setup_teardown(a_mask_is_painted_on_the_mesh, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(solids_have_the_objects_table, enter_own_folder,
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(masks_of_layers_are_refused, enter_own_folder,
                                         leave_own_folder),
