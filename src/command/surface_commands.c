@@ -642,6 +642,16 @@ static bool take_mask_layer(WrSession *session, const WrCall *call, WrScene *sce
     return true;
 }
 
+/* The remedy for a file without normals: relief of a face moves along the means with its neighbours. */
+static void add_rounded(WrText *text, const WrScene *scene)
+{
+    const WrTrianglesReport *file = &wr_scene_mesh_source(scene)->report;
+    if (scene->projection.crease_deg >= WR_CREASE_NONE && file->no_normal + file->bad_normal > 0)
+        wr_message_addf(text,
+                        "; the file has no normals, so that edges are rounded: crease=30 makes "
+                        "normals that keep edges above 30 degrees sharp");
+}
+
 static bool note_projection(WrSession *session, const WrScene *scene, WrError *err)
 {
     const WrProjection *is = &scene->projection;
@@ -669,10 +679,7 @@ static bool note_projection(WrSession *session, const WrScene *scene, WrError *e
                      "long, at %.7g,%.7g,%.7g",
                      (int)seams.edges, seams.length, seams.at.x + is->origin[0],
                      seams.at.y + is->origin[1], seams.at.z + is->origin[2]);
-    if (is->kind == WR_PROJECTION_BOX && is->crease_deg >= WR_CREASE_NONE &&
-        file->report.no_normal + file->report.bad_normal > 0)
-        wr_text_add(&text, "; the file has no normals, so that edges are rounded: crease=30 makes "
-                           "normals that keep edges above 30 degrees sharp");
+    if (is->kind == WR_PROJECTION_BOX) add_rounded(&text, scene);
     wr_session_note(session, "%s", wr_text_get(&text));
     wr_text_fini(&text);
     return true;
@@ -688,8 +695,12 @@ static void note_masks(WrSession *session, const WrScene *scene)
     if (is->facing == WR_FACING_ANY && !*is->materials && !scene->mask) return;
     for (int32_t i = 0; i < mesh->triangle_count; i++)
         count += wr_relief_taps(mesh, i, 1.0 / 3, 1.0 / 3, taps) > 0;
-    wr_session_note(session, "masks leave relief on %d of %d triangles", (int)count,
+    WrText text = { 0 };
+    wr_message_addf(&text, "masks leave relief on %d of %d triangles", (int)count,
                     (int)mesh->triangle_count);
+    if (is->kind != WR_PROJECTION_BOX) add_rounded(&text, scene);
+    wr_session_note(session, "%s", wr_text_get(&text));
+    wr_text_fini(&text);
 }
 
 /* Apply the projection of the call to the scene's mesh. */

@@ -836,6 +836,22 @@ static void solids_have_the_objects_table(void **state)
     wr_text_fini(&notes);
 }
 
+/* Masks on a file without normals get a note with the remedy, unless crease= is set. */
+static void masks_need_normals(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    WrSession *s = session_with(&notes);
+    write_file("sheet.obj", sheet);
+    must_run(s, "surface mesh file=sheet.obj facing=z crease=20");
+    assert_null(strstr(wr_text_get(&notes), "edges are rounded"));
+    must_run(s, "surface mesh crease=180");
+    assert_non_null(strstr(wr_text_get(&notes), "masks leave relief on 4 of 4 triangles; the file "
+                                                "has no normals, so that edges are rounded"));
+    wr_session_free(s);
+    wr_text_fini(&notes);
+}
+
 static void masks_of_layers_are_refused(void **state)
 {
     (void)state;
@@ -931,6 +947,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_layer_is_a_mask, enter_own_folder, leave_own_folder),
         cmocka_unit_test_setup_teardown(a_mask_is_painted_on_the_mesh, enter_own_folder,
                                         leave_own_folder),
+        cmocka_unit_test_setup_teardown(masks_need_normals, enter_own_folder, leave_own_folder),
         cmocka_unit_test_setup_teardown(solids_have_the_objects_table, enter_own_folder,
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(masks_of_layers_are_refused, enter_own_folder,
