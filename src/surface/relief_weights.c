@@ -156,11 +156,17 @@ static void mark_facing(WrReliefWeights *w, const WrTriangles *mesh, WrFacing fa
 
 /* ---- materials ---- */
 
+int wr_relief_number(const WrTriangles *mesh, int32_t part)
+{
+    const int32_t number = mesh->parts[part].number;
+    return number > 0 ? number : part + 1;
+}
+
 bool wr_relief_lists(const char *list, const WrTriangles *mesh, int32_t part)
 {
     const char *name = mesh->parts[part].name;
     char number[16];
-    snprintf(number, sizeof number, "%d", (int)part + 1);
+    snprintf(number, sizeof number, "%d", wr_relief_number(mesh, part));
     for (const char *at = list; at;) {
         const char *end = strchr(at, ',');
         const size_t length = end ? (size_t)(end - at) : strlen(at);
@@ -183,10 +189,15 @@ static bool has_part(const WrTriangles *mesh, const char *name)
 static bool fail_material(const WrTriangles *mesh, const char *name, WrError *err)
 {
     WrText text = { 0 };
-    for (int32_t i = 0; i < mesh->part_count && i < LISTED; i++)
-        wr_text_addf(&text, "%s%d %s", i ? ", " : "", (int)i + 1,
+    int count = 0;
+    for (int32_t i = 0; i < mesh->part_count; i++) {
+        const int number = wr_relief_number(mesh, i);
+        if (i > 0 && number == wr_relief_number(mesh, i - 1)) continue;
+        if (count++ >= LISTED) continue;
+        wr_text_addf(&text, "%s%d %s", i ? ", " : "", number,
                      *mesh->parts[i].name ? mesh->parts[i].name : "(unnamed)");
-    if (mesh->part_count > LISTED) wr_text_addf(&text, ", ... %d in all", (int)mesh->part_count);
+    }
+    if (count > LISTED) wr_text_addf(&text, ", ... %d in all", count);
     wr_fail(err, "materials=%s: the mesh has no such material; it has %s", name,
             wr_text_get(&text));
     wr_text_fini(&text);

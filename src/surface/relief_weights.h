@@ -56,7 +56,9 @@ WrReliefWeights *wr_relief_weights_new(const WrTriangles *mesh, const WrProjecti
                                        const WrProjectionFrame *frame, const WrField *mask,
                                        WrError *err);
 void wr_relief_weights_free(WrReliefWeights *weights);
-/* True if the part is in a list of materials, by its name or its number from 1. */
+/* The number of a part's material, from 1; parts that a tile divided share one, and follow each other. */
+int wr_relief_number(const WrTriangles *mesh, int32_t part);
+/* True if the part is in a list of materials, by its name or that number. */
 bool wr_relief_lists(const char *list, const WrTriangles *mesh, int32_t part);
 /* True if F runs on across edges where (u,v) does not. */
 bool wr_relief_is_blended(const WrTriangles *mesh);

@@ -106,6 +106,7 @@ static WrTrianglePart *make_parts(const WrTrianglesBuild *b, int *count)
         if (source->parts) {
             memcpy(part.name, source->parts[i].name, sizeof part.name - 1);
             part.patch = source->parts[i].patch;
+            part.number = source->parts[i].number;
         }
         const int32_t end = source->parts ? source->parts[i].first + source->parts[i].count
                                           : source->triangle_count;

@@ -35,6 +35,7 @@ typedef struct WrTrianglePart {
     int32_t first, count;        /* triangles */
     bool mapped;                 /* has texture coordinates */
     int32_t patch;               /* index of its source patch; 0 if there are none */
+    int32_t number; /* of its material if a tile divided the parts, from 1; 0: 1 + its index */
 } WrTrianglePart;
 
 /* Statistics and repairs, for reports. */

@@ -852,6 +852,30 @@ static void masks_need_normals(void **state)
     wr_text_fini(&notes);
 }
 
+/* Two materials, each on two tiles: a tile halves the parts, and their numbers stay. */
+static void tiles_keep_the_numbers_of_materials(void **state)
+{
+    (void)state;
+    static const char tiled[] = "v 0 0 0\nv 2 0 0\nv 4 0 0\nv 0 2 0\nv 2 2 0\nv 4 2 0\n"
+                                "vt 0.1 0.1\nvt 0.8 0.1\nvt 0.8 0.8\nvt 0.1 0.8\n"
+                                "vt 1.1 0.1\nvt 1.8 0.1\nvt 1.8 0.8\nvt 1.1 0.8\n"
+                                "usemtl wood\nf 1/1 2/2 5/3\nf 1/5 5/7 4/8\n"
+                                "usemtl iron\nf 2/1 3/2 6/3\nf 2/5 6/7 5/8\n";
+    WrText notes = { 0 };
+    WrSession *s = session_with(&notes);
+    write_file("tiled.obj", tiled);
+    must_run(s, "surface mesh file=tiled.obj udim=1002 materials=2");
+    const WrTriangles *t = scene_in(s)->triangles;
+    assert_int_equal(t->part_count, 4);
+    for (int i = 0; i < 4; i++)
+        assert_int_equal(wr_relief_covers(t, t->parts[i].first),
+                         strcmp(t->parts[i].name, "iron") == 0);
+    must_fail(s, "surface mesh materials=3",
+              "materials=3: the mesh has no such material; it has 1 wood, 2 iron");
+    wr_session_free(s);
+    wr_text_fini(&notes);
+}
+
 static void masks_of_layers_are_refused(void **state)
 {
     (void)state;
@@ -948,6 +972,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_mask_is_painted_on_the_mesh, enter_own_folder,
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(masks_need_normals, enter_own_folder, leave_own_folder),
+        cmocka_unit_test_setup_teardown(tiles_keep_the_numbers_of_materials, enter_own_folder,
+                                        leave_own_folder),
         cmocka_unit_test_setup_teardown(solids_have_the_objects_table, enter_own_folder,
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(masks_of_layers_are_refused, enter_own_folder,
