@@ -503,6 +503,19 @@ static bool differ(const WrTriangleCorner *const a[2], const WrTriangleCorner *c
     return whole[0][0] != whole[1][0] || whole[0][1] != whole[1][1];
 }
 
+/* True if masks leave no relief along a half-edge of its face. */
+static bool is_bare(const WrTriangles *mesh, int32_t half)
+{
+    WrReliefTap taps[WR_RELIEF_TAPS];
+    if (!mesh->weights) return false;
+    for (int i = 0; i <= 4; i++) {
+        double w[3] = { 0 };
+        w[half % 3] = 1 - i / 4.0, w[(half + 1) % 3] = i / 4.0;
+        if (wr_relief_taps(mesh, half / 3, w[1], w[2], taps) > 0) return false;
+    }
+    return true;
+}
+
 /* Marks the seams: first[e] is 1 + the first half-edge of edge e, negative for a seam. */
 static int32_t mark_seams(const WrTriangles *mesh, const WrMeshEdges *edges, int32_t *first,
                           int32_t *run)
@@ -520,7 +533,7 @@ static int32_t mark_seams(const WrTriangles *mesh, const WrMeshEdges *edges, int
             own[k] = wr_triangle_corner(mesh, h / 3, end[k]);
             other[k] = wr_triangle_corner(mesh, (*one - 1) / 3, back[k]);
         }
-        if (!differ(own, other)) continue;
+        if (!differ(own, other) || is_bare(mesh, h) || is_bare(mesh, *one - 1)) continue;
         *one = -*one;
         count++;
         const int32_t *c = mesh->triangles[h / 3].corner;

@@ -98,7 +98,7 @@ typedef struct WrTextureSeam {
 } WrTextureSeam;
 
 /* Edges of a mesh at which the (u,v) of the two faces differ by more than whole numbers; none if the relief is
- * blended there. */
+ * blended there, or masks leave none on either face. */
 typedef struct WrTextureSeams {
     int32_t edges, runs;
     double length;                       /* of the longest run */

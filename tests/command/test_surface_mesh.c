@@ -836,6 +836,28 @@ static void solids_have_the_objects_table(void **state)
     wr_text_fini(&notes);
 }
 
+/* A seam counts where a material with relief has it; at bare faces nothing can break. */
+static void seams_without_relief_are_not_counted(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    WrTextureSeams all, bare, top;
+    WrError err = { "" };
+    WrSession *s = session_with(&notes);
+    write_cube("cube.stl", 30);
+    must_run(s, "surface mesh file=cube.stl projection=box cell=7.3mm crease=30 at=1,2,5");
+    assert_true(wr_triangles_seams(scene_in(s)->triangles, &all, &err));
+    must_run(s, "surface mesh facing=z");
+    assert_true(wr_triangles_seams(scene_in(s)->triangles, &top, &err));
+    must_run(s, "surface mesh facing=x angle=100"); /* all but -x */
+    assert_true(wr_triangles_seams(scene_in(s)->triangles, &bare, &err));
+    assert_true(all.edges > 4);
+    assert_int_equal(top.edges, 0);
+    assert_true(bare.edges > 0 && bare.edges < all.edges);
+    wr_session_free(s);
+    wr_text_fini(&notes);
+}
+
 /* Masks on a file without normals get a note with the remedy, unless crease= is set. */
 static void masks_need_normals(void **state)
 {
@@ -970,6 +992,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(masks_are_told_of, enter_own_folder, leave_own_folder),
         cmocka_unit_test_setup_teardown(a_layer_is_a_mask, enter_own_folder, leave_own_folder),
         cmocka_unit_test_setup_teardown(a_mask_is_painted_on_the_mesh, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(seams_without_relief_are_not_counted, enter_own_folder,
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(masks_need_normals, enter_own_folder, leave_own_folder),
         cmocka_unit_test_setup_teardown(tiles_keep_the_numbers_of_materials, enter_own_folder,
