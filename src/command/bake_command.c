@@ -236,7 +236,7 @@ static WrTriangles *read_high(WrSession *session, WrCall *call, const char *path
     if (!high) return NULL;
     WrProjection normals = wr_projection_default;
     normals.crease_deg = wr_call_number(call, "crease");
-    WrTriangles *creased = wr_triangles_project(high, &normals, err);
+    WrTriangles *creased = wr_triangles_project(high, &normals, NULL, err);
     wr_triangles_free(high);
     return creased;
 }

@@ -559,29 +559,30 @@ static void prepare_erasing(WrSession *session, WrLayer *layer, WrPainting *pain
 
 /* ---- strokes on a mesh ---- */
 
-static WrMeshTexelsTable table_of(const WrScene *scene, const WrField *field)
+/* The mesh that strokes paint on, and the table on it. */
+static const WrTriangles *painted_mesh(const WrDocument *document, const WrField *field,
+                                       WrMeshTexelsTable *table)
 {
-    return (WrMeshTexelsTable){ .width = wr_field_width(field),
-                                .height = wr_field_height(field),
-                                .periodic_u = wr_field_wrap_u(field) == WR_WRAP_PERIODIC,
-                                .periodic_v = wr_field_wrap_v(field) == WR_WRAP_PERIODIC,
-                                .ru = scene->replicate_u,
-                                .rv = scene->replicate_v };
+    *table = (WrMeshTexelsTable){ .width = wr_field_width(field),
+                                  .height = wr_field_height(field),
+                                  .periodic_u = wr_field_wrap_u(field) == WR_WRAP_PERIODIC,
+                                  .periodic_v = wr_field_wrap_v(field) == WR_WRAP_PERIODIC };
+    return wr_document_painted_mesh(document, &table->ru, &table->rv);
 }
 
 /* The texels of the active object's mesh for the table, made again for another mesh or table. */
 static bool take_texels(WrSession *session, const WrField *field, WrError *err)
 {
     const WrScene *scene = session->state.document->scene;
-    const WrMeshTexelsTable table = table_of(scene, field);
+    WrMeshTexelsTable table;
+    const WrTriangles *mesh = painted_mesh(session->state.document, field, &table);
     if (!scene->triangles || !wr_surfaces[scene->shape.kind]->held)
         return wr_fail(err,
                        "the object is a %s without triangles; paint in its table with `stroke`",
                        wr_surfaces[scene->shape.kind]->name);
-    if (session->mesh_texels && wr_mesh_texels_fit(session->mesh_texels, scene->triangles, &table))
-        return true;
+    if (session->mesh_texels && wr_mesh_texels_fit(session->mesh_texels, mesh, &table)) return true;
     WrMeshTexels *before = session->mesh_texels;
-    session->mesh_texels = wr_mesh_texels_new(scene->triangles, &table, before, err);
+    session->mesh_texels = wr_mesh_texels_new(mesh, &table, before, err);
     wr_mesh_texels_free(before);
     session->mesh_sharing_told = false;
     return session->mesh_texels != NULL;
@@ -592,9 +593,10 @@ bool wr_session_mesh_needs_preparing(const WrSession *session)
     const WrDocument *document = session->state.document;
     const WrScene *scene = document->scene;
     if (!scene->triangles || !wr_surfaces[scene->shape.kind]->held) return false;
-    const WrMeshTexelsTable table = table_of(scene, document->layers[document->active].heights);
-    return !session->mesh_texels ||
-           !wr_mesh_texels_fit(session->mesh_texels, scene->triangles, &table);
+    WrMeshTexelsTable table;
+    const WrField *field = document->layers[document->active].heights;
+    const WrTriangles *mesh = painted_mesh(document, field, &table);
+    return !session->mesh_texels || !wr_mesh_texels_fit(session->mesh_texels, mesh, &table);
 }
 
 bool wr_session_prepare_mesh(WrSession *session, WrError *err)

@@ -117,18 +117,22 @@ static void terrain_note(WrSession *session, const char *path, const WrTriangles
 
 /* ---- from a layer -------------------------------------------------------------------------------- */
 
-/* Form and bump use different layers: the form layer is hidden from the composite, so that its heights do not count
-   twice. */
-static bool hide_layer(WrSession *session, int index, const WrScene *scene, WrError *err)
+/* Form, mask and bump use different layers: those of form and mask are hidden from the composite, so that their
+   heights are no bumps. before: the layer that was used until now. */
+static bool hide_layer(WrSession *session, int index, const WrScene *scene, const char *before,
+                       bool is_mask, WrError *err)
 {
-    const WrScene *before = session->state.document->scene;
     WrLayer *layer = &session->state.document->layers[index];
     if (scene->layer && strcmp(scene->layer, layer->name) == 0)
-        return wr_fail(err, "the object wears that layer: its form must be another");
-    if (before->form_layer && strcmp(before->form_layer, layer->name) == 0) return true;
+        return wr_fail(err, is_mask ? "the object wears that layer: its mask must be another"
+                                    : "the object wears that layer: its form must be another");
+    if (before && strcmp(before, layer->name) == 0) return true;
     if (!layer->visible) return true;
     layer->visible = false;
-    wr_session_note(session, "layer %d is hidden: it is the ground now, and no bump", index + 1);
+    wr_session_note(session,
+                    is_mask ? "layer %d is hidden: it is a mask now, and no bump"
+                            : "layer %d is hidden: it is the ground now, and no bump",
+                    index + 1);
     return true;
 }
 
@@ -145,7 +149,8 @@ static bool terrain_take_layer(WrSession *session, WrCall *call, WrScene *scene,
         return wr_fail(err, "file= and layer= do not go together: the form is of one of them");
     if (!session->loading) {
         if (!wr_session_find_layer(session, word, &index, err) ||
-            !hide_layer(session, index, scene, err))
+            !hide_layer(session, index, scene, session->state.document->scene->form_layer, false,
+                        err))
             return false;
         name = session->state.document->layers[index].name;
     } else if (session->embedded_mesh) { /* until the layer's heights are used */
@@ -184,12 +189,42 @@ static bool take_form(WrSession *session, WrScene *object, int index, WrError *e
     return true;
 }
 
-/* Rebuild object i's form, its colours or both. */
+/* ---- a mesh's mask ---- */
+
+/* The layer of the object's mask, and the key of its heights; 0: there is no such layer. */
+static uint64_t mask_key(const WrDocument *document, const WrScene *object, int *index)
+{
+    *index = wr_layer_named(document, object->mask_layer);
+    return *index >= 0 ? wr_layer_key(document, *index) : 0;
+}
+
+static bool mask_lags(const WrDocument *document, const WrScene *object)
+{
+    int index;
+    return object->mask_layer && object->triangles &&
+           object->mask_key != mask_key(document, object, &index);
+}
+
+static void take_mask(const WrSession *session, WrScene *object)
+{
+    const WrDocument *document = session->state.document;
+    int index;
+    const uint64_t key = mask_key(document, object, &index);
+    WrField *mask =
+        index >= 0 ? wr_document_layer_alone(document, index, session->options.pool) : NULL;
+    wr_scene_set_mask(object, object->mask_layer, mask, key);
+    wr_field_free(mask);
+}
+
+/* Rebuild object i's form, its mask, its colours or all. */
 static bool follow_object(WrSession *session, int i, int form, WrError *err)
 {
     const WrScene *scene = session->state.document->scene;
     WrScene *object = wr_scene_clone(wr_scene_object(scene, i)), *all = object;
+    const bool masked = mask_lags(session->state.document, object);
+    if (masked) take_mask(session, object);
     const bool good = (form < 0 || take_form(session, object, form, err)) &&
+                      (!masked || wr_scene_project(object, &object->projection, err)) &&
                       (!wr_height_colormap_lags(session, object) ||
                        wr_height_colormap_make(session, object, err));
     if (!good) {
@@ -204,7 +239,7 @@ static bool follow_object(WrSession *session, int i, int form, WrError *err)
     return true;
 }
 
-/* Runs after every edit: forms and colours that depend on layers are rebuilt before the step is recorded, so a step never
+/* Runs after every edit: forms, masks and colours that depend on layers are rebuilt before the step is recorded, so a step never
    holds a stale surface. */
 bool wr_session_follow(WrSession *session, WrError *err)
 {
@@ -213,7 +248,9 @@ bool wr_session_follow(WrSession *session, WrError *err)
         const WrScene *object = wr_scene_object(session->state.document->scene, i);
         int form = -1;
         if (!lags(session->state.document, i, &form)) form = -1;
-        if (form < 0 && !wr_height_colormap_lags(session, object)) continue;
+        if (form < 0 && !mask_lags(session->state.document, object) &&
+            !wr_height_colormap_lags(session, object))
+            continue;
         if (!follow_object(session, i, form, err)) return false;
     }
     return true;
@@ -521,7 +558,7 @@ static bool names_projection(const WrCall *call)
            wr_call_given(call, "origin") || wr_call_given(call, "crease") ||
            wr_call_given(call, "facing") || wr_call_given(call, "angle") ||
            wr_call_given(call, "soft") || wr_call_given(call, "materials") ||
-           wr_call_given(call, "blend");
+           wr_call_given(call, "mask") || wr_call_given(call, "blend");
 }
 
 static bool take_masks(const WrCall *call, WrProjection *to, WrError *err)
@@ -591,7 +628,45 @@ static bool reuse_mesh(const WrSession *session, WrScene *scene, WrError *err)
     wr_scene_set_triangles(scene, wr_triangles_share(source), before->triangles_path,
                            before->triangles_sha256);
     scene->projection = before->projection;
+    wr_scene_set_mask(scene, before->mask_layer, before->mask, before->mask_key);
     return true;
+}
+
+/* The layer that limits the relief; mask="": none. */
+static bool take_mask_layer(WrSession *session, const WrCall *call, WrScene *scene, WrError *err)
+{
+    const char *word = wr_call_given(call, "mask") ? wr_call_arg(call, "mask")->text : NULL;
+    int index;
+    if (!word) return true;
+    if (!*word) {
+        wr_scene_set_mask(scene, NULL, NULL, 0);
+        return true;
+    }
+    if (session->loading) { /* its heights are used after the layers are there */
+        wr_scene_set_mask(scene, word, NULL, 0);
+        return true;
+    }
+    if (!wr_scene_mesh_source(scene)->mapped)
+        return wr_fail(err,
+                       "mask=%s: the mesh has no texture coordinates of its own, in which a layer "
+                       "is painted; unwrap it in a modelling program, or use facing= or materials=",
+                       word);
+    if (!wr_session_find_layer(session, word, &index, err) ||
+        !hide_layer(session, index, scene, session->state.document->scene->mask_layer, true, err))
+        return false;
+    wr_scene_set_mask(scene, session->state.document->layers[index].name, NULL, 0);
+    take_mask(session, scene);
+    return true;
+}
+
+/* The remedy for a file without normals: relief of a face moves along the means with its neighbours. */
+static void add_rounded(WrText *text, const WrScene *scene)
+{
+    const WrTrianglesReport *file = &wr_scene_mesh_source(scene)->report;
+    if (scene->projection.crease_deg >= WR_CREASE_NONE && file->no_normal + file->bad_normal > 0)
+        wr_message_addf(text,
+                        "; the file has no normals, so that edges are rounded: crease=30 makes "
+                        "normals that keep edges above 30 degrees sharp");
 }
 
 static bool note_projection(WrSession *session, const WrScene *scene, WrError *err)
@@ -622,10 +697,7 @@ static bool note_projection(WrSession *session, const WrScene *scene, WrError *e
                      "%.4g long, at %.7g,%.7g,%.7g",
                      (int)seams.edges, seams.length, seams.at.x + is->origin[0],
                      seams.at.y + is->origin[1], seams.at.z + is->origin[2]);
-    if (is->kind == WR_PROJECTION_BOX && is->crease_deg >= WR_CREASE_NONE &&
-        file->report.no_normal + file->report.bad_normal > 0)
-        wr_text_add(&text, "; the file has no normals, so that edges are rounded: crease=30 makes "
-                           "normals that keep edges above 30 degrees sharp");
+    if (is->kind == WR_PROJECTION_BOX) add_rounded(&text, scene);
     wr_session_note(session, "%s", wr_text_get(&text));
     wr_text_fini(&text);
     return true;
@@ -638,11 +710,15 @@ static void note_masks(WrSession *session, const WrScene *scene)
     const WrTriangles *mesh = scene->triangles;
     WrReliefTap taps[WR_RELIEF_TAPS];
     int32_t count = 0;
-    if (is->facing == WR_FACING_ANY && !*is->materials) return;
+    if (is->facing == WR_FACING_ANY && !*is->materials && !scene->mask) return;
     for (int32_t i = 0; i < mesh->triangle_count; i++)
         count += wr_relief_taps(mesh, i, 1.0 / 3, 1.0 / 3, taps) > 0;
-    wr_session_note(session, "masks leave relief on %d of %d triangles", (int)count,
+    WrText text = { 0 };
+    wr_message_addf(&text, "masks leave relief on %d of %d triangles", (int)count,
                     (int)mesh->triangle_count);
+    if (is->kind != WR_PROJECTION_BOX) add_rounded(&text, scene);
+    wr_session_note(session, "%s", wr_text_get(&text));
+    wr_text_fini(&text);
 }
 
 /* Apply the projection of the call to the scene's mesh. */
@@ -650,7 +726,8 @@ static bool run_projection(WrSession *session, const WrCall *call, WrScene *scen
 {
     WrProjection projection = scene->projection;
     if (scene->shape.kind != WR_SURFACE_mesh) return true;
-    if (!take_projection(call, &projection, err) || !wr_scene_project(scene, &projection, err))
+    if (!take_projection(call, &projection, err) || !take_mask_layer(session, call, scene, err) ||
+        !wr_scene_project(scene, &projection, err))
         return false;
     if (session->loading) return true;
     note_masks(session, scene);
@@ -747,16 +824,21 @@ static void add_numbers(WrText *text, const char *name, const double *numbers, i
     }
 }
 
-static void print_masks(const WrProjection *is, WrText *text)
+static void print_masks(const WrScene *scene, WrText *text)
 {
+    const WrProjection *is = &scene->projection;
     if (is->facing != WR_FACING_ANY) {
         wr_text_addf(text, " facing=%s", wr_facing_names[is->facing]);
         add_numbers(text, "angle", &is->facing_deg, 1, "");
         if (is->facing_soft_deg > 0) add_numbers(text, "soft", &is->facing_soft_deg, 1, "");
     }
-    if (!*is->materials) return;
-    wr_text_add(text, " materials=");
-    wr_text_add_word(text, is->materials);
+    if (*is->materials) {
+        wr_text_add(text, " materials=");
+        wr_text_add_word(text, is->materials);
+    }
+    if (!scene->mask_layer) return;
+    wr_text_add(text, " mask=");
+    wr_text_add_word(text, scene->mask_layer);
 }
 
 static void print_projection(const WrScene *scene, WrText *text)
@@ -777,7 +859,7 @@ static void print_projection(const WrScene *scene, WrText *text)
     if (is->origin[0] != 0 || is->origin[1] != 0 || is->origin[2] != 0)
         add_numbers(text, "origin", is->origin, 3, "");
     if (is->crease_deg < WR_CREASE_NONE) add_numbers(text, "crease", &is->crease_deg, 1, "");
-    print_masks(is, text);
+    print_masks(scene, text);
 }
 
 static void print_mesh(const WrScene *scene, bool content, WrText *text)
@@ -886,6 +968,13 @@ static const WrArgSpec projection_args[] = {
       .may_be_empty = true,
       .help = "relief only on these materials or parts of the file, by names or numbers, from 1; "
               "\"\": on all" },
+    { .name = "mask",
+      .type = WR_ARG_TEXT,
+      .shape = "LAYER",
+      .may_be_empty = true,
+      .help = "relief only where this layer, its name or number, is above 0, in full where it is 1 "
+              "or more; it lies in the mesh's own (u,v), whatever the projection, and is hidden as "
+              "a bump; \"\": none" },
 };
 
 static void form_mesh(WrSurfaceKind kind, WrArgSpec *args)
@@ -1038,6 +1127,7 @@ static bool run_surface(WrSession *session, WrCall *call, WrError *err)
     if (data) wr_shape_borrow_data(&shape, data);
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     wr_scene_set_triangles(scene, NULL, NULL, NULL);
+    wr_scene_set_mask(scene, NULL, NULL, 0);
     wr_free(scene->form_layer);
     scene->form_layer = NULL;
     wr_scene_set_shape(scene, &shape);

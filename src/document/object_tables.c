@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "document/document.h"
 #include "field/field.h"
+#include "scene/scene.h"
 
 #include <string.h>
 
@@ -71,6 +72,16 @@ uint64_t wr_layer_key(const WrDocument *document, int index)
         wr_text_fini(&text);
     }
     return key;
+}
+
+const WrTriangles *wr_document_painted_mesh(const WrDocument *document, double *ru, double *rv)
+{
+    const WrScene *scene = document->scene;
+    const char *name = document->layers[document->active].name;
+    const bool mask = scene->mask_layer && strcmp(scene->mask_layer, name) == 0;
+    *ru = mask ? 1 : scene->replicate_u;
+    *rv = mask ? 1 : scene->replicate_v;
+    return mask && scene->projection.udim == 0 ? wr_scene_mesh_source(scene) : scene->triangles;
 }
 
 WrTables *wr_document_tables(const WrDocument *document, const WrScene *scene, WrTableCache *cache,

@@ -34,6 +34,9 @@ WrField *wr_document_layer_alone(const WrDocument *document, int index, WrPool *
 uint64_t wr_layer_key(const WrDocument *document, int index);
 /* The topmost layer of that name; -1: there is none, or the name is NULL. */
 int wr_layer_named(const WrDocument *document, const char *name);
+/* The mesh of the active object in whose (u,v) the active layer lies, and the layer's repetition there: a mask lies once in
+ * the file's own (u,v). Borrowed; NULL: no mesh. */
+const WrTriangles *wr_document_painted_mesh(const WrDocument *document, double *ru, double *rv);
 WrTables *wr_tables_share(const WrTables *tables); /* NULL stays NULL */
 void wr_tables_free(WrTables *tables);             /* NULL is fine */
 bool wr_tables_same(const WrTables *a, const WrTables *b);

@@ -201,11 +201,15 @@ static bool settle_options(const WrExportKind *kind, int channels, const WrScene
     return true;
 }
 
-/* Replaces the composite by the table of the requested object; the caller frees the tables. */
+/* Replaces the composite by the table of the requested object, for solids and models of the active one; the caller frees
+   the tables. */
 static bool take_object(WrExportJob *job, const WrDocument *document, WrTables **tables,
                         WrError *err)
 {
-    const int index = wr_scene_object_find(document->scene, job->options.object);
+    const char *name = job->options.object;
+    const bool body = job->kind->solid || job->kind->write == wr_export_glb_write;
+    if (!name && !body) return true;
+    const int index = name ? wr_scene_object_find(document->scene, name) : document->scene->chosen;
     if (index < 0)
         return wr_fail(err, "object '%.60s': the scene has none of that name", job->options.object);
     *tables = wr_document_tables(document, document->scene, NULL, job->pool);
@@ -372,8 +376,8 @@ static bool run_on(WrExportJob *job, const WrDocument *document, const char *pat
     job->object = document->scene->chosen + 1;
     job->objects = wr_scene_object_count(document->scene);
     if (job->objects == 1) job->object = job->objects = 0;
-    const bool ok = (!job->options.object || take_object(job, document, &tables, err)) &&
-                    wr_filters_carried(err) && run_scaled(job, path, err);
+    const bool ok = take_object(job, document, &tables, err) && wr_filters_carried(err) &&
+                    run_scaled(job, path, err);
     wr_tables_free(tables);
     return ok;
 }
@@ -509,7 +513,9 @@ static void add_solid(const WrExportReport *report, WrText *text)
                      report->solid_fold[2]);
     const double *place = report->solid_left_out, relief = report->solid_relief;
     /* a flat face is off by a third of it or more */
-    if (relief > 0 && relief <= 3 * report->solid_error)
+    if (!(relief > 1e-6 * report->solid_allowed))
+        wr_text_add(text, "; no relief: the table is flat, or its height 0");
+    else if (relief <= 3 * report->solid_error)
         wr_text_addf(text,
                      "; the relief is %.3g mm from its lowest to its highest and error=%.3g: much "
                      "of it is lost; error=%.1g keeps it",

@@ -200,6 +200,12 @@ static bool set_grid(WrExportOptions *options, const char *value, WrError *err)
             true                                                                                   \
     }
 
+#define BODY                                                                                       \
+    {                                                                                              \
+        "object", "NAME", "this object; left out: the active one, with its own table", set_object, \
+            true                                                                                   \
+    }
+
 #define MAP_SIZE                                                                                   \
     {                                                                                              \
         "size", "WIDTHxHEIGHT", "of the map in texels; left out: the table's",                     \
@@ -242,7 +248,7 @@ static bool set_grid(WrExportOptions *options, const char *value, WrError *err)
             { "folds", "keep or limit",                                                            \
               "of a mesh: relief that folds over is kept or lowered; left out: keep",              \
               wr_export_set_folds },                                                               \
-            OBJECT                                                                                 \
+            BODY                                                                                   \
     }
 
 static const char *const slope_names[] = { "dF_du", "dF_dv" };
@@ -527,7 +533,7 @@ const WrExportKind wr_export_kinds[] = {
       .help = "the object with its normal map, occlusion, roughness, metalness and colours as one "
               "glTF file, in scene units",
       .options = { SCHEME,
-                   OBJECT,
+                   BODY,
                    { "size", "WIDTHxHEIGHT",
                      "meshes: of the normal map in texels; left out: the table's",
                      wr_export_set_map_size },

@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "field/field.h"
 #include "image/image.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
@@ -58,12 +59,22 @@ const WrTriangles *wr_scene_mesh_source(const WrScene *scene)
     return scene->mesh_source ? scene->mesh_source : scene->triangles;
 }
 
+void wr_scene_set_mask(WrScene *scene, const char *layer, const WrField *mask, uint64_t key)
+{
+    char *own = wr_strdup(layer);
+    WrField *shared = mask ? wr_field_share(mask) : NULL;
+    wr_free(scene->mask_layer);
+    wr_field_free(scene->mask);
+    scene->mask_layer = own, scene->mask = shared, scene->mask_key = key;
+}
+
 /* The tile comes first, so that masks and creases are those of the mesh that is shown. */
-static WrTriangles *project(const WrTriangles *source, const WrProjection *projection, WrError *err)
+static WrTriangles *project(const WrTriangles *source, const WrProjection *projection,
+                            const WrField *mask, WrError *err)
 {
     WrTriangles *tile = projection->udim ? wr_triangles_of_tile(source, projection->udim, err)
                                          : wr_triangles_share(source);
-    WrTriangles *made = tile ? wr_triangles_project(tile, projection, err) : NULL;
+    WrTriangles *made = tile ? wr_triangles_project(tile, projection, mask, err) : NULL;
     wr_triangles_free(tile);
     return made;
 }
@@ -71,12 +82,12 @@ static WrTriangles *project(const WrTriangles *source, const WrProjection *proje
 WrTriangles *wr_scene_whole_mesh(const WrScene *scene, WrError *err)
 {
     if (scene->projection.udim == 0) return wr_triangles_share(scene->triangles);
-    return wr_triangles_project(wr_scene_mesh_source(scene), &scene->projection, err);
+    return wr_triangles_project(wr_scene_mesh_source(scene), &scene->projection, scene->mask, err);
 }
 
 bool wr_scene_project(WrScene *scene, const WrProjection *projection, WrError *err)
 {
-    WrTriangles *made = project(wr_scene_mesh_source(scene), projection, err);
+    WrTriangles *made = project(wr_scene_mesh_source(scene), projection, scene->mask, err);
     if (!made) return false;
     if (!scene->mesh_source) scene->mesh_source = wr_triangles_share(scene->triangles);
     hold(scene, made);
@@ -91,10 +102,10 @@ bool wr_scene_project(WrScene *scene, const WrProjection *projection, WrError *e
 bool wr_scene_projected(const WrScene *scene)
 {
     const WrProjection *p = &scene->projection;
-    return scene->triangles &&
-           (p->kind != WR_PROJECTION_UV || p->crease_deg < WR_CREASE_NONE ||
-            wr_relief_is_weighted(p) || p->udim != 0 || p->unit != unit_of(scene->triangles_path) ||
-            p->origin[0] != 0 || p->origin[1] != 0 || p->origin[2] != 0);
+    return scene->triangles && (p->kind != WR_PROJECTION_UV || p->crease_deg < WR_CREASE_NONE ||
+                                wr_relief_is_weighted(p) || scene->mask_layer || p->udim != 0 ||
+                                p->unit != unit_of(scene->triangles_path) || p->origin[0] != 0 ||
+                                p->origin[1] != 0 || p->origin[2] != 0);
 }
 
 size_t wr_scene_mesh_bytes(const WrTriangles *triangles)

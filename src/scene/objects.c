@@ -392,7 +392,8 @@ WrScene *wr_scene_hide(const WrScene *scene, int i, bool hidden)
 static bool wears(const WrScene *object, const char *layer)
 {
     return (object->layer && strcmp(object->layer, layer) == 0) ||
-           (object->form_layer && strcmp(object->form_layer, layer) == 0);
+           (object->form_layer && strcmp(object->form_layer, layer) == 0) ||
+           (object->mask_layer && strcmp(object->mask_layer, layer) == 0);
 }
 
 bool wr_scene_uses_layer(const WrScene *scene, const char *layer)
@@ -415,6 +416,7 @@ static void wear(WrScene *object, const char *from, const char *to)
 {
     rename_one(&object->layer, from, to);
     rename_one(&object->form_layer, from, to);
+    rename_one(&object->mask_layer, from, to);
 }
 
 WrScene *wr_scene_rename_layer(const WrScene *scene, const char *from, const char *to)

@@ -332,6 +332,7 @@ WrScene *wr_scene_clone(const WrScene *scene)
     memcpy(clone->triangles_sha256, scene->triangles_sha256, sizeof clone->triangles_sha256);
     clone->form_layer = wr_strdup(scene->form_layer);
     clone->form_key = scene->form_key;
+    wr_scene_set_mask(clone, scene->mask_layer, scene->mask, scene->mask_key);
     clone->name = wr_strdup(scene->name);
     clone->at = scene->at;
     clone->size = scene->size;
@@ -420,6 +421,8 @@ void wr_scene_free(WrScene *scene)
     wr_triangles_free(scene->mesh_source);
     wr_free(scene->triangles_path);
     wr_free(scene->form_layer);
+    wr_free(scene->mask_layer);
+    wr_field_free(scene->mask);
     wr_free(scene->lights);
     environment_fini(&scene->environment);
     scene_drop_views(scene);

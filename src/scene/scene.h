@@ -147,6 +147,10 @@ struct WrScene {
     char
         *form_layer; /* for a terrain: the document's layer with its heights; owned; NULL: a file */
     uint64_t form_key; /* key of those heights when the triangles were computed (wr_layer_key) */
+    char *
+        mask_layer; /* for a mesh: the document's layer that limits the relief; owned; NULL: none */
+    WrField *mask;  /* its table, when the triangles were derived; shared; NULL: none */
+    uint64_t mask_key; /* key of that table (wr_layer_key) */
     char *name;        /* of the object; owned; NULL: none */
     WrVec3 at;         /* position of the object's centre, world; within 1e9 */
     double size;       /* world units per unit of the object, 1e-9..1e9; the largest of `sizes` */
@@ -181,8 +185,12 @@ void wr_scene_set_triangles(WrScene *scene, WrTriangles *triangles, const char *
                             const char *sha256);
 /* The mesh of the file, before projections, tiles and masks; borrowed; NULL: none. */
 const WrTriangles *wr_scene_mesh_source(const WrScene *scene);
-/* Derives the scene's triangles, of kind mesh, anew from those of its file. Errors: wr_triangles_project. */
+/* Derives the scene's triangles, of kind mesh, anew from those of its file, with the scene's mask. Errors:
+ * wr_triangles_project. */
 bool wr_scene_project(WrScene *scene, const WrProjection *projection, WrError *err);
+/* Sets the layer that limits the relief, and its table; the triangles are derived anew by wr_scene_project alone. Either may
+ * be NULL. */
+void wr_scene_set_mask(WrScene *scene, const char *layer, const WrField *mask, uint64_t key);
 /* The object's mesh with the (u,v) of all its tiles; a reference. Errors: wr_triangles_project. */
 WrTriangles *wr_scene_whole_mesh(const WrScene *scene, WrError *err);
 /* True if the projection, the tile, the unit or the origin differ from those of a file of this name alone. */

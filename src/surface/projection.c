@@ -7,6 +7,7 @@
 #include "base/exactmath.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "field/field.h"
 
 #include <math.h>
 #include <string.h>
@@ -155,6 +156,7 @@ typedef struct Work {
     double scale;          /* millimetres per unit of the mesh */
     double radius, round;  /* R, n */
     WrTriangleCorner *out; /* [3 count], or NULL: only counts */
+    float (*mask_uv)[2];   /* [3 count] the mesh's own (u,v), or NULL: not wanted */
     int32_t count;
 } Work;
 
@@ -318,7 +320,7 @@ static bool is_wide(const Work *w, WrVec3 a, WrVec3 b)
 /* Sums are the same in either order, so both faces at an edge get the same bits. */
 static WrTriangleCorner middle(const WrTriangleCorner *a, const WrTriangleCorner *b)
 {
-    WrTriangleCorner m = { 0 };
+    WrTriangleCorner m = { .u = (a->u + b->u) / 2, .v = (a->v + b->v) / 2 };
     const WrVec3 n = v3_unit(v3_add(v3_load(a->n), v3_load(b->n)), (WrVec3){ 0, 0, 0 });
     for (int k = 0; k < 3; k++) m.p[k] = (float)(((double)a->p[k] + (double)b->p[k]) / 2);
     m.n[0] = (float)n.x, m.n[1] = (float)n.y, m.n[2] = (float)n.z;
@@ -333,6 +335,10 @@ static bool emit(Work *w, const WrTriangleCorner c[3], WrVec3 n, WrError *err)
     if (w->out) {
         WrTriangleCorner *to = w->out + 3 * (size_t)w->count;
         memcpy(to, c, 3 * sizeof *to);
+        for (int k = 0; k < 3 && w->mask_uv; k++) {
+            float *own = w->mask_uv[3 * (size_t)w->count + (size_t)k];
+            own[0] = c[k].u, own[1] = c[k].v;
+        }
         if (!lay(w, to, n, err)) return false;
     }
     w->count++;
@@ -387,29 +393,29 @@ static bool divide_all(Work *w, const WrVec3 *normals, WrTrianglePart *parts, Wr
 
 /* ---- the new mesh ---- */
 
-/* The corners as a source: equal ones become one point. */
+/* The corners as a source, each a point of its own. */
 static WrTriangles *make(const Work *w, const WrTrianglePart *parts, WrError *err)
 {
     const size_t rows = 3 * (size_t)w->count;
-    int32_t points = 0;
     WrTriangles *made = NULL;
     int32_t *corners = wr_try_alloc(rows, sizeof *corners, "a mesh", err);
-    bool good = corners && wr_weld(w->out, sizeof *w->out, (int32_t)rows, corners, &points, err);
-    float(*p)[3] = good ? wr_try_alloc((size_t)points, sizeof *p, "a mesh", err) : NULL;
-    float(*n)[3] = p ? wr_try_alloc((size_t)points, sizeof *n, "a mesh", err) : NULL;
-    float(*uv)[2] = n ? wr_try_alloc((size_t)points, sizeof *uv, "a mesh", err) : NULL;
+    float(*p)[3] = corners ? wr_try_alloc(rows, sizeof *p, "a mesh", err) : NULL;
+    float(*n)[3] = p ? wr_try_alloc(rows, sizeof *n, "a mesh", err) : NULL;
+    float(*uv)[2] = n ? wr_try_alloc(rows, sizeof *uv, "a mesh", err) : NULL;
     if (uv) {
         for (size_t i = 0; i < rows; i++) {
             const WrTriangleCorner *c = &w->out[i];
-            memcpy(p[corners[i]], c->p, sizeof *p);
-            memcpy(n[corners[i]], c->n, sizeof *n);
-            uv[corners[i]][0] = c->u, uv[corners[i]][1] = c->v;
+            corners[i] = (int32_t)i;
+            memcpy(p[i], c->p, sizeof *p);
+            memcpy(n[i], c->n, sizeof *n);
+            uv[i][0] = c->u, uv[i][1] = c->v;
         }
         const WrTrianglesSource source = { .points = (const float(*)[3])p,
                                            .normals = (const float(*)[3])n,
                                            .uv = (const float(*)[2])uv,
+                                           .mask_uv = (const float(*)[2])w->mask_uv,
                                            .corners = (const int32_t(*)[3])(void *)corners,
-                                           .point_count = points,
+                                           .point_count = (int32_t)rows,
                                            .triangle_count = w->count,
                                            .parts = parts,
                                            .part_count = w->mesh->part_count };
@@ -423,7 +429,8 @@ static WrTriangles *make(const Work *w, const WrTrianglePart *parts, WrError *er
 }
 
 /* Gives the mesh its weights. Its key changes with them, so that caches notice. */
-static WrTriangles *with_weights(WrTriangles *made, const Work *w, WrError *err)
+static WrTriangles *with_weights(WrTriangles *made, const Work *w, const WrField *mask,
+                                 WrError *err)
 {
     const WrProjection *is = w->is;
     const WrProjectionFrame frame = { { w->axis[0], w->axis[1], w->axis[2] }, w->at, w->scale };
@@ -431,18 +438,25 @@ static WrTriangles *with_weights(WrTriangles *made, const Work *w, WrError *err)
     WrHash hash = { made->key, 0 };
     hash = wr_hash_bytes(numbers, sizeof numbers, hash);
     hash = wr_hash_bytes(&frame, sizeof frame, hash);
-    made->key = wr_hash_bytes(is->materials, strlen(is->materials), hash).low;
-    made->weights = wr_relief_weights_new(made, is, &frame, err);
+    hash = wr_hash_bytes(is->materials, strlen(is->materials), hash);
+    if (mask) {
+        const WrHash own = wr_field_hash(mask);
+        hash = wr_hash_bytes(&own, sizeof own, hash);
+        hash = wr_hash_bytes(made->mask_uv,
+                             3 * (size_t)made->triangle_count * sizeof *made->mask_uv, hash);
+    }
+    made->key = hash.low;
+    made->weights = wr_relief_weights_new(made, is, &frame, mask, err);
     if (made->weights) return made;
     wr_triangles_free(made);
     return NULL;
 }
 
 WrTriangles *wr_triangles_project(const WrTriangles *mesh, const WrProjection *projection,
-                                  WrError *err)
+                                  const WrField *mask, WrError *err)
 {
     const bool creased = projection->crease_deg < WR_CREASE_NONE;
-    const bool weighted = wr_relief_is_weighted(projection);
+    const bool weighted = mask || wr_relief_is_weighted(projection);
     if (projection->kind == WR_PROJECTION_UV && !creased && !weighted)
         return wr_triangles_share(mesh);
     Work w = begin(mesh, projection);
@@ -451,12 +465,16 @@ WrTriangles *wr_triangles_project(const WrTriangles *mesh, const WrProjection *p
     WrTrianglePart *parts = wr_alloc((size_t)mesh->part_count, sizeof *parts);
     if ((normals || !creased) && divide_all(&w, normals, parts, err)) {
         w.out = wr_try_alloc((size_t)w.count, 3 * sizeof *w.out, "a mesh", err);
-        if (w.out && divide_all(&w, normals, parts, err)) made = make(&w, parts, err);
+        if (w.out && mask)
+            w.mask_uv = wr_try_alloc((size_t)w.count, 3 * sizeof *w.mask_uv, "a mesh's mask", err);
+        if (w.out && (w.mask_uv || !mask) && divide_all(&w, normals, parts, err))
+            made = make(&w, parts, err);
+        wr_free(w.mask_uv);
         wr_free(w.out);
     }
     wr_free(parts);
     wr_free(normals);
-    return made && weighted ? with_weights(made, &w, err) : made;
+    return made && weighted ? with_weights(made, &w, mask, err) : made;
 }
 
 int wr_projection_round(const WrTriangles *mesh, const WrProjection *projection, double *radius_mm)
@@ -485,6 +503,19 @@ static bool differ(const WrTriangleCorner *const a[2], const WrTriangleCorner *c
     return whole[0][0] != whole[1][0] || whole[0][1] != whole[1][1];
 }
 
+/* True if masks leave no relief along a half-edge of its face. */
+static bool is_bare(const WrTriangles *mesh, int32_t half)
+{
+    WrReliefTap taps[WR_RELIEF_TAPS];
+    if (!mesh->weights) return false;
+    for (int i = 0; i <= 4; i++) {
+        double w[3] = { 0 };
+        w[half % 3] = 1 - i / 4.0, w[(half + 1) % 3] = i / 4.0;
+        if (wr_relief_taps(mesh, half / 3, w[1], w[2], taps) > 0) return false;
+    }
+    return true;
+}
+
 /* Marks the seams: first[e] is 1 + the first half-edge of edge e, negative for a seam. */
 static int32_t mark_seams(const WrTriangles *mesh, const WrMeshEdges *edges, int32_t *first,
                           int32_t *run)
@@ -502,7 +533,7 @@ static int32_t mark_seams(const WrTriangles *mesh, const WrMeshEdges *edges, int
             own[k] = wr_triangle_corner(mesh, h / 3, end[k]);
             other[k] = wr_triangle_corner(mesh, (*one - 1) / 3, back[k]);
         }
-        if (!differ(own, other)) continue;
+        if (!differ(own, other) || is_bare(mesh, h) || is_bare(mesh, *one - 1)) continue;
         *one = -*one;
         count++;
         const int32_t *c = mesh->triangles[h / 3].corner;

@@ -24,6 +24,7 @@
 #include <stdint.h>
 
 typedef struct WrError WrError;
+typedef struct WrField WrField;
 typedef struct WrTriangles WrTriangles;
 
 typedef enum WrProjectionKind {
@@ -79,10 +80,11 @@ extern const WrProjection wr_projection_default;
 
 /* Derives the mesh with these texture coordinates, normals and weights of the relief; a reference to `mesh`
  * itself if there is nothing to change. For cylinders and spheres, triangles over more than 5 degrees are divided; neighbours
- * divide a shared edge alike.
+ * divide a shared edge alike. mask: a table over the mesh's own (u,v), by which the relief is multiplied
+ * (relief_weights.h); it is shared; NULL: none.
  * Errors: too many triangles or cells, a material that the mesh has not, out of memory. */
 WrTriangles *wr_triangles_project(const WrTriangles *mesh, const WrProjection *projection,
-                                  WrError *err);
+                                  const WrField *mask, WrError *err);
 
 /* n and R of the formulas above, for reports; n is 0 for projections without an axis. */
 int wr_projection_round(const WrTriangles *mesh, const WrProjection *projection, double *radius_mm);
@@ -96,7 +98,7 @@ typedef struct WrTextureSeam {
 } WrTextureSeam;
 
 /* Edges of a mesh at which the (u,v) of the two faces differ by more than whole numbers; none if the relief is
- * blended there. */
+ * blended there, or masks leave none on either face. */
 typedef struct WrTextureSeams {
     int32_t edges, runs;
     double length;                       /* of the longest run */

@@ -4,6 +4,9 @@
 #include "base/exactmath.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "field/field.h"
+#include "field/scheme.h"
+#include "field/scheme_list.h"
 #include "surface/projection.h"
 #include "surface/triangles_internal.h"
 
@@ -23,6 +26,7 @@ struct WrReliefWeights {
     WrVec3 grad_u[3], grad_v[3]; /* of the planes */
     bool *covers;                /* [triangle_count], or NULL: all */
     float (*mean)[3];            /* [corner_count] s, or NULL: not blended */
+    WrField *table;              /* of the mask, or NULL */
 };
 
 /* A number or vector with its derivatives by b1 and b2. */
@@ -102,7 +106,7 @@ static inline SlopedVector place_of(const WrTriangles *mesh, int32_t face, doubl
                        wr_triangle_corner(mesh, face, 2)->p, b1, b2);
 }
 
-static Sloped mask_at(const WrTriangles *mesh, int32_t face, SlopedVector p, double b1, double b2)
+static Sloped facing_at(const WrTriangles *mesh, int32_t face, SlopedVector p, double b1, double b2)
 {
     const WrReliefWeights *w = mesh->weights;
     if (w->facing == WR_FACING_ANY) return (Sloped){ 1, { 0, 0 } };
@@ -110,6 +114,34 @@ static Sloped mask_at(const WrTriangles *mesh, int32_t face, SlopedVector p, dou
                                                wr_triangle_corner(mesh, face, 1)->n,
                                                wr_triangle_corner(mesh, face, 2)->n, b1, b2));
     return smooth_step(dot(n, way_at(w, w->facing, p)), w->none, w->whole);
+}
+
+/* The mask table. A B-spline has no steps of its slope, which light would show. */
+static Sloped table_at(const WrTriangles *mesh, int32_t face, double b1, double b2)
+{
+    const float(*own)[2] = mesh->mask_uv + 3 * (size_t)face;
+    double uv[2], f, fu, fv, most = 0;
+    for (int k = 0; k < 3; k++)
+        for (int c = 0; c < 2; c++) most = fmax(most, fabs((double)own[k][c]));
+    if (!(most > 0)) return (Sloped){ 0, { 0, 0 } }; /* missing ones are 0 */
+    wr_relief_mask_uv(mesh, face, b1, b2, uv);
+    wr_field_sample(mesh->weights->table, WR_SCHEME_BSPLINE, 1, &uv[0], &uv[1], &f, &fu, &fv);
+    if (!(f > 0)) return (Sloped){ 0, { 0, 0 } };
+    if (f >= 1) return (Sloped){ 1, { 0, 0 } };
+    Sloped m = { f, { 0, 0 } };
+    for (int b = 0; b < 2; b++)
+        m.b[b] = fu * ((double)own[b + 1][0] - (double)own[0][0]) +
+                 fv * ((double)own[b + 1][1] - (double)own[0][1]);
+    return m;
+}
+
+/* m on a covered face. */
+static Sloped mask_at(const WrTriangles *mesh, int32_t face, SlopedVector p, double b1, double b2)
+{
+    const Sloped a = facing_at(mesh, face, p, b1, b2);
+    if (!mesh->weights->table || !(a.x > 0)) return a;
+    const Sloped t = table_at(mesh, face, b1, b2);
+    return (Sloped){ a.x * t.x, { a.b[0] * t.x + a.x * t.b[0], a.b[1] * t.x + a.x * t.b[1] } };
 }
 
 /* Clears the faces beyond the angle, by their own normals. */
@@ -124,11 +156,17 @@ static void mark_facing(WrReliefWeights *w, const WrTriangles *mesh, WrFacing fa
 
 /* ---- materials ---- */
 
+int wr_relief_number(const WrTriangles *mesh, int32_t part)
+{
+    const int32_t number = mesh->parts[part].number;
+    return number > 0 ? number : part + 1;
+}
+
 bool wr_relief_lists(const char *list, const WrTriangles *mesh, int32_t part)
 {
     const char *name = mesh->parts[part].name;
     char number[16];
-    snprintf(number, sizeof number, "%d", (int)part + 1);
+    snprintf(number, sizeof number, "%d", wr_relief_number(mesh, part));
     for (const char *at = list; at;) {
         const char *end = strchr(at, ',');
         const size_t length = end ? (size_t)(end - at) : strlen(at);
@@ -151,10 +189,15 @@ static bool has_part(const WrTriangles *mesh, const char *name)
 static bool fail_material(const WrTriangles *mesh, const char *name, WrError *err)
 {
     WrText text = { 0 };
-    for (int32_t i = 0; i < mesh->part_count && i < LISTED; i++)
-        wr_text_addf(&text, "%s%d %s", i ? ", " : "", (int)i + 1,
+    int count = 0;
+    for (int32_t i = 0; i < mesh->part_count; i++) {
+        const int number = wr_relief_number(mesh, i);
+        if (i > 0 && number == wr_relief_number(mesh, i - 1)) continue;
+        if (count++ >= LISTED) continue;
+        wr_text_addf(&text, "%s%d %s", i ? ", " : "", number,
                      *mesh->parts[i].name ? mesh->parts[i].name : "(unnamed)");
-    if (mesh->part_count > LISTED) wr_text_addf(&text, ", ... %d in all", (int)mesh->part_count);
+    }
+    if (count > LISTED) wr_text_addf(&text, ", ... %d in all", count);
     wr_fail(err, "materials=%s: the mesh has no such material; it has %s", name,
             wr_text_get(&text));
     wr_text_fini(&text);
@@ -294,7 +337,8 @@ static double cosine_of(double deg)
 }
 
 WrReliefWeights *wr_relief_weights_new(const WrTriangles *mesh, const WrProjection *is,
-                                       const WrProjectionFrame *frame, WrError *err)
+                                       const WrProjectionFrame *frame, const WrField *mask,
+                                       WrError *err)
 {
     const bool hard = is->facing != WR_FACING_ANY && !(is->facing_soft_deg > 0);
     const bool blended = is->kind == WR_PROJECTION_BOX && is->blend > 0;
@@ -305,7 +349,8 @@ WrReliefWeights *wr_relief_weights_new(const WrTriangles *mesh, const WrProjecti
                             .facing = hard ? WR_FACING_ANY : is->facing,
                             .whole = cosine_of(is->facing_deg),
                             .none = cosine_of(is->facing_deg + is->facing_soft_deg),
-                            .blend = is->blend };
+                            .blend = is->blend,
+                            .table = mask ? wr_field_share(mask) : NULL };
     set_gradients(w, is->cell);
     bool good = true;
     if (hard || *is->materials) {
@@ -326,6 +371,7 @@ void wr_relief_weights_free(WrReliefWeights *w)
     if (!w) return;
     wr_free(w->covers);
     wr_free(w->mean);
+    wr_field_free(w->table);
     wr_free(w);
 }
 
@@ -337,6 +383,19 @@ bool wr_relief_is_blended(const WrTriangles *mesh)
 bool wr_relief_covers(const WrTriangles *mesh, int32_t face)
 {
     return !mesh->weights || !mesh->weights->covers || mesh->weights->covers[face];
+}
+
+const WrField *wr_relief_mask(const WrTriangles *mesh)
+{
+    return mesh->weights ? mesh->weights->table : NULL;
+}
+
+void wr_relief_mask_uv(const WrTriangles *mesh, int32_t face, double b1, double b2, double uv[2])
+{
+    const float(*own)[2] = mesh->mask_uv + 3 * (size_t)face;
+    for (int c = 0; c < 2; c++)
+        uv[c] = (double)own[0][c] + b1 * ((double)own[1][c] - (double)own[0][c]) +
+                b2 * ((double)own[2][c] - (double)own[0][c]);
 }
 
 int wr_relief_taps(const WrTriangles *mesh, int32_t face, double b1, double b2,

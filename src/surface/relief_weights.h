@@ -11,6 +11,9 @@
        hard   m = 1 on whole triangles whose normal is within `facing_deg` of d, else 0
        soft   m = S((n.d - cos(angle + soft)) / (cos(angle) - cos(angle + soft))),  S(t) = 3 t^2 - 2 t^3
 
+   A mask table M multiplies m by M at the mesh's own (u,v), whatever the projection: its B-spline, limited to 0..1.
+   It is 0 on triangles without (u,v) of their own.
+
    n is the interpolated normal; `out` and `in` are the directions from and to the projection's z axis, of a
    spherical one its centre.
 
@@ -27,6 +30,7 @@
 #include <stdint.h>
 
 typedef struct WrError WrError;
+typedef struct WrField WrField;
 typedef struct WrProjection WrProjection;
 typedef struct WrTriangles WrTriangles;
 
@@ -46,16 +50,25 @@ typedef struct WrReliefTap {
 typedef struct WrReliefWeights WrReliefWeights;
 
 bool wr_relief_is_weighted(const WrProjection *projection);
-/* Weights of the projected mesh; NULL on errors: no such material; no memory. */
+/* Weights of the projected mesh; NULL on errors: no such material; no memory. mask: shared; NULL: none; else the mesh
+ * has mask_uv. */
 WrReliefWeights *wr_relief_weights_new(const WrTriangles *mesh, const WrProjection *projection,
-                                       const WrProjectionFrame *frame, WrError *err);
+                                       const WrProjectionFrame *frame, const WrField *mask,
+                                       WrError *err);
 void wr_relief_weights_free(WrReliefWeights *weights);
-/* True if the part is in a list of materials, by its name or its number from 1. */
+/* The number of a part's material, from 1; parts that a tile divided share one, and follow each other. */
+int wr_relief_number(const WrTriangles *mesh, int32_t part);
+/* True if the part is in a list of materials, by its name or that number. */
 bool wr_relief_lists(const char *list, const WrTriangles *mesh, int32_t part);
 /* True if F runs on across edges where (u,v) does not. */
 bool wr_relief_is_blended(const WrTriangles *mesh);
 /* False if m is 0 on the whole face. */
 bool wr_relief_covers(const WrTriangles *mesh, int32_t face);
+
+/* The mask table; NULL: none. */
+const WrField *wr_relief_mask(const WrTriangles *mesh);
+/* The mesh's own (u,v) there, at which a mask table is read. */
+void wr_relief_mask_uv(const WrTriangles *mesh, int32_t face, double b1, double b2, double uv[2]);
 
 /* The terms of F; mesh: with weights. Returns their number, 0 where m is 0. Blended: one for each plane, some of
  * weight 0. */

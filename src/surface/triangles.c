@@ -106,6 +106,7 @@ static WrTrianglePart *make_parts(const WrTrianglesBuild *b, int *count)
         if (source->parts) {
             memcpy(part.name, source->parts[i].name, sizeof part.name - 1);
             part.patch = source->parts[i].patch;
+            part.number = source->parts[i].number;
         }
         const int32_t end = source->parts ? source->parts[i].first + source->parts[i].count
                                           : source->triangle_count;
@@ -185,6 +186,18 @@ static int32_t count_near(const WrTriangles *made)
     return near;
 }
 
+static bool carry_mask_uv(const WrTrianglesBuild *b, const Item *items, WrTriangles *made,
+                          WrError *err)
+{
+    const int32_t count = 3 * b->count;
+    if (!b->source->mask_uv) return true;
+    float(*uv)[2] = wr_try_alloc((size_t)count, sizeof *uv, "a mesh's mask", err);
+    made->mask_uv = (const float(*)[2])uv;
+    for (int32_t i = 0; i < count && uv; i++)
+        memcpy(uv[i], b->source->mask_uv[b->face[items[i / 3].face].corner[i % 3]], sizeof *uv);
+    return uv != NULL;
+}
+
 /* Sorts, numbers the corners in that order, and packs the mesh. NULL: out of memory. */
 static WrTriangles *triangles_finish(WrTrianglesBuild *b, WrError *err)
 {
@@ -199,7 +212,7 @@ static WrTriangles *triangles_finish(WrTrianglesBuild *b, WrError *err)
     bool good = rows && sort_faces(b, items, err);
     for (size_t i = 0; i < count && good; i++)
         memcpy(rows + 3 * i, b->corner + 3 * (size_t)items[i].face, 3 * sizeof *rows);
-    good = good && number_corners(made, rows, err);
+    good = good && number_corners(made, rows, err) && carry_mask_uv(b, items, made, err);
     wr_free(rows);
     wr_free(items);
     if (!good) {
@@ -960,6 +973,7 @@ void wr_triangles_free(WrTriangles *triangles)
     wr_free((void *)triangles->parts);
     wr_patches_free(triangles->patches);
     wr_relief_weights_free(triangles->weights);
+    wr_free((void *)triangles->mask_uv);
     wr_free(triangles);
 }
 

@@ -35,6 +35,7 @@ typedef struct WrTrianglePart {
     int32_t first, count;        /* triangles */
     bool mapped;                 /* has texture coordinates */
     int32_t patch;               /* index of its source patch; 0 if there are none */
+    int32_t number; /* of its material if a tile divided the parts, from 1; 0: 1 + its index */
 } WrTrianglePart;
 
 /* Statistics and repairs, for reports. */
@@ -80,6 +81,7 @@ typedef struct WrTriangles {
         patches; /* source patches (patches.h), whose (u,v) the corners have; owned; NULL: a mesh */
     WrReliefWeights *
         weights; /* of a projected mesh (relief_weights.h); owned; NULL: F is the table's at (u,v) */
+    const float (*mask_uv)[2]; /* [3 triangle_count] of the source; owned; NULL: none */
 } WrTriangles;
 
 /* Arrays of a file; borrowed for the call. */
@@ -87,6 +89,7 @@ typedef struct WrTrianglesSource {
     const float (*points)[3];    /* [point_count]; finite, within 1e30 of 0 */
     const float (*normals)[3];   /* [point_count]; any length; or NULL */
     const float (*uv)[2];        /* [point_count]; NaN: missing; or NULL */
+    const float (*mask_uv)[2];   /* [point_count] the file's (u,v) of a projected mesh; or NULL */
     const int32_t (*corners)[3]; /* [triangle_count], indices of points */
     int32_t point_count, triangle_count;
     const WrTrianglePart

@@ -157,11 +157,13 @@ static int32_t point_of(Work *w, int32_t corner, bool on)
     return i;
 }
 
-/* Appends the triangles of a part that are, or are not, on the tile, as a part of their own. */
-static bool add_part(Work *w, const WrTrianglePart *part, bool on, WrError *err)
+/* Appends the triangles of part `index` that are, or are not, on the tile, as a part of their own. */
+static bool add_part(Work *w, int index, bool on, WrError *err)
 {
+    const WrTrianglePart *part = &w->mesh->parts[index];
     WrTrianglePart own = *part;
     own.first = w->triangles;
+    own.number = index + 1;
     for (int32_t i = part->first; i < part->first + part->count; i++) {
         if (w->on[i] != on) continue;
         for (int k = 0; k < 3; k++)
@@ -217,7 +219,7 @@ WrTriangles *wr_triangles_of_tile(const WrTriangles *mesh, int number, WrError *
     w->mesh = mesh;
     bool good = hold(w, err) && (mark(w, number) > 0 || fail_empty(mesh, number, err));
     for (int i = 0; i < 2 * mesh->part_count && good; i++)
-        good = add_part(w, &mesh->parts[i / 2], i % 2 == 0, err);
+        good = add_part(w, i / 2, i % 2 == 0, err);
     if (good) {
         const WrTrianglesSource source = { .points = (const float(*)[3])w->points,
                                            .normals = (const float(*)[3])w->normals,

@@ -482,19 +482,24 @@ static char *left_by_one_step_on(const char *path, WrHash *want)
     return only_journal();
 }
 
+static void write_picture(const char *path, int step)
+{
+    uint8_t texels[48];
+    WrError err;
+    for (int k = 0; k < 48; k++) texels[k] = (uint8_t)(k * step % 251);
+    if (!wr_image_write_pixels(path, 8, 6, 1, WR_PIXEL_U8, true, texels, &err))
+        fail_msg("%s", err.text);
+}
+
 /* The file of a generator layer's line is copied into the journal, as those of plain commands. */
 static void the_file_of_a_generator_layer_comes_back(void **state)
 {
     (void)state;
     for (int changed = 0; changed < 2; changed++) {
-        WrError err = { "" };
         WrRecovered how;
         WrText line = { 0 };
-        uint8_t texels[48];
         char *path = in(folder, "relief.png");
-        for (int k = 0; k < 48; k++) texels[k] = (uint8_t)(k * 37 % 251);
-        if (!wr_image_write_pixels(path, 8, 6, 1, WR_PIXEL_U8, true, texels, &err))
-            fail_msg("%s", err.text);
+        write_picture(path, 37);
         WrSession *session = new_session(true);
         run(session, "table 41x29");
         wr_text_addf(&line, "layer add from=\"picture paste %s\"", path);
@@ -502,7 +507,7 @@ static void the_file_of_a_generator_layer_comes_back(void **state)
         run(session, "layer set 2 change=\"size=17.3\"");
         const WrHash want = wr_field_hash(wr_document_field(wr_session_document(session)));
         leave(session);
-        if (changed) write_other(path);
+        if (changed) write_picture(path, 41);
         char *journal = only_journal();
         session = recover(journal, false, &how);
         const WrDocument *document = wr_session_document(session);

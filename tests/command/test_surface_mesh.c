@@ -11,11 +11,13 @@
 #include "base/text.h"
 #include "command/session.h"
 #include "document/document.h"
+#include "field/field.h"
 #include "image/image.h"
 #include "image/mesh.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
 #include "surface/patches.h"
+#include "surface/relief_weights.h"
 #include "surface/triangles.h"
 
 #include <sys/stat.h>
@@ -723,6 +725,243 @@ static void masks_are_told_of(void **state)
     wr_text_fini(&notes);
 }
 
+/* A sheet 4 x 2 of two squares in four triangles, with its own u along x. */
+static const char sheet[] = "v 0 0 0\nv 2 0 0\nv 4 0 0\nv 0 2 0\nv 2 2 0\nv 4 2 0\n"
+                            "vt 0 0\nvt 0.5 0\nvt 1 0\nvt 0 1\nvt 0.5 1\nvt 1 1\n"
+                            "f 1/1 2/2 5/5 4/4\nf 2/2 3/3 6/6 5/5\n";
+
+/* The mask at the centre of a triangle, which is at x. */
+static double mask_of(const WrScene *scene, int32_t triangle, double *x)
+{
+    WrReliefTap taps[WR_RELIEF_TAPS];
+    const WrTriangles *t = scene->triangles;
+    *x = 0;
+    for (int k = 0; k < 3; k++) *x += (double)wr_triangle_corner(t, triangle, k)->p[0] / 3;
+    return wr_relief_taps(t, triangle, 1.0 / 3, 1.0 / 3, taps) ? taps[0].weight : 0;
+}
+
+static void assert_halves_at(const WrScene *scene, bool right, bool left, int at)
+{
+    for (int32_t i = 0; i < scene->triangles->triangle_count; i++) {
+        double x;
+        const double m = mask_of(scene, i, &x);
+        if (!(fabs(m - ((x > 2 ? right : left) ? 1 : 0)) < 1e-6))
+            fail_msg("line %d: at x = %g the mask is %g", at, x, m);
+    }
+}
+#define assert_halves(scene, right, left) assert_halves_at(scene, right, left, __LINE__)
+
+/* The layer is read as it is painted, in the mesh's own (u,v), and follows edits, undo, other names, documents and its
+   own removal. */
+static void a_layer_is_a_mask(void **state)
+{
+    (void)state;
+    WrText notes = { 0 }, line = { 0 }, other = { 0 };
+    WrError err = { "" };
+    WrSession *s = session_with(&notes);
+    write_file("sheet.obj", sheet);
+    must_run(s, "table 40x24");
+    must_run(s, "fill 0.7");
+    must_run(s, "layer add where");
+    must_run(s, "select rect from=0.5,0 to=1,1");
+    must_run(s, "fill 1.3");
+    must_run(s, "surface mesh file=sheet.obj mask=2 projection=box cell=3mm turn=0,0,31");
+    assert_non_null(strstr(wr_text_get(&notes), "layer 2 is hidden: it is a mask now"));
+    assert_non_null(strstr(wr_text_get(&notes), "masks leave relief on 2 of 4 triangles"));
+    if (!strstr(surface_line(s, &line), " mask=where\n")) fail_msg("%s", wr_text_get(&line));
+    must_run(s, "replicate 3,2");
+    assert_halves(scene_in(s), true, false);
+    must_run(s, "layer use where"); /* it is painted though it is hidden */
+    must_run(s, "select invert");
+    must_run(s, "fill 1");
+    assert_halves(scene_in(s), true, true);
+    must_run(s, "undo");
+    assert_halves(scene_in(s), true, false);
+    must_run(s, "surface mesh cell=2mm materials=1 projection=planar");
+    assert_halves(scene_in(s), true, false);
+    must_run(s, "surface mesh projection=uv");
+    assert_halves(scene_in(s), true, false);
+    must_run(s, "layer rename 2 \"its place\"");
+    for (int i = 0; i < 2; i++) {
+        const char *const name = i ? "m.ora" : "m.exr";
+        WrSession *b = session_with(&notes);
+        char save[40];
+        snprintf(save, sizeof save, "save %s", name);
+        must_run(s, save);
+        if (!wr_session_open(b, name, &err)) fail_msg("%s", err.text);
+        assert_string_equal(surface_line(s, &line), surface_line(b, &other));
+        assert_true(scene_in(s)->triangles->key == scene_in(b)->triangles->key);
+        assert_halves(scene_in(b), true, false);
+        wr_session_free(b);
+    }
+    must_run(s, "layer delete 2"); /* nothing limits the relief then */
+    assert_halves(scene_in(s), true, true);
+    must_run(s, "undo");
+    assert_halves(scene_in(s), true, false);
+    must_run(s, "object add second"); /* the edited layer may be the mask of another object */
+    must_run(s, "surface sphere");
+    must_run(s, "fill 2");
+    assert_halves(wr_scene_object(scene_in(s), 0), true, true);
+    must_run(s, "object choose \"object 1\"");
+    must_run(s, "surface mesh mask=\"\" materials=\"\"");
+    assert_null(scene_in(s)->triangles->weights);
+    assert_null(scene_in(s)->mask_layer);
+    wr_session_free(s);
+    wr_text_fini(&notes);
+    wr_text_fini(&line);
+    wr_text_fini(&other);
+}
+
+/* A dab on the mesh in the mask layer lies in the mesh's own (u,v), though the mesh shows the table by a projection. */
+static void a_mask_is_painted_on_the_mesh(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    WrSession *s = session_with(&notes);
+    write_file("sheet.obj", sheet);
+    must_run(s, "table 80x40");
+    must_run(s, "layer add where");
+    must_run(s, "surface mesh file=sheet.obj projection=planar cell=1.7mm at=9,7,0 mask=where");
+    must_run(s, "replicate 2,3");
+    must_run(s, "sculpt radius=6 strength=1 hardness=0.9 points=3,0.5,0");
+    const WrField *where = wr_session_document(s)->layers[1].heights;
+    int inside = 0;
+    for (int j = 0; j < 40; j++)
+        for (int i = 0; i < 80; i++) {
+            const double dx = i + 0.5 - 80 * 3 / 4.0, dy = j + 0.5 - 40 * (1 - 0.5 / 2);
+            const double away = hypot(dx, dy);
+            if (away > 8) assert_near(wr_field_get(where, i, j), 0, 0);
+            if (away < 4) assert_true(wr_field_get(where, i, j) > 0.2F);
+            inside += away < 4;
+        }
+    assert_true(inside > 30);
+    wr_session_free(s);
+    wr_text_fini(&notes);
+}
+
+/* The height of the exported body over the sheet. */
+static double top_of(WrSession *s, const char *line, const char *path)
+{
+    WrMesh mesh;
+    WrError err = { "" };
+    double top = -1;
+    must_run(s, line);
+    if (!wr_mesh_read_attributes(path, &mesh, &err)) fail_msg("%s", err.text);
+    for (int32_t i = 0; i < mesh.point_count; i++) top = fmax(top, (double)mesh.points[i][2]);
+    wr_mesh_fini(&mesh);
+    return top;
+}
+
+/* A solid has the heights of the object's own layer, as its picture; without one, those of all layers. A flat one is
+   noted. */
+static void solids_have_the_objects_table(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    WrSession *s = session_with(&notes);
+    write_file("sheet.obj", sheet);
+    must_run(s, "table 9x7");
+    must_run(s, "fill 0.3");
+    must_run(s, "layer add own");
+    must_run(s, "fill 0.4");
+    must_run(s, "surface mesh file=sheet.obj");
+    must_run(s, "bump height=1");
+    assert_near(top_of(s, "export ply all.ply", "all.ply"), 0.7, 1e-6);
+    assert_non_null(strstr(wr_text_get(&notes), "no relief: the table is flat"));
+    must_run(s, "object set layer=own");
+    assert_near(top_of(s, "export ply own.ply", "own.ply"), 0.4, 1e-6);
+    must_run(s, "object set name=sheet");
+    assert_near(top_of(s, "export ply named.ply object=sheet", "named.ply"), 0.4, 1e-6);
+    wr_text_fini(&notes);
+    must_run(s, "noise perlin cells=3 amplitude=0.5");
+    must_run(s, "export ply rough.ply");
+    assert_null(strstr(wr_text_get(&notes), "no relief"));
+    wr_session_free(s);
+    wr_text_fini(&notes);
+}
+
+/* A seam counts where a material with relief has it; at bare faces nothing can break. */
+static void seams_without_relief_are_not_counted(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    WrTextureSeams all, bare, top;
+    WrError err = { "" };
+    WrSession *s = session_with(&notes);
+    write_cube("cube.stl", 30);
+    must_run(s, "surface mesh file=cube.stl projection=box cell=7.3mm crease=30 at=1,2,5");
+    assert_true(wr_triangles_seams(scene_in(s)->triangles, &all, &err));
+    must_run(s, "surface mesh facing=z");
+    assert_true(wr_triangles_seams(scene_in(s)->triangles, &top, &err));
+    must_run(s, "surface mesh facing=x angle=100"); /* all but -x */
+    assert_true(wr_triangles_seams(scene_in(s)->triangles, &bare, &err));
+    assert_true(all.edges > 4);
+    assert_int_equal(top.edges, 0);
+    assert_true(bare.edges > 0 && bare.edges < all.edges);
+    wr_session_free(s);
+    wr_text_fini(&notes);
+}
+
+/* Masks on a file without normals get a note with the remedy, unless crease= is set. */
+static void masks_need_normals(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    WrSession *s = session_with(&notes);
+    write_file("sheet.obj", sheet);
+    must_run(s, "surface mesh file=sheet.obj facing=z crease=20");
+    assert_null(strstr(wr_text_get(&notes), "edges are rounded"));
+    must_run(s, "surface mesh crease=180");
+    assert_non_null(strstr(wr_text_get(&notes), "masks leave relief on 4 of 4 triangles; the file "
+                                                "has no normals, so that edges are rounded"));
+    wr_session_free(s);
+    wr_text_fini(&notes);
+}
+
+/* Two materials, each on two tiles: a tile halves the parts, and their numbers stay. */
+static void tiles_keep_the_numbers_of_materials(void **state)
+{
+    (void)state;
+    static const char tiled[] = "v 0 0 0\nv 2 0 0\nv 4 0 0\nv 0 2 0\nv 2 2 0\nv 4 2 0\n"
+                                "vt 0.1 0.1\nvt 0.8 0.1\nvt 0.8 0.8\nvt 0.1 0.8\n"
+                                "vt 1.1 0.1\nvt 1.8 0.1\nvt 1.8 0.8\nvt 1.1 0.8\n"
+                                "usemtl wood\nf 1/1 2/2 5/3\nf 1/5 5/7 4/8\n"
+                                "usemtl iron\nf 2/1 3/2 6/3\nf 2/5 6/7 5/8\n";
+    WrText notes = { 0 };
+    WrSession *s = session_with(&notes);
+    write_file("tiled.obj", tiled);
+    must_run(s, "surface mesh file=tiled.obj udim=1002 materials=2");
+    const WrTriangles *t = scene_in(s)->triangles;
+    assert_int_equal(t->part_count, 4);
+    for (int i = 0; i < 4; i++)
+        assert_int_equal(wr_relief_covers(t, t->parts[i].first),
+                         strcmp(t->parts[i].name, "iron") == 0);
+    must_fail(s, "surface mesh materials=3",
+              "materials=3: the mesh has no such material; it has 1 wood, 2 iron");
+    wr_session_free(s);
+    wr_text_fini(&notes);
+}
+
+static void masks_of_layers_are_refused(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    WrSession *s = session_with(&notes);
+    write_file("sheet.obj", sheet);
+    write_cube("cube.stl", 30);
+    must_run(s, "layer add where");
+    must_fail(s, "surface mesh file=cube.stl projection=box mask=where",
+              "mask=where: the mesh has no texture coordinates of its own");
+    must_run(s, "surface mesh file=sheet.obj");
+    must_fail(s, "surface mesh mask=there", "there");
+    must_run(s, "object set layer=where");
+    must_fail(s, "surface mesh mask=where",
+              "the object wears that layer: its mask must be another");
+    assert_true(wr_session_document(s)->layers[1].visible);
+    wr_session_free(s);
+    wr_text_fini(&notes);
+}
+
 static void hostile_projections_are_refused(void **state)
 {
     (void)state;
@@ -795,6 +1034,18 @@ int main(void)
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(masks_are_kept, enter_own_folder, leave_own_folder),
         cmocka_unit_test_setup_teardown(masks_are_told_of, enter_own_folder, leave_own_folder),
+        cmocka_unit_test_setup_teardown(a_layer_is_a_mask, enter_own_folder, leave_own_folder),
+        cmocka_unit_test_setup_teardown(a_mask_is_painted_on_the_mesh, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(seams_without_relief_are_not_counted, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(masks_need_normals, enter_own_folder, leave_own_folder),
+        cmocka_unit_test_setup_teardown(tiles_keep_the_numbers_of_materials, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(solids_have_the_objects_table, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(masks_of_layers_are_refused, enter_own_folder,
+                                        leave_own_folder),
         cmocka_unit_test_setup_teardown(hostile_projections_are_refused, enter_own_folder,
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(a_far_mesh_returns_to_its_place, enter_own_folder,

@@ -993,12 +993,24 @@ static void a_masked_box_grows_upwards(void **state)
     }
 }
 
-/* Half of a torus; a soft belt; whole triangles that look down: closed, on the mesh where the mask ends, and elsewhere
+/* A mask of fewer and of more texels than the table. */
+static void set_mask(WrDocument *document, int width, int height)
+{
+    WrError err = { "" };
+    WrField *mask = wr_field_new(width, height, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, &err);
+    for (int j = 0; j < height; j++)
+        for (int i = 0; i < width; i++)
+            wr_field_set(mask, i, j, (float)(3 * test_random(&random_state) - 1.5));
+    wr_scene_set_mask(document->scene, "mask", mask, 1);
+    wr_field_free(mask);
+}
+
+/* Half of a torus; a soft belt; whole triangles that look down; mask tables: closed, on the mesh where the mask ends, and elsewhere
    within the error of the exact surface, away from the step at a hard border. */
 static void masked_relief_ends_at_its_border(void **state)
 {
     (void)state;
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 6; k++) {
         WrExportReport report;
         WrDocument *document = document_of(13, 9, 0.6, WR_WRAP_PERIODIC);
         Quads *q = new_quads();
@@ -1012,6 +1024,8 @@ static void masked_relief_ends_at_its_border(void **state)
         if (k == 1) p.facing = WR_FACING_OUT, p.facing_soft_deg = 47.7, p.blend = 0.41;
         if (k == 2) p.facing = WR_FACING_MINUS_Z;
         if (k == 3) p.blend = 0.77;
+        if (k == 4) set_mask(document, 5, 4), p.kind = WR_PROJECTION_CYLINDRICAL;
+        if (k == 5) set_mask(document, 83, 61);
         project_mesh(document, &p);
         const WrTriangles *mesh = document->scene->triangles;
         Body body = export_body(document, "stl", "error=0.0087", &report);

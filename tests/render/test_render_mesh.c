@@ -312,9 +312,9 @@ static void on_egg(double u, double v, float p[3], float n[3])
     n[0] = q[0], n[1] = q[1], n[2] = q[2];
 }
 
-#define WEIGHTED 5
+#define WEIGHTED 7
 
-/* Soft and hard masks, blended planes, and both; heights over 0 make the mask's own slopes count. */
+/* Soft and hard masks, blended planes, both, and mask tables; heights over 0 make the mask's own slopes count. */
 static WrScene *weighted_scene(int i)
 {
     WrScene *scene = scene_with(mesh_grid(on_egg, 24, 13, true));
@@ -329,6 +329,12 @@ static WrScene *weighted_scene(int i)
     if (i == 1 || i == 2) p.facing = WR_FACING_Z, p.facing_soft_deg = 33.3;
     if (i == 3) p.facing = WR_FACING_OUT;
     if (i == 4) p.facing = WR_FACING_OUT, p.facing_soft_deg = 60.3;
+    if (i == 5) p.kind = WR_PROJECTION_UV;
+    if (i >= 5) {
+        WrField *mask = bumpy_field(29, 23);
+        wr_scene_set_mask(scene, "mask", mask, 1);
+        wr_field_free(mask);
+    }
     if (!wr_scene_project(scene, &p, &err)) fail_msg("%s", err.text);
     assert_non_null(scene->triangles->weights);
     return scene;

@@ -66,7 +66,7 @@ static WrTriangles *lathe(int sides, int rings, const double *r, const double *z
 static WrTriangles *project(const WrTriangles *mesh, const WrProjection *projection)
 {
     WrError err = { "" };
-    WrTriangles *made = wr_triangles_project(mesh, projection, &err);
+    WrTriangles *made = wr_triangles_project(mesh, projection, NULL, &err);
     if (!made) fail_msg("%s", err.text);
     return made;
 }
@@ -469,7 +469,7 @@ static void too_much_is_refused(void **state)
     WrProjection p = wr_projection_default;
     p.kind = WR_PROJECTION_BOX;
     p.cell[1] = 1e-6;
-    assert_null(wr_triangles_project(mesh, &p, &err));
+    assert_null(wr_triangles_project(mesh, &p, NULL, &err));
     assert_non_null(
         strstr(err.text, "cell=10,1e-06 mm: the mesh reaches over more than 65536 cells"));
     p.cell[1] = 10;

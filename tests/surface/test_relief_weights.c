@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "field/field.h"
 #include "surface/projection.h"
 #include "surface/relief_weights.h"
 #include "surface/triangles.h"
@@ -89,7 +90,7 @@ static WrTriangles *body(uint32_t seed)
 static WrTriangles *project(const WrTriangles *mesh, const WrProjection *projection)
 {
     WrError err = { "" };
-    WrTriangles *made = wr_triangles_project(mesh, projection, &err);
+    WrTriangles *made = wr_triangles_project(mesh, projection, NULL, &err);
     if (!made) fail_msg("%s", err.text);
     return made;
 }
@@ -266,16 +267,65 @@ static void blended_relief_runs_on_across_edges(void **state)
     wr_triangles_free(mesh);
 }
 
+/* ---- bodies and tables for masks ---- */
+
+/* The body with (u,v) of its own, those of a plane, except on its last material. */
+static WrTriangles *laid_body(uint32_t seed)
+{
+    WrTriangles *mesh = body(seed);
+    float(*p)[3] = wr_alloc(3 * (size_t)mesh->triangle_count, sizeof *p);
+    float(*uv)[2] = wr_alloc(3 * (size_t)mesh->triangle_count, sizeof *uv);
+    int32_t(*c)[3] = wr_alloc((size_t)mesh->triangle_count, sizeof *c);
+    WrError err = { "" };
+    for (int32_t i = 0; i < 3 * mesh->triangle_count; i++) {
+        const float *at = corner(mesh, i / 3, i % 3)->p;
+        memcpy(p[i], at, sizeof *p);
+        uv[i][0] = 0.31F + 0.013F * at[0] - 0.004F * at[2];
+        uv[i][1] = i / 3 < mesh->parts[2].first ? 0.42F + 0.017F * at[1] + 0.011F * at[2] : NAN;
+        c[i / 3][i % 3] = i;
+    }
+    const WrTrianglesSource source = { .points = (const float(*)[3])p,
+                                       .uv = (const float(*)[2])uv,
+                                       .corners = (const int32_t(*)[3])c,
+                                       .point_count = 3 * mesh->triangle_count,
+                                       .triangle_count = mesh->triangle_count,
+                                       .parts = mesh->parts,
+                                       .part_count = mesh->part_count };
+    WrTriangles *made = wr_triangles_new(&source, &err);
+    if (!made) fail_msg("%s", err.text);
+    wr_free(p);
+    wr_free(uv);
+    wr_free(c);
+    wr_triangles_free(mesh);
+    return made;
+}
+
+/* A ramp from -1.2 to 1.8 over v, except for the ends, where a periodic table falls again: B-splines reproduce straight
+   lines. */
+#define RAMP 50
+static WrField *ramp_mask(void)
+{
+    WrError err = { "" };
+    WrField *mask = wr_field_new(7, RAMP, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, &err);
+    for (int j = 0; j < RAMP; j++)
+        for (int i = 0; i < 7; i++)
+            wr_field_set(mask, i, j, (float)(3 * (1 - (j + 0.5) / RAMP) - 1.2));
+    return mask;
+}
+
 /* ---- derivatives ---- */
 
 static void slopes_are_differences(void **state)
 {
     (void)state;
     uint32_t seed = 17;
-    WrTriangles *mesh = body(31);
+    WrTriangles *mesh = laid_body(31);
+    WrField *mask = ramp_mask();
+    WrError err = { "" };
     WrProjection p = turned_box;
     p.cell[0] = 331.66, p.cell[1] = 787.4;
-    for (int which = 0; which < 4; which++) {
+    for (int round = 0; round < 8; round++) {
+        const int which = round % 4;
         p.kind = which == 3 ? WR_PROJECTION_SPHERICAL : WR_PROJECTION_BOX;
         p.facing = which == 0   ? WR_FACING_ANY
                    : which == 1 ? WR_FACING_MINUS_Y
@@ -283,7 +333,7 @@ static void slopes_are_differences(void **state)
                                 : WR_FACING_OUT;
         p.facing_deg = 30, p.facing_soft_deg = 140;
         p.at[0] = -3.1, p.at[1] = 0.7, p.at[2] = 11;
-        WrTriangles *t = project(mesh, &p);
+        WrTriangles *t = wr_triangles_project(mesh, &p, round < 4 ? NULL : mask, &err);
         int sloped = 0;
         for (int i = 0; i < 3000; i++) {
             const int32_t face = (int32_t)(number(&seed) * t->triangle_count);
@@ -312,6 +362,7 @@ static void slopes_are_differences(void **state)
         assert_true(sloped > 500);
         wr_triangles_free(t);
     }
+    wr_field_free(mask);
     wr_triangles_free(mesh);
 }
 
@@ -401,7 +452,7 @@ static void materials_are_listed(void **state)
     WrError err = { "" };
     WrProjection p = turned_box;
     strcpy(p.materials, "foot,hand");
-    assert_null(wr_triangles_project(mesh, &p, &err));
+    assert_null(wr_triangles_project(mesh, &p, NULL, &err));
     assert_string_equal(err.text, "materials=hand: the mesh has no such material; it has 1 foot, 2 "
                                   "steel, brushed, 3 (unnamed)");
     wr_triangles_free(mesh);
@@ -445,6 +496,49 @@ static void masks_combine(void **state)
     wr_triangles_free(mesh);
 }
 
+/* ---- a mask table ---- */
+
+/* Whatever the projection, and however it divides the triangles, the mask is read at the plane's (u,v) of the point. */
+static void mask_tables_lie_in_the_own_coordinates(void **state)
+{
+    (void)state;
+    uint32_t seed = 91;
+    WrTriangles *mesh = laid_body(64);
+    WrField *mask = ramp_mask();
+    for (int kind = 0; kind < WR_PROJECTIONS; kind++) {
+        WrProjection p = turned_box;
+        WrError err = { "" };
+        int whole = 0, part = 0, nothing = 0;
+        p.kind = (WrProjectionKind)kind;
+        WrTriangles *t = wr_triangles_project(mesh, &p, mask, &err);
+        WrTriangles *plain = project(mesh, &p);
+        assert_true(t->key != plain->key);
+        for (int i = 0; i < 4000; i++) {
+            const int32_t face = (int32_t)(number(&seed) * t->triangle_count);
+            const double b1 = 0.5 * number(&seed), b2 = 0.5 * number(&seed);
+            WrVec3 at[3];
+            for (int k = 0; k < 3; k++) at[k] = wide(corner(t, face, k)->p);
+            const WrVec3 q = at_weights(at[0], at[1], at[2], b1, b2);
+            const double v = 0.42 + 0.017 * q.y + 0.011 * q.z, ramp = 3 * (v - floor(v)) - 1.2;
+            const bool has = part_of(t, face) < 3;
+            if (has && fabs(v - rint(v)) < 2.5 / RAMP) continue; /* of the table's ends */
+            WrReliefTap taps[WR_RELIEF_TAPS];
+            const int count = wr_relief_taps(t, face, b1, b2, taps);
+            double m = 0;
+            for (int k = 0; k < count; k++) m += taps[k].weight;
+            assert_near(m, has ? fmin(fmax(ramp, 0), 1) : 0, 1e-5);
+            const bool full = m > 1 - 1e-9;
+            whole += full, nothing += has && m == 0, part += m > 0 && !full;
+        }
+        if (whole < 200 || part < 400 || nothing < 20)
+            fail_msg("%d whole, %d part, %d nothing", whole, part, nothing);
+        wr_triangles_free(plain);
+        wr_triangles_free(t);
+    }
+    wr_field_free(mask);
+    wr_triangles_free(mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -454,6 +548,7 @@ int main(void)
         cmocka_unit_test(directions_are_angles),
         cmocka_unit_test(materials_are_listed),
         cmocka_unit_test(masks_combine),
+        cmocka_unit_test(mask_tables_lie_in_the_own_coordinates),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -127,7 +127,6 @@ bool wr_app_begin(WrApp *app, WrError *err)
                              .fresh = { .width = 512, .height = 512, .surface = WR_SURFACE_sphere },
                              .solid_size = 100,
                              .solid_error = 0.05,
-                             .own_table = 1,
                              .bake_samples = 2,
                              .bake_padding = 8 };
     app->visible = true;

@@ -22,7 +22,6 @@
 #include "document/document_file.h"
 #include "export/export.h"
 #include "export/film.h"
-#include "scene/objects.h"
 #include "surface/surface.h"
 
 #include <SDL.h>
@@ -156,22 +155,6 @@ static bool has_mesh(const WrApp *app)
     return wr_surfaces[wr_app_scene(app)->shape.kind]->held;
 }
 
-/* Name of the active object if its table is not that of all layers; else NULL. */
-static const char *own_table(const WrApp *app, char buffer[WR_OBJECT_LABEL])
-{
-    const WrScene *scene = wr_app_scene(app);
-    return scene->layer ? wr_scene_object_label(scene, scene->chosen, buffer) : NULL;
-}
-
-static void own_table_row(WrApp *app, WrForms *f)
-{
-    const char *labels[] = { wr_words("All layers"), wr_app_scene(app)->layer };
-    wr_gui_label("Table");
-    wr_gui_as_it_is(true); /* names of layers are not translated */
-    wr_gui_choice("own table", 0, labels, 2, &f->own_table);
-    wr_gui_as_it_is(false);
-}
-
 static void add_export_line(const WrApp *app, const char *path, WrText *line)
 {
     WR_ROWS(ranges);
@@ -194,9 +177,6 @@ static void add_export_line(const WrApp *app, const char *path, WrText *line)
         wr_line_number(line, "error", f->solid_error);
         if (f->solid_thickness > 0) wr_line_number(line, "thickness", f->solid_thickness);
     }
-    char buffer[WR_OBJECT_LABEL];
-    const char *object = own_table(app, buffer);
-    if (kind->solid && object && f->own_table) wr_line_text(line, "object", object);
     if (f->export_more[0]) wr_text_addf(line, " %s", f->export_more);
 }
 
@@ -262,8 +242,6 @@ void wr_dialog_export(WrApp *app)
         wr_gui_label("Black and white");
         wr_gui_choice("range", 0, ranges, WR_RANGES, &f->range);
     }
-    char buffer[WR_OBJECT_LABEL];
-    if (wr_export_kinds[f->kind].solid && own_table(app, buffer)) own_table_row(app, f);
     if (wr_export_kinds[f->kind].solid && has_mesh(app)) mesh_numbers(f);
     else if (wr_export_kinds[f->kind].solid) solid_numbers(f);
     else if (wr_export_kinds[f->kind].channels > 0)

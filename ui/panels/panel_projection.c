@@ -191,6 +191,22 @@ static void facing_rows(WrApp *app)
     number_row(app, "Soft", "soft", &soft, &is, &is.facing_soft_deg);
 }
 
+/* Choice of the layer that limits the relief, for a mesh with (u,v) of its own. */
+static void mask_row(WrApp *app)
+{
+    const WrScene *scene = wr_app_scene(app);
+    int which;
+    if (!wr_scene_mesh_source(scene)->mapped) return;
+    wr_gui_label("Mask");
+    const bool chosen = wr_layer_choice(app, "mask layer", scene->mask_layer, &which);
+    wr_gui_tip("Limits relief to where this layer is above 0, in full from 1 on; it lies in the "
+               "file's own texture coordinates, whatever the projection");
+    if (!chosen) return;
+    char number[16] = "\"\"";
+    if (which > 0) snprintf(number, sizeof number, "%d", which);
+    run_word(app, "mask", number);
+}
+
 /* Choice of the UDIM tile that shows the table, for a mesh with several. */
 static void tile_row(WrApp *app)
 {
@@ -350,5 +366,6 @@ void wr_projection_rows(WrApp *app)
     if (kind_of(app) == WR_PROJECTION_UV && wr_app_scene(app)->projection.facing != WR_FACING_ANY)
         place_rows(app);
     wr_mesh_parts_row(app);
+    mask_row(app);
     if (wr_app_scene(app)->triangles->mapped) seams_of(app);
 }

@@ -106,21 +106,28 @@ void wr_surface_run(WrApp *app, const WrShape *shape, const char *const *text)
     run_file(app, shape, text, file, table);
 }
 
+bool wr_layer_choice(WrApp *app, const char *id, const char *now, int *which)
+{
+    const WrDocument *document = wr_app_document(app);
+    const char *labels[1 + WR_LAYERS_MAX] = { wr_words("None") };
+    *which = 0;
+    for (int i = 0; i < document->layer_count; i++) {
+        labels[1 + i] = document->layers[i].name;
+        if (now && strcmp(now, labels[1 + i]) == 0) *which = 1 + i;
+    }
+    wr_gui_as_it_is(true); /* names of layers are not translated */
+    const bool chosen = wr_gui_choice(id, 0, labels, 1 + document->layer_count, which);
+    wr_gui_as_it_is(false);
+    return chosen;
+}
+
 /* Choice of the layer that holds the heights of a terrain, or a file. */
 static void form_layer(WrApp *app)
 {
     const WrScene *scene = wr_app_scene(app);
-    const WrDocument *document = wr_app_document(app);
-    const char *labels[1 + WR_LAYERS_MAX] = { wr_words("None") };
-    int which = 0;
-    for (int i = 0; i < document->layer_count; i++) {
-        labels[1 + i] = document->layers[i].name;
-        if (scene->form_layer && strcmp(scene->form_layer, labels[1 + i]) == 0) which = 1 + i;
-    }
+    int which;
     wr_gui_label("Layer");
-    wr_gui_as_it_is(true); /* names of layers are not translated */
-    const bool chosen = wr_gui_choice("form layer", 0, labels, 1 + document->layer_count, &which);
-    wr_gui_as_it_is(false);
+    const bool chosen = wr_layer_choice(app, "form layer", scene->form_layer, &which);
     wr_gui_tip(
         "The layer that the ground has its form of: painting there raises hills, painting in "
         "others wrinkles them");

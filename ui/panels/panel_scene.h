@@ -33,6 +33,8 @@ typedef struct WrSurfaceState {
 typedef struct WrApp WrApp;
 /* Run the surface command for that shape. text: texts of its row; NULL: the defaults. */
 void wr_surface_run(WrApp *app, const WrShape *shape, const char *const *text);
+/* A choice of none or a layer, of that name now. *which: the chosen one's number from 1; 0: none. True on a change. */
+bool wr_layer_choice(WrApp *app, const char *id, const char *now, int *which);
 void wr_profile_row(WrApp *app);     /* for a surface with a profile */
 void wr_projection_rows(WrApp *app); /* for a mesh of a file */
 void wr_mesh_parts_row(WrApp *app);  /* for one of several materials */

@@ -361,15 +361,14 @@ static void make_ring(const WrApp *app, const WrPatchPick *pick, const WrBrushMa
 static double texel_side(WrApp *app)
 {
     WrPatchPaint *p = app->paint;
-    const WrScene *scene = wr_app_scene(app);
     const WrField *field = wr_app_field(app);
     WrMeshTexelsTable table;
     memset(&table, 0, sizeof table); /* compared by its bytes */
     table.width = wr_field_width(field), table.height = wr_field_height(field);
-    table.ru = scene->replicate_u, table.rv = scene->replicate_v;
-    if (p->side_key != scene->triangles->key || memcmp(&p->side_table, &table, sizeof table) != 0) {
-        p->side = wr_mesh_texel_side_of(scene->triangles, &table);
-        p->side_key = scene->triangles->key;
+    const WrTriangles *mesh = wr_document_painted_mesh(wr_app_document(app), &table.ru, &table.rv);
+    if (p->side_key != mesh->key || memcmp(&p->side_table, &table, sizeof table) != 0) {
+        p->side = wr_mesh_texel_side_of(mesh, &table);
+        p->side_key = mesh->key;
         p->side_table = table;
     }
     return p->side;

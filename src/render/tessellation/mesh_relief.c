@@ -486,8 +486,9 @@ typedef struct Samples {
     const WrMeshReliefTriangle *triangle;
     WrFacet facet;
     WrMeshReliefPlace corner[3];
-    double uv[WR_RELIEF_TAPS][3]
-             [2]; /* [planes] of the corners; one plane unless they are blended */
+    double uv[WR_RELIEF_TAPS + 1][3][2];  /* [planes] of the corners; one plane unless they are
+                                              blended, and that of a mask table */
+    double texels[WR_RELIEF_TAPS + 1][2]; /* [planes] samples per unit of u and v */
     int planes;
     bool mapped;
     double error;   /* largest allowed distance */
@@ -533,18 +534,17 @@ static double lattice(const WrMeshRelief *r, double texels, double low, double h
     return (ceil(low / *step - 0.5) + 0.5) * *step;
 }
 
-/* uv: of the corners. */
-static bool sample_texels(Samples *s, const double (*uv)[2])
+static bool sample_texels(Samples *s, int plane)
 {
+    const double(*uv)[2] = (const double(*)[2])s->uv[plane], *texels = s->texels[plane];
     const double du[2] = { uv[1][0] - uv[0][0], uv[2][0] - uv[0][0] };
     const double dv[2] = { uv[1][1] - uv[0][1], uv[2][1] - uv[0][1] };
-    const double det = du[0] * dv[1] - du[1] * dv[0], fine = s->relief->fine;
+    const double det = du[0] * dv[1] - du[1] * dv[0];
     if (!(fabs(det) > 1e-9 * (fabs(du[0] * dv[1]) + fabs(du[1] * dv[0])))) return true;
     const double low = fmin(uv[0][1], fmin(uv[1][1], uv[2][1])),
                  high = fmax(uv[0][1], fmax(uv[1][1], uv[2][1]));
     double step_u, step_v;
-    for (double v = lattice(s->relief, fine * s->relief->texels[1], low, high, &step_v); v < high;
-         v += step_v) {
+    for (double v = lattice(s->relief, texels[1], low, high, &step_v); v < high; v += step_v) {
         double from = INFINITY, to = -INFINITY; /* the row's part in the triangle */
         for (int k = 0; k < 3; k++) {
             const double *p = uv[k], *q = uv[(k + 1) % 3];
@@ -553,8 +553,7 @@ static bool sample_texels(Samples *s, const double (*uv)[2])
             from = fmin(from, u);
             to = fmax(to, u);
         }
-        for (double u = lattice(s->relief, fine * s->relief->texels[0], from, to, &step_u); u < to;
-             u += step_u) {
+        for (double u = lattice(s->relief, texels[0], from, to, &step_u); u < to; u += step_u) {
             const double x = u - uv[0][0], y = v - uv[0][1];
             if (!add_sample(s, (x * dv[1] - y * du[1]) / det, (y * du[0] - x * dv[0]) / det))
                 return false;
@@ -576,8 +575,7 @@ static bool sample_crossings(Samples *s, int k, double texels, double from, doub
 {
     double step;
     const double high = fmax(from, to);
-    for (double x = lattice(s->relief, s->relief->fine * texels, fmin(from, to), high, &step);
-         x < high; x += step)
+    for (double x = lattice(s->relief, texels, fmin(from, to), high, &step); x < high; x += step)
         if (!add_on_side(s, k, (x - from) / (to - from))) return false;
     return true;
 }
@@ -585,19 +583,31 @@ static bool sample_crossings(Samples *s, int k, double texels, double from, doub
 /* Points along the sides, at the kinks that F has there, and the middle. */
 static bool sample_sides(Samples *s)
 {
-    const double *texels = s->relief->texels;
     for (int k = 0; k < 3; k++) {
         const int steps = s->relief->request.fine ? 4 : 2;
         for (int i = 1; i < steps; i++)
             if (!add_on_side(s, k, (double)i / steps)) return false;
         for (int j = 0; j < s->planes && steps > 2 && s->mapped; j++) {
             const double *p = s->uv[j][k], *q = s->uv[j][(k + 1) % 3];
-            if (!sample_crossings(s, k, texels[0], p[0], q[0]) ||
-                !sample_crossings(s, k, texels[1], p[1], q[1]))
+            if (!sample_crossings(s, k, s->texels[j][0], p[0], q[0]) ||
+                !sample_crossings(s, k, s->texels[j][1], p[1], q[1]))
                 return false;
         }
     }
     return add_sample(s, 1.0 / 3, 1.0 / 3) && measure(s);
+}
+
+/* Adds the plane in which a mask table lies. A B-spline needs no samples between its texels. */
+static void add_mask_plane(Samples *s)
+{
+    const WrTriangles *mesh = s->relief->request.mesh;
+    const WrField *mask = wr_relief_mask(mesh);
+    const WrMeshReliefPlace *c = s->corner;
+    if (!mask || !s->mapped) return;
+    for (int k = 0; k < 3; k++)
+        wr_relief_mask_uv(mesh, c[k].face, c[k].b1, c[k].b2, s->uv[s->planes][k]);
+    s->texels[s->planes][0] = wr_field_width(mask);
+    s->texels[s->planes++][1] = wr_field_height(mask);
 }
 
 /* The planes of which F has a part in the triangle; a plane's u jumps where the surface turns to its other side, and
@@ -609,6 +619,10 @@ static void find_planes(Samples *s)
     const bool blended = wr_relief_is_blended(s->relief->request.mesh);
     for (int k = 0; k < 3; k++) s->uv[0][k][0] = c[k].u, s->uv[0][k][1] = c[k].v;
     s->planes = 1;
+    for (int j = 0; j < WR_RELIEF_TAPS; j++) {
+        s->texels[j][0] = s->relief->fine * s->relief->texels[0];
+        s->texels[j][1] = s->relief->fine * s->relief->texels[1];
+    }
     if (!blended || !s->mapped) return;
     bool covered = true;
     for (int i = 0; i < 4; i++) {
@@ -632,9 +646,16 @@ static void find_planes(Samples *s)
 static bool fits_span(const WrMeshRelief *r, const WrMeshReliefPlace corner[3])
 {
     double most = 0.0;
+    const WrField *mask = wr_relief_mask(r->request.mesh);
     for (int k = 0; k < 3; k++) {
         const WrMeshReliefPlace *p = &corner[k], *q = &corner[(k + 1) % 3];
         most = fmax(most, fmax(fabs(p->u - q->u) * r->texels[0], fabs(p->v - q->v) * r->texels[1]));
+        if (!mask) continue;
+        double a[2], b[2];
+        wr_relief_mask_uv(r->request.mesh, p->face, p->b1, p->b2, a);
+        wr_relief_mask_uv(r->request.mesh, q->face, q->b1, q->b2, b);
+        most = fmax(most, fmax(fabs(a[0] - b[0]) * wr_field_width(mask),
+                               fabs(a[1] - b[1]) * wr_field_height(mask)));
     }
     return most <= SPAN;
 }
@@ -668,9 +689,9 @@ static double error_of(const WrMeshRelief *r, const WrMeshReliefTriangle *t)
             wr_mesh_relief_place(r->request.mesh, t->face, (double)t->b[k][0], (double)t->b[k][1]);
     if (r->request.fine && s.mapped && !fits_span(r, s.corner)) return INFINITY;
     find_planes(&s);
+    add_mask_plane(&s);
     bool good = sample_sides(&s);
-    for (int k = 0; k < s.planes && s.mapped && good; k++)
-        good = sample_texels(&s, (const double(*)[2])s.uv[k]);
+    for (int k = 0; k < s.planes && s.mapped && good; k++) good = sample_texels(&s, k);
     if (good) measure(&s);
     return sqrt(s.worst);
 }

@@ -29,9 +29,8 @@ typedef struct WrForms { /* values of open dialogs */
     double solid_size, solid_error, solid_thickness; /* mm; thickness 0: default of the export */
     double mesh_size;                                /* mm; 0: the file's unit */
     int mesh_round, mesh_limited;                    /* of a mesh as a solid: 0 or 1 */
-    int own_table;         /* 1: a solid has the object's own table, if there is one */
-    char export_more[200]; /* further options of the line, as typed */
-    char bake_file[4096];  /* detailed mesh to bake; "": none */
+    char export_more[200];                           /* further options of the line, as typed */
+    char bake_file[4096];                            /* detailed mesh to bake; "": none */
     int bake_map, bake_match, bake_size; /* WrBakeKind; 0 or 1; texels a side, 0: as the table */
     double bake_cage;                    /* 0: automatic */
     double bake_samples, bake_padding;
