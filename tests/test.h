@@ -34,6 +34,16 @@ static inline bool same_bits(double a, double b)
     return memcmp(&a, &b, sizeof a) == 0;
 }
 
+/* A number of cases, or the size of one: less under the address sanitizer, which is ten times as slow; WR_FULL selects the whole. */
+static inline int test_amount(int whole, int sanitized)
+{
+#ifdef __SANITIZE_ADDRESS__
+    if (!getenv("WR_FULL")) return sanitized;
+#endif
+    (void)sanitized;
+    return whole;
+}
+
 /* A repeatable random stream: splitmix64. */
 typedef struct TestRandom {
     uint64_t state;

@@ -159,7 +159,7 @@ static void a_line_stops_at_any_look(void **state)
     wr_pool_free(pool);
 }
 
-#define LARGE_STOPS 6
+#define LARGE_STOPS test_amount(6, 3)
 #define CHECKS_AFTER                                                                               \
     1200 /* one for each of the 768 tiles at most, whose work it ends, and some on the way back */
 #define TILES_AFTER 256 /* of two tables' batch */
@@ -229,7 +229,8 @@ static void a_large_table_stops_within_a_slice(void **state)
     WrPool *pool = wr_pool_new(THREADS);
     WrSessionOptions options = { .pool = pool, .outputs = true };
     WrSession *s = wr_session_new(&options);
-    must_run(s, "table 2048x1536"); /* several batches of tiles */
+    must_run(s, test_amount(0, 1) ? "table 1024x1024"
+                                  : "table 2048x1536"); /* several batches of tiles */
     must_run(s, "noise value cells=64");
     for (size_t i = 0; i < sizeof large / sizeof *large; i++)
         if (large[i][0] == '+') must_run(s, large[i] + 1);

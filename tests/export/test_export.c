@@ -604,7 +604,7 @@ static void the_bytes_do_not_depend_on_the_number_of_threads(void **state)
                 char path[16], line[64];
                 snprintf(path, sizeof path, "%s.%s", t == 0 ? "first" : "other",
                          ending ? ending : "tif");
-                options.solid_error = 0.5;
+                options.solid_error = 4;
                 assert_true(wr_export(wr_export_find(name), which ? formula : table, &options, pool,
                                       path, t == 0 ? &first : &report, NULL));
                 wr_pool_free(pool);

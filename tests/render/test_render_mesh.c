@@ -276,7 +276,7 @@ static void the_reference_agrees(void **state)
     (void)state;
     const int w = 120, h = 100;
     WrField *field = bumpy_field(64, 32);
-    for (int i = 0; i < 12; i++) {
+    for (int i = 0; i < 12; i += test_amount(1, 5)) {
         if (i == 9) continue; /* the ball again: a million facets in the reference */
         WrScene *scene = scene_with(mesh_number(i % 3));
         take_way(&ways[i / 3 % 2], scene);
@@ -347,7 +347,7 @@ static void weighted_meshes_are_the_reference(void **state)
     WrField *field = bumpy_field(32, 20);
     for (int j = 0; j < 20; j++)
         for (int i = 0; i < 32; i++) wr_field_set(field, i, j, wr_field_get(field, i, j) + 1.7f);
-    for (int i = 0; i < 3 * WEIGHTED; i++) {
+    for (int i = 0; i < 3 * WEIGHTED; i += test_amount(1, 4)) {
         WrScene *scene = weighted_scene(i % WEIGHTED);
         take_way(&ways[i / WEIGHTED % 2], scene);
         scene->displaced = i >= 2 * WEIGHTED;

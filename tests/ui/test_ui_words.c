@@ -280,7 +280,7 @@ static void no_text_is_cut(void **state)
         walk_open(&walk, languages[l]);
         cuts.walk = &walk;
         cuts.count = cuts.told = 0;
-        for (int s = 0; s < 6; s++) {
+        for (int s = 0; s < 6; s += test_amount(1, 5)) {
             if (!wr_gui_set_scale(walk.app->gui, scales[s], &err)) fail_msg("%s", err.text);
             for (int k = 0; k < 5; k++) {
                 if (sizes[k][0] < 900 * scales[s] || sizes[k][1] < 500 * scales[s]) continue;
