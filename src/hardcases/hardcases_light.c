@@ -395,6 +395,14 @@ static bool hc100(WrHardMeasurement *g, WrError *err)
         within(g, &of, (Place){ up, l, v }, 1e12);
         within(g, &of, (Place){ v3_unit(v3_add(l, v), up), l, v }, 1e12);
     }
+    /* the smoothest metal shows a lamp straight above at its peak, about 1 / (8 alpha^2) */
+    for (int energy = 0; energy < 2; energy++) {
+        const WrReflectance of = { WR_REFLECT_GGX, (WrEnergy)energy, 0, 0, 1, 1.5 };
+        const Place at = { up, up, up };
+        for (int set = 0; set < g->all; set++)
+            wr_hard_holds(g, WR_HARD_FLOAT, in_float(g, set, &of, at) > 1e4);
+        wr_hard_holds(g, WR_HARD_DOUBLE, in_double(g, energy, &of, at) > 1e4);
+    }
     return true;
 }
 
@@ -465,11 +473,13 @@ static bool hc105(WrHardMeasurement *g, WrError *err)
     (void)err;
     WrReflect models[WR_REFLECT_COUNT];
     const int count = models_with_loops(models);
-    for (int i = 0; i < count * 40; i++) {
+    for (int i = 0; i < count * 80; i++) {
         WrReflectance of = ordinary;
         of.model = models[i % count];
-        const double a = 2e-3 - 1e-4 * (i / count), b = a - 1e-4;
-        const WrVec3 l = { 0.6, 0.64, 0.48 };
+        const double a = 2e-3 - 1e-4 * (i / count / 2), b = a - 1e-4;
+        /* beside the viewer, and opposite, where the highlight is bright */
+        const WrVec3 l =
+            i / count % 2 ? (WrVec3){ -0.768, 0.224, 0.6 } : (WrVec3){ 0.6, 0.64, 0.48 };
         const Place first = { up, l, { sqrt(1 - a * a), 0, a } };
         const Place next = { up, l, { sqrt(1 - b * b), 0, b } };
         for (int set = 0; set < g->all; set++)
