@@ -215,7 +215,7 @@ save_as written.exr
 quit
 
 # ---- a font is found by typing, and stands first the next time ----
-sed -i 's/^height .*/height 895/' config/wrinkle/window.conf # room for the font's row
+sed -i 's/^height .*/height 880/; s/^lower .*/lower 0.36/' config/wrinkle/window.conf # room for the font's row
 start flat.wrinkle
 home
 key t

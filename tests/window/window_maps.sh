@@ -53,8 +53,8 @@ shot bumped
 [[ $(compare -metric AE -extract $patch before.ppm bumped.ppm null: 2>&1 | cut -d' ' -f1) -gt 20000 ]] ||
     complain "the normal map does not show"
 
-# Its rows: space, green, frame, strength, repeat. A click on a number types it.
-click 1100 $((normals + 120))
+# Its rows: space, green, frame, relief over it, strength, repeat. A click on a number types it.
+click 1100 $((normals + 150))
 xdotool type --delay 20 0.5
 rest
 xdotool key Return

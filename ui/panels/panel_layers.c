@@ -206,11 +206,11 @@ static void edit_values(WrApp *app, int i)
 /* The mark of a generator layer. */
 static void row_generator(WrApp *app, int i, double *x)
 {
-    const double side = wr_gui_px(18);
+    const double side = wr_gui_px(13);
     wr_gui_row_set_cursor(*x, side);
-    if (wr_gui_glyph("generator", WR_ICON_TUNE, 18, WR_COLOUR_CELL)) edit_values(app, i);
+    if (wr_gui_glyph("generator", WR_ICON_TUNE, 13, WR_COLOUR_CELL)) edit_values(app, i);
     wr_gui_tip("A generator layer. Click to change its values");
-    *x += side + wr_gui_px(4);
+    *x += side + wr_gui_px(2);
     wr_gui_row_set_cursor(*x, wr_gui_px(THUMB_UNITS));
 }
 
