@@ -168,7 +168,9 @@ static void row_name(const WrLayer *layer, double x, double right, bool shown, b
     wr_gui_text_cut(WR_FONT_TEXT, ink, layer->name, right - x);
     wr_gui_as_it_is(false);
     wr_gui_row_set_cursor(x, 0.15 * line);
-    wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, text, right - x);
+    const char *share = wide > right - x ? strrchr(text, ' ') : NULL; /* "100 %": its number */
+    while (share && share > text && share[-1] != ' ') share--;
+    wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, share ? share : text, right - x);
 }
 
 /* Handle a click on a layer's picture: it becomes the target of edits; with Alt, toggle the display of the mask
