@@ -178,6 +178,8 @@ static void add_layer_json(WrText *text, const WrDocument *document, int index)
     if (layer->filter.op) wr_text_add_json_string(text, filter.data);
     if (layer->line) wr_text_add(text, ",\"line\":");
     if (layer->line) wr_text_add_json_string(text, layer->line);
+    if (layer->mask_line) wr_text_add(text, ",\"mask_line\":");
+    if (layer->mask_line) wr_text_add_json_string(text, layer->mask_line);
     wr_text_add(text, "}");
     wr_text_fini(&filter);
 }
@@ -198,6 +200,7 @@ static void add_layer_text(WrText *text, const WrDocument *document, int index)
     }
     if (layer->line) wr_text_addf(text, ", from \"%s\"", layer->line);
     if (layer->mask) wr_text_add(text, ", masked");
+    if (layer->mask_line) wr_text_addf(text, " by \"%s\"", layer->mask_line);
     if (!layer->visible) wr_text_add(text, ", hidden");
     if (layer->locked) wr_text_add(text, ", locked");
     if (document->solo == index) wr_text_add(text, ", alone");

@@ -36,6 +36,8 @@ struct WrCall {
  * is NULL. open: required list arguments may be missing (the head of a stroke). Errors contain the command, the
  * argument, its value and the allowed values. */
 bool wr_call_parse(const char *line, bool open, WrCall **call, WrError *err);
+/* Parse and check the words of a row that need not be in the command table. */
+bool wr_call_parse_words(const WrCommand *command, const char *words, WrCall **call, WrError *err);
 void wr_call_free(WrCall *call); /* NULL is allowed */
 
 WrCommandClass wr_call_class(const WrCall *call); /* class of the command's form */

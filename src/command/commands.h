@@ -68,6 +68,12 @@ void wr_call_take_blend(const WrCall *call, bool all, WrLayer *layer);
 bool wr_call_make(WrSession *session, WrCall *call, WrGenerateJob *job, WrRelief *out,
                   WrError *err);
 
+/* ---- live masks: live_masks.c ---- */
+
+/* Check of a text argument: the terms of a live mask, or "off". */
+bool wr_check_mask_line(const void *ctx, const char *name, const char *value, WrError *err);
+void wr_mask_kind_explain(int i, WrText *text);
+
 /* ---- transforms ---- */
 
 /* Application of a `transform` line to a document, for the command and for previews of it. */

@@ -84,6 +84,12 @@ static double generator(const Job *job, const Need *need)
     return (need->bytes + joining) * job->texels;
 }
 
+/* A live mask needs the heights below, their measure, the terms before and the mask. */
+static double masking(const Job *job, const Need *need)
+{
+    return (wr_call_given(job->call, "live") ? 4.0 : 1.0) * need->bytes * job->texels;
+}
+
 /* OpenRaster files also hold the composite. */
 static double saving(const Job *job, const Need *need)
 {
@@ -214,7 +220,7 @@ static const Need needs[] = {
     { "sculpt", NULL, brush, .bytes = 4 },
     { "project", NULL, texels, .bytes = 8 },
     { "layer", .count = NULL },
-    { "layer", "mask", texels, .bytes = 4.5 },
+    { "layer", "mask", masking, .bytes = 4.5 },
     { "layer", "merge", texels, .bytes = 4.2 },
     { "layer", "flatten", texels, .bytes = 4.2 },
     { "table", .count = NULL },

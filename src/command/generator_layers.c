@@ -236,23 +236,28 @@ static bool is_stale(const WrSession *session, int index)
     return stale;
 }
 
+static bool follow_line(WrSession *session, int index, WrError *err)
+{
+    WrLayer *layer = &session->state.document->layers[index];
+    if (!layer->line) return true;
+    if (wr_field_key(layer->heights) == layer->made)
+        return !is_stale(session, index) || wr_session_generate_again(session, index, err);
+    WrText name = { 0 }; /* another command wrote its heights */
+    wr_session_note(session, "%s is a plain layer now: its heights are no longer its line's",
+                    wr_session_layer_name(session, index, &name));
+    wr_text_fini(&name);
+    wr_layer_set_line(layer, NULL, nothing);
+    return true;
+}
+
 bool wr_session_follow_lines(WrSession *session, WrError *err)
 {
-    const WrDocument *document = session->state.document;
-    for (int i = 0; i < document->layer_count; i++) {
-        WrLayer *layer = &document->layers[i];
-        if (!layer->line) continue;
-        if (wr_field_key(layer->heights) != layer->made) { /* another command wrote its heights */
-            WrText name = { 0 };
-            wr_session_note(session,
-                            "%s is a plain layer now: its heights are no longer its line's",
-                            wr_session_layer_name(session, i, &name));
-            wr_text_fini(&name);
-            wr_layer_set_line(layer, NULL, nothing);
-        } else if (is_stale(session, i) && !wr_session_generate_again(session, i, err)) {
+    bool needed[WR_LAYERS_MAX];
+    wr_session_needed_masks(session, needed);
+    for (int i = 0; i < session->state.document->layer_count; i++)
+        if (!follow_line(session, i, err) ||
+            (needed[i] && !wr_session_follow_mask(session, i, err)))
             return false;
-        }
-    }
     return true;
 }
 
@@ -265,5 +270,6 @@ void wr_session_note_lines(WrSession *session)
         if (document->layers[i].line && !call)
             wr_session_note(session, "%s", wr_error_message(&why));
         wr_call_free(call);
+        wr_session_note_mask(session, i);
     }
 }

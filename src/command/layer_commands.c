@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
+#include "command/live_masks.h"
 #include "command/session_internal.h"
 #include "document/blend.h"
 #include "document/document.h"
@@ -23,7 +24,6 @@ extern const char *const wr_mask_sources[];
 #define WR_MASK_ARGS                                                                               \
     { .name = "from",                                                                              \
       .type = WR_ARG_CHOICE,                                                                       \
-      .required = true,                                                                            \
       .words = wr_mask_sources,                                                                    \
       .help =                                                                                      \
           "what is selected, no mask, a mask that shows all or nothing, where the composite's "    \
@@ -38,9 +38,16 @@ extern const char *const wr_mask_sources[];
           .low = -WR_BIG_HEIGHT,                                                                   \
           .high = WR_BIG_HEIGHT,                                                                   \
           .help = "upper end" },                                                                   \
+        { .name = "soft",                                                                          \
+          .type = WR_ARG_NUMBER,                                                                   \
+          .low = 0,                                                                                \
+          .high = WR_BIG_HEIGHT,                                                                   \
+          .help = "over how much it fades beyond the ends; left out, not at all" },                \
     {                                                                                              \
-        .name = "soft", .type = WR_ARG_NUMBER, .low = 0, .high = WR_BIG_HEIGHT,                    \
-        .help = "over how much it fades beyond the ends; left out, not at all"                     \
+        .name = "live", .type = WR_ARG_TEXT, .shape = "\"KIND NAME=VALUE ...; ...\"",              \
+        .check = wr_check_mask_line, .choice = wr_mask_kind, .explain = wr_mask_kind_explain,      \
+        .help = "instead of from=: terms that the mask keeps, and follows as the layers below "    \
+                "change; off makes it a plain mask. Kinds of terms"                                \
     }
 
 #define WR_PASTE_ARGS                                                                              \
@@ -120,7 +127,10 @@ static bool check_range(const WrCall *call, int from, WrError *err)
 {
     static const char *const names[] = { "low", "high", "soft" };
     for (int i = 0; i < 3 && from != FROM_HEIGHT && from != FROM_SLOPE; i++)
-        if (wr_call_given(call, names[i]))
+        if (wr_call_given(call, names[i]) && from < 0)
+            return wr_fail(err,
+                           "%s= belongs to from=height and from=slope, or into live=", names[i]);
+        else if (wr_call_given(call, names[i]))
             return wr_fail(err, "%s= belongs to from=height and from=slope, not to from=%s",
                            names[i], wr_mask_sources[from]);
     return true;
@@ -133,7 +143,11 @@ static bool layer_mask_make(WrSession *session, const WrCall *call, int index, W
     WrLayer *layer = &document->layers[index];
     WrField *mask = NULL;
     const int from = wr_call_choice(call, "from");
+    if (wr_call_given(call, "live") == wr_call_given(call, "from"))
+        return wr_fail(err, "give either from= or live=");
     if (!check_range(call, from, err)) return false;
+    if (wr_call_given(call, "live"))
+        return wr_session_set_live_mask(session, index, wr_call_arg(call, "live")->text, err);
     if (from == FROM_SELECTION && !document->selection)
         return wr_fail(err, "from=selection: nothing is selected");
     if (from == FROM_SELECTION) mask = wr_field_share(document->selection);
@@ -146,6 +160,7 @@ static bool layer_mask_make(WrSession *session, const WrCall *call, int index, W
     wr_field_free(layer->mask);
     layer->mask = mask;
     layer->on_mask = layer->on_mask && mask;
+    wr_layer_set_mask_line(layer, NULL, layer->mask_read);
     return true;
 }
 
@@ -387,6 +402,7 @@ static bool layer_rename(WrSession *session, WrCall *call, WrError *err)
     const char *name = wr_call_arg(call, "NAME")->text;
     WrDocument *document = session->state.document;
     WrLayer *layer = &document->layers[index];
+    wr_session_rename_in_masks(session, index, name);
     WrScene *scene = wr_scene_rename_layer(document->scene, layer->name, name);
     if (scene) wr_session_replace_scene(session, scene); /* objects still use it as their table */
     wr_free(layer->name);

@@ -703,6 +703,19 @@ static WrCall *begin_call(const WrCommand *command, const char *rest, WrError *e
     return call;
 }
 
+/* Read the words of a call from p on. On failure the call is freed. */
+static bool finish_call(WrCall *call, const char *p, bool open, WrCall **out, WrError *err)
+{
+    if (!read_words(call, p, call->command->form != NULL, err) || !check_missing(call, open, err)) {
+        wr_call_free(call);
+        return false;
+    }
+    for (int i = 0; i < call->count; i++)
+        if (!call->args[i].given) set_fallback(&call->specs[i], &call->args[i]);
+    *out = call;
+    return true;
+}
+
 bool wr_call_parse(const char *line, bool open, WrCall **out, WrError *err)
 {
     if (!check_bytes(line, err)) return false;
@@ -719,15 +732,14 @@ bool wr_call_parse(const char *line, bool open, WrCall **out, WrError *err)
         else wr_fail_verb(wr_text_get(&verb), err);
     }
     wr_text_fini(&verb);
-    if (!call) return false;
-    if (!read_words(call, p, call->command->form != NULL, err) || !check_missing(call, open, err)) {
-        wr_call_free(call);
-        return false;
-    }
-    for (int i = 0; i < call->count; i++)
-        if (!call->args[i].given) set_fallback(&call->specs[i], &call->args[i]);
-    *out = call;
-    return true;
+    return call && finish_call(call, p, open, out, err);
+}
+
+bool wr_call_parse_words(const WrCommand *command, const char *words, WrCall **out, WrError *err)
+{
+    if (!check_bytes(words, err)) return false;
+    WrCall *call = begin_call(command, words, err);
+    return call && finish_call(call, words, false, out, err);
 }
 
 bool wr_call_change(WrCall *call, const char *words, WrError *err)

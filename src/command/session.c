@@ -123,15 +123,20 @@ static bool check_shown(const WrSession *session, int index, WrError *err)
     return false;
 }
 
-/* Fails if that layer is a filter, which has no heights, or a generator layer, whose heights are its line's, unless edits
-   go to its mask. */
+/* Fails if that layer is a filter, which has no heights, or a generator layer, whose heights are its line's; or, if edits go
+   to its mask, if that is a live one. */
 static bool session_check_heights(const WrSession *session, int index, WrError *err)
 {
     const WrLayer *layer = &session->state.document->layers[index];
-    if ((!layer->filter.op && !layer->line) || layer->on_mask) return true;
+    if (layer->on_mask ? !layer->mask_line : !layer->filter.op && !layer->line) return true;
     WrText name = { 0 };
     wr_session_layer_name(session, index, &name);
-    if (layer->filter.op)
+    if (layer->on_mask)
+        wr_fail(err,
+                "%s has a live mask: `layer mask %d live=off` makes a mask of it that can be "
+                "painted on",
+                wr_text_get(&name), index + 1);
+    else if (layer->filter.op)
         wr_fail(err,
                 "%s is a filter, without heights of its own: `layer use` chooses another, or its "
                 "mask",

@@ -181,11 +181,24 @@ bool wr_session_change_generator_layer(WrSession *session, WrCall *outer, int in
                                        const char *change, WrError *err);
 /* Generate a layer by its own line, after a change that its content depends on. */
 bool wr_session_generate_again(WrSession *session, int index, WrError *err);
-/* At the end of every command: generate the layers whose lines read layers that have changed; layers whose heights another
-   command wrote become plain. */
+/* At the end of every command, from the bottom up: generate the layers whose lines read layers that have changed, and live
+   masks; layers whose heights another command wrote become plain. */
 bool wr_session_follow_lines(WrSession *session, WrError *err);
-/* Note the layers whose lines this program does not know. */
+/* Note the layers whose lines, or terms of masks, this program does not know. */
 void wr_session_note_lines(WrSession *session);
+
+/* ---- live masks: live_masks.c ---- */
+
+/* Make the layer's mask a live one, by these terms, or a plain one by "off". */
+bool wr_session_set_live_mask(WrSession *session, int index, const char *line, WrError *err);
+/* The layers that are shown, and those that their masks read. */
+void wr_session_needed_masks(const WrSession *session, bool needed[WR_LAYERS_MAX]);
+/* Make the live mask of a layer again, if anything that it reads has changed. */
+bool wr_session_follow_mask(WrSession *session, int index, WrError *err);
+/* Note a live mask whose terms this program does not know. */
+void wr_session_note_mask(WrSession *session, int index);
+/* Layer `index` is about to get another name: the terms of the masks above that read it get it too. */
+void wr_session_rename_in_masks(WrSession *session, int index, const char *name);
 
 /* ---- the active layer ---- */
 

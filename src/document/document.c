@@ -55,6 +55,7 @@ WrLayer wr_layer_share(const WrLayer *layer)
     WrLayer copy = *layer;
     copy.name = wr_strdup(layer->name);
     copy.line = wr_strdup(layer->line);
+    copy.mask_line = wr_strdup(layer->mask_line);
     copy.heights = wr_field_share(layer->heights);
     copy.cover = share_or_null(layer->cover);
     copy.mask = share_or_null(layer->mask);
@@ -65,6 +66,7 @@ void wr_layer_fini(WrLayer *layer)
 {
     wr_free(layer->name);
     wr_free(layer->line);
+    wr_free(layer->mask_line);
     wr_field_free(layer->heights);
     wr_field_free(layer->cover);
     wr_field_free(layer->mask);
@@ -78,6 +80,16 @@ void wr_layer_set_line(WrLayer *layer, const char *line, WrHash below)
     layer->line = copy;
     layer->below = below;
     layer->made = line ? wr_field_key(layer->heights) : 0;
+}
+
+void wr_layer_set_mask_line(WrLayer *layer, const char *line, WrHash read)
+{
+    char *copy = layer->mask ? wr_strdup(line) : NULL;
+    wr_free(layer->mask_line);
+    layer->mask_line = copy;
+    layer->mask_read = read;
+    layer->mask_made = copy ? wr_field_key(layer->mask) : 0;
+    layer->mask_seen = 0;
 }
 
 WrLayer *wr_document_edit_begin(WrDocument *document, WrStandIn *stand_in)
@@ -138,7 +150,8 @@ bool wr_document_filters(const WrDocument *document)
 bool wr_document_generates(const WrDocument *document)
 {
     bool any = false;
-    for (int i = 0; i < document->layer_count; i++) any |= document->layers[i].line != NULL;
+    for (int i = 0; i < document->layer_count; i++)
+        any |= document->layers[i].line || document->layers[i].mask_line;
     return any;
 }
 
@@ -342,6 +355,8 @@ static WrHash hash_layer(const WrLayer *layer, WrHash hash)
     if (layer->on_mask) hash = wr_hash_bytes("mask", 4, hash);
     if (layer->filter.op) hash = hash_filter(&layer->filter, hash);
     if (layer->line) hash = wr_hash_bytes(layer->line, strlen(layer->line) + 1, hash);
+    if (layer->mask_line)
+        hash = wr_hash_bytes(layer->mask_line, strlen(layer->mask_line) + 1, hash);
     hash = hash_field(layer->heights, hash);
     hash = hash_field(layer->cover, hash);
     return hash_field(layer->mask, hash);

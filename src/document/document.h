@@ -19,23 +19,27 @@ typedef struct WrScene WrScene;
 
 /* One layer. A filter's own heights are empty: it contributes the result of its operation on the composite of
    the layers below, which is updated incrementally. A generator layer keeps the command line that its heights and
-   coverage come from; they are generated again when the line changes, or the layers below if the line reads them. All
-   fields of a document have one size and one wrap. */
+   coverage come from; they are generated again when the line changes, or the layers below if the line reads them. A live
+   mask keeps its terms and is made again in the same way. All fields of a document have one size and one wrap. */
 typedef struct WrLayer {
-    char *name;       /* UTF-8, owned; not necessarily unique */
-    char *line;       /* command line of a generator layer; NULL: a plain layer. Owned */
-    WrHash below;     /* of the composite that the line read; 0: it reads none */
-    uint64_t made;    /* wr_field_key of the heights as the line made them */
-    WrField *heights; /* owned; shared tiles */
-    WrField *cover;   /* 0..1, coverage: where the layer has content; NULL: 1 everywhere. Owned */
-    WrField *mask;    /* 0..1, visible share; NULL: 1 everywhere. Owned */
-    WrBlend blend;    /* blend mode (blend.h) */
-    float opacity;    /* 0..1 */
-    float radius;     /* of the smooth blends, height units, >= 0 */
-    bool visible;     /* hidden layers are not in the composite, and edits of them are refused */
-    bool locked;      /* edits are refused */
-    bool on_mask;     /* edits change its mask, which then exists */
-    WrFilter filter;  /* op NULL: not a filter */
+    char *name;         /* UTF-8, owned; not necessarily unique */
+    char *line;         /* command line of a generator layer; NULL: a plain layer. Owned */
+    WrHash below;       /* of the composite that the line read; 0: it reads none */
+    uint64_t made;      /* wr_field_key of the heights as the line made them */
+    char *mask_line;    /* terms of a live mask; NULL: a plain mask, or none. Owned */
+    WrHash mask_read;   /* of all that the terms read */
+    uint64_t mask_made; /* wr_field_key of the mask as the terms made it */
+    uint64_t mask_seen; /* identifies the layers below for which it was found up to date; 0: none */
+    WrField *heights;   /* owned; shared tiles */
+    WrField *cover;     /* 0..1, coverage: where the layer has content; NULL: 1 everywhere. Owned */
+    WrField *mask;      /* 0..1, visible share; NULL: 1 everywhere. Owned */
+    WrBlend blend;      /* blend mode (blend.h) */
+    float opacity;      /* 0..1 */
+    float radius;       /* of the smooth blends, height units, >= 0 */
+    bool visible;       /* hidden layers are not in the composite, and edits of them are refused */
+    bool locked;        /* edits are refused */
+    bool on_mask;       /* edits change its mask, which then exists */
+    WrFilter filter;    /* op NULL: not a filter */
 } WrLayer;
 
 typedef struct WrComposite WrComposite; /* private to the module */
@@ -103,6 +107,9 @@ void wr_layer_fini(WrLayer *layer);
 /* Makes a generator layer of it: its present heights are those of the line (copied). NULL: a plain layer. below: as in
    WrLayer */
 void wr_layer_set_line(WrLayer *layer, const char *line, WrHash below);
+/* Makes the layer's mask a live one: its present mask is that of the terms (copied). NULL, or no mask: a plain mask. read:
+   as mask_read in WrLayer */
+void wr_layer_set_mask_line(WrLayer *layer, const char *line, WrHash read);
 /* Target of edits: the active layer itself; or, if they go to its mask, `stand_in`, a plain layer with the
    mask's values as heights, which shares its texels with the mask as long as they are written in place. Every
    edit_begin (a second one has no effect) needs its edit_end before anything else of the document is changed. */
@@ -114,8 +121,9 @@ typedef struct WrStandIn {
 WrLayer *wr_document_edit_begin(WrDocument *document, WrStandIn *stand_in);
 /* Stores the edited mask, clamped to 0..1. No effect without edit_begin. */
 void wr_document_edit_end(WrDocument *document, WrStandIn *stand_in);
-bool wr_document_filters(const WrDocument *document);   /* true if any layer is a filter */
-bool wr_document_generates(const WrDocument *document); /* true if any is a generator layer */
+bool wr_document_filters(const WrDocument *document); /* true if any layer is a filter */
+/* true if any is a generator layer or has a live mask */
+bool wr_document_generates(const WrDocument *document);
 /* True if the layer is shown: visible, and no other layer is solo. */
 bool wr_document_shows(const WrDocument *document, int index);
 

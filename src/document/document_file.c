@@ -89,7 +89,7 @@ void wr_image_rows_out(const WrImage *image, int channels, int y, int rows, floa
    attributes of the document; then for each layer from the bottom "layer:NAME", "cover:N", "mask:N"; "selection"; pictures of
    objects, 3 channels; the mesh, packed as a picture of one channel. Absent tables have no part: cover and mask NULL mean 1. */
 #define FILE_ATTRIBUTES 8
-#define LAYER_ATTRIBUTES 10
+#define LAYER_ATTRIBUTES 12
 #define PARTS_MAX                                                                                  \
     (3 + WR_OBJECT_PICTURES * WR_OBJECTS_MAX +                                                     \
      3 * WR_LAYERS_MAX) /* F, selection, mesh, pictures; heights, cover, mask of a layer */
@@ -299,6 +299,10 @@ static int describe_layer(Saving *to, int index, WrImageAttribute out[LAYER_ATTR
     if (layer->line) {
         out[count++] = (WrImageAttribute){ "wrinkle:line", layer->line };
         out[count++] = (WrImageAttribute){ "wrinkle:below", keep_hash(to, layer->below) };
+    }
+    if (layer->mask_line) {
+        out[count++] = (WrImageAttribute){ "wrinkle:mask-line", layer->mask_line };
+        out[count++] = (WrImageAttribute){ "wrinkle:mask-read", keep_hash(to, layer->mask_read) };
     }
     return count;
 }
@@ -779,14 +783,29 @@ static char *clean_name(const char *name)
     return clean;
 }
 
+/* Reads a hash; *hash is unchanged if there is none. */
+static bool read_hash(Loading *in, int part, const char *name, WrHash *hash, WrError *err)
+{
+    const char *hex = wr_image_file_attribute(in->file, part, name);
+    return !hex || wr_hash_parse(hex, hash) || fail_setting(in, name, hex, err);
+}
+
 /* Reads the line of a generator layer, whose heights are read. */
 static bool read_line(Loading *in, int part, WrLayer *layer, WrError *err)
 {
-    const char *line = wr_image_file_attribute(in->file, part, "wrinkle:line");
-    const char *hex = wr_image_file_attribute(in->file, part, "wrinkle:below");
     WrHash below = { 0, 0 };
-    if (hex && !wr_hash_parse(hex, &below)) return fail_setting(in, "wrinkle:below", hex, err);
-    wr_layer_set_line(layer, line, below);
+    if (!read_hash(in, part, "wrinkle:below", &below, err)) return false;
+    wr_layer_set_line(layer, wr_image_file_attribute(in->file, part, "wrinkle:line"), below);
+    return true;
+}
+
+/* Reads the terms of a live mask, which is read. */
+static bool read_mask_line(Loading *in, int part, WrLayer *layer, WrError *err)
+{
+    WrHash read = { 0, 0 };
+    if (!read_hash(in, part, "wrinkle:mask-read", &read, err)) return false;
+    wr_layer_set_mask_line(layer, wr_image_file_attribute(in->file, part, "wrinkle:mask-line"),
+                           read);
     return true;
 }
 
@@ -807,7 +826,8 @@ static bool read_layer(Loading *in, int index, WrLayer *out, WrError *err)
                 (layer.heights = read_field(in, slot.heights, true, err)) &&
                 read_line(in, slot.heights, &layer, err) &&
                 (!slot.cover || (layer.cover = read_field(in, slot.cover, false, err))) &&
-                (!slot.mask || (layer.mask = read_field(in, slot.mask, false, err)));
+                (!slot.mask || (layer.mask = read_field(in, slot.mask, false, err))) &&
+                read_mask_line(in, slot.heights, &layer, err);
     layer.on_mask = layer.on_mask && layer.mask;
     if (good) *out = layer;
     else wr_layer_fini(&layer);

@@ -13,7 +13,8 @@
    none). Of a layer: wrinkle:layer, wrinkle:blend, wrinkle:opacity, wrinkle:radius, wrinkle:visible and
    wrinkle:locked ("on", "off"); of a filter layer, whose heights are 0, wrinkle:filter, its operation and values
    ("blur sigma=3"); of a generator layer wrinkle:line, its command line, and wrinkle:below, the hash of the
-   composite that the line read.
+   composite that the line read; of a layer with a live mask wrinkle:mask-line, its terms, and wrinkle:mask-read, the hash
+   of all that they read.
 
    A document of one layer that equals F bit for bit, without coverage, mask, selection, pictures or mesh, is a
    file of only that part, with the layer's attributes beside the file's: many programs open no file of several

@@ -467,14 +467,30 @@ static bool read_settings(Loading *in, const WrOraLayer *from, WrLayer *layer, W
     return read_filter(in, from, layer, err);
 }
 
+/* Reads a hash; *hash is unchanged if there is none. */
+static bool read_hash(const Loading *in, const char *name, const char *hex, const WrLayer *layer,
+                      WrHash *hash, WrError *err)
+{
+    return !hex || wr_hash_parse(hex, hash) ||
+           wr_fail(err, "%s: damaged: %s '%.40s' of layer '%.80s'", in->path, name, hex,
+                   layer->name);
+}
+
 /* Reads the line of a generator layer, whose heights are read. */
 static bool read_line(Loading *in, const WrOraLayer *from, WrLayer *layer, WrError *err)
 {
     WrHash below = { 0, 0 };
-    if (from->below && !wr_hash_parse(from->below, &below))
-        return wr_fail(err, "%s: damaged: wrinkle:below '%.40s' of layer '%.80s'", in->path,
-                       from->below, layer->name);
+    if (!read_hash(in, "wrinkle:below", from->below, layer, &below, err)) return false;
     wr_layer_set_line(layer, from->line, below);
+    return true;
+}
+
+/* Reads the terms of a live mask, which is read. */
+static bool read_mask_line(Loading *in, const WrOraLayer *from, WrLayer *layer, WrError *err)
+{
+    WrHash read = { 0, 0 };
+    if (!read_hash(in, "wrinkle:mask-read", from->mask_read, layer, &read, err)) return false;
+    wr_layer_set_mask_line(layer, from->mask_line, read);
     return true;
 }
 
@@ -491,7 +507,8 @@ static bool read_layer(Loading *in, const WrOraLayer *from, int number, WrLayer 
         if (good && (from->cover || from->blend))
             note(in, layer.name, "its float heights are gone; taken from its picture");
     }
-    good = good && (!from->mask || (layer.mask = read_field(in, from->mask, false, err)));
+    good = good && (!from->mask || (layer.mask = read_field(in, from->mask, false, err))) &&
+           read_mask_line(in, from, &layer, err);
     layer.on_mask = from->on_mask && layer.mask;
     if (good) *out = layer;
     else wr_layer_fini(&layer);
@@ -967,6 +984,13 @@ static void add_looks(Saving *to, int index)
 }
 
 /* Converts a layer's settings to attributes; the inverse of read_settings. */
+static void add_hash(WrText *xml, const char *name, WrHash hash)
+{
+    char hex[WR_HASH_DIGITS + 1];
+    wr_hash_print(hash, hex);
+    wr_ora_add_attribute(xml, name, hex);
+}
+
 static bool add_layer(Saving *to, int index, WrError *err)
 {
     const WrLayer *layer = &to->document->layers[index];
@@ -985,10 +1009,12 @@ static bool add_layer(Saving *to, int index, WrError *err)
     wr_ora_add_float(xml, "wrinkle:radius", layer->radius);
     wr_ora_add_filter(xml, &layer->filter);
     if (layer->line) {
-        char hex[WR_HASH_DIGITS + 1];
-        wr_hash_print(layer->below, hex);
         wr_ora_add_attribute(xml, "wrinkle:line", layer->line);
-        wr_ora_add_attribute(xml, "wrinkle:below", hex);
+        add_hash(xml, "wrinkle:below", layer->below);
+    }
+    if (layer->mask_line) {
+        wr_ora_add_attribute(xml, "wrinkle:mask-line", layer->mask_line);
+        add_hash(xml, "wrinkle:mask-read", layer->mask_read);
     }
     bool good =
         add_layer_preview(to, png, index, err) &&

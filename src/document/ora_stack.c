@@ -391,6 +391,8 @@ static void add_layer(Reading *reading, const char **attributes)
                          .filter = wr_strdup(find(attributes, OURS "filter")),
                          .line = wr_strdup(find(attributes, OURS "line")),
                          .below = wr_strdup(find(attributes, OURS "below")),
+                         .mask_line = wr_strdup(find(attributes, OURS "mask-line")),
+                         .mask_read = wr_strdup(find(attributes, OURS "mask-read")),
                          .name_bytes = wr_strdup(find(attributes, OURS "name")),
                          .own_opacity = wr_strdup(find(attributes, OURS "opacity")),
                          .own_visible = wr_strdup(find(attributes, OURS "visible")) };
@@ -512,10 +514,12 @@ void wr_ora_stack_fini(WrOraStack *stack)
 {
     for (int i = 0; i < stack->layers.count; i++) {
         WrOraLayer *layer = &stack->layers.data[i];
-        char *texts[] = { layer->name,       layer->src,         layer->operation,   layer->heights,
-                          layer->cover,      layer->mask,        layer->blend,       layer->radius,
-                          layer->name_bytes, layer->own_opacity, layer->own_visible, layer->filter,
-                          layer->line,       layer->below };
+        char *texts[] = { layer->name,        layer->src,         layer->operation,
+                          layer->heights,     layer->cover,       layer->mask,
+                          layer->blend,       layer->radius,      layer->name_bytes,
+                          layer->own_opacity, layer->own_visible, layer->filter,
+                          layer->line,        layer->below,       layer->mask_line,
+                          layer->mask_read };
         for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) wr_free(texts[k]);
     }
     wr_array_free(&stack->layers);

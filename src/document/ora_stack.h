@@ -26,7 +26,7 @@ typedef struct WrOraLayer {
     bool locked, selected;
     char *operation;                                            /* composite-op */
     char *heights, *cover, *mask, *blend, *radius, *name_bytes; /* our attributes */
-    char *filter, *line, *below;                                /* our attributes */
+    char *filter, *line, *below, *mask_line, *mask_read;        /* our attributes */
     char *own_opacity, *own_visible; /* our attributes, if the standard ones have other values */
     bool on_mask;                    /* our attribute */
 } WrOraLayer;

@@ -73,6 +73,7 @@ static const char *const lines[] = {
     "layer mask 3 from=inverse",
     "layer mask 2 from=height low=0.2",
     "layer mask 2 from=slope low=20",
+    "layer mask 2 live=\"wear; occlusion op=max; direction; mask of=1 invert=on\"",
     "select mask 3 mode=add",
     "transform move=17,9",
     "transform turn=31 scale=0.7,-1.2 layers=all",

@@ -187,6 +187,7 @@ static void memory_stays_within_the_estimate(void **state)
         "layer merge 2",
         "layer flatten",
         "layer mask 2 from=height low=0.2",
+        "layer mask 2 live=\"noise; curvature\"",
         "+layer flatten",
         "copy a.exr",
         "save a.exr",
@@ -287,9 +288,12 @@ static void rises(void *ctx, double fraction)
 static void the_fraction_done_only_rises(void **state)
 {
     (void)state;
-    static const char *const lines[] = { "adjust resize width=300 height=200", "adjust flip-u",
+    static const char *const lines[] = { "adjust resize width=300 height=200",
+                                         "adjust flip-u",
                                          "adjust blur sigma=9 layers=all",
-                                         "transform move=17,9 layers=all", "transform turn=30" };
+                                         "transform move=17,9 layers=all",
+                                         "transform turn=30",
+                                         "layer mask 2 live=\"wear; noise; occlusion\"" };
     WrSession *s = table_of(256, 256);
     must_run(s, "noise perlin");
     must_run(s, "layer add \"second\"");

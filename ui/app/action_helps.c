@@ -118,6 +118,7 @@ const char *const wr_action_helps[] = {
     ROW(mask_black, "A mask to paint windows into: nothing of the layer shows at first"),
     ROW(mask_height, "The layer shows only between two heights, softly at both"),
     ROW(mask_slope, "The layer shows only where it is as steep as you say"),
+    ROW(mask_live, "A mask by curvature, slope, noise and more that follows the layers below"),
     ROW(mask_invert, "Visible parts are hidden, and hidden ones shown"),
     ROW(mask_none, "The whole layer shows again"),
     ROW(mask_edit, "Strokes go to the mask of the active layer in place of its heights"),

@@ -385,6 +385,7 @@ const WrAction wr_actions[] = {
     LAYER(mask_black, "Mask that hides all", wr_act_mask_black, NULL, NULL),
     LAYER(mask_height, "Mask by height...", wr_act_mask_height, NULL, NULL),
     LAYER(mask_slope, "Mask by slope...", wr_act_mask_slope, NULL, NULL),
+    LAYER(mask_live, "Live mask...", wr_act_mask_live, wr_can_mask_live, NULL),
     LAYER(mask_invert, "Invert mask", wr_act_mask_invert, wr_has_mask, NULL),
     LAYER(mask_none, "Remove mask", wr_act_mask_none, wr_has_mask, NULL),
     ROW(mask_edit, "Paint on the mask", wr_act_mask_edit, wr_has_mask, wr_is_mask_edited),

@@ -105,10 +105,12 @@ void wr_act_cut(WrApp *app);
 void wr_act_paste(WrApp *app);
 void wr_act_mask_height(WrApp *app);
 void wr_act_mask_slope(WrApp *app);
+void wr_act_mask_live(WrApp *app);
 void wr_act_mask_invert(WrApp *app);
 void wr_act_mask_edit(WrApp *app);
 void wr_act_mask_alone(WrApp *app);
 void wr_act_select_mask(WrApp *app);
+bool wr_can_mask_live(const WrApp *app); /* there are layers below */
 bool wr_has_mask(const WrApp *app);
 bool wr_is_mask_edited(const WrApp *app);
 bool wr_is_solo(const WrApp *app);

@@ -2,6 +2,7 @@
 #include "ui/app/actions.h"
 #include "ui/canvas/outline.h"
 #include "ui/app/state/background_command.h"
+#include "ui/app/state/dialog.h"
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/session_view.h"
 #include "ui/panels/generate/generate_state.h"
@@ -144,6 +145,18 @@ void wr_act_mask_slope(WrApp *app)
 {
     wr_dialog_select_open(app, WR_OUTLINE_SLOPE);
     app->selecting->to_mask = true;
+}
+
+void wr_act_mask_live(WrApp *app)
+{
+    if (active(app)->mask_line ||
+        wr_app_run_linef(app, "layer mask %d live=curvature", number(app)))
+        wr_dialog_open(app, WR_DIALOG_MASK);
+}
+
+bool wr_can_mask_live(const WrApp *app)
+{
+    return number(app) > 1;
 }
 
 void wr_act_mask_invert(WrApp *app)

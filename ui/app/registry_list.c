@@ -60,6 +60,7 @@ static const WrDialogRow dialogs[] = {
     [WR_ROW(WR_DIALOG_DYNAMICS)] = { wr_dialog_dynamics, true },
     [WR_ROW(WR_DIALOG_REPLACE)] = { wr_dialog_replace, false },
     [WR_ROW(WR_DIALOG_RASTERIZE)] = { wr_dialog_rasterize, false },
+    [WR_ROW(WR_DIALOG_MASK)] = { wr_dialog_mask, true },
     [WR_ROW(WR_DIALOG_TABLET)] = { wr_dialog_tablet, false },
     [WR_ROW(WR_DIALOG_BAKE)] = { wr_dialog_bake, false },
     [WR_ROW(WR_DIALOG_CASES)] = { wr_dialog_cases, false },

@@ -193,7 +193,9 @@ static bool row_mask(WrApp *app, int i, bool active, double *x)
                                              NULL, true, THUMB_UNITS);
     if (wr_gui_image_button("mask", picture, side, side, active && layer->on_mask))
         return choose_part(app, i, true);
-    wr_gui_tip("Its mask: click to paint on it, Alt+click to see it alone");
+    wr_gui_tip(layer->mask_line
+                   ? "Its live mask: Alt+click to see it alone; the Layer menu changes its terms"
+                   : "Its mask: click to paint on it, Alt+click to see it alone");
     *x += side + wr_gui_px(8);
     return false;
 }
@@ -345,6 +347,7 @@ static void menu(WrApp *app)
                                          WR_ACT(mask_black),
                                          WR_ACT(mask_height),
                                          WR_ACT(mask_slope),
+                                         WR_ACT(mask_live),
                                          WR_ACT(mask_invert),
                                          WR_ACT(mask_none),
                                          "-",
@@ -362,13 +365,13 @@ static void menu(WrApp *app)
     wr_gui_popup_end();
 }
 
-/* ---- painting on a generator layer ---- */
+/* ---- painting on a generator layer or a live mask ---- */
 
 bool wr_rasterize_ask(WrApp *app)
 {
     const WrDocument *document = wr_app_document(app);
     const WrLayer *layer = &document->layers[document->active];
-    if (!layer->line || layer->on_mask || layer->locked ||
+    if (!(layer->on_mask ? layer->mask_line : layer->line) || layer->locked ||
         !wr_document_shows(document, document->active))
         return false;
     wr_dialog_open(app, WR_DIALOG_RASTERIZE);
@@ -380,22 +383,27 @@ void wr_dialog_rasterize(WrApp *app)
     const WrDocument *document = wr_app_document(app);
     const WrLayer *layer = &document->layers[document->active];
     char text[WR_LAYER_NAME_MAX + 300];
-    if (!layer->line) {
+    const bool mask = layer->on_mask;
+    if (!(mask ? layer->mask_line : layer->line)) {
         wr_dialog_close(app);
         return;
     }
-    if (!wr_gui_dialog_begin("Rasterize this layer?", 440)) return;
+    if (!wr_gui_dialog_begin(mask ? "Rasterize this mask?" : "Rasterize this layer?", 440)) return;
     snprintf(
         text, sizeof text,
-        wr_words("The heights of %s come from a generator. Rasterized, they can be painted on, "
-                 "but its values can no longer be changed. A mask, or a new layer above, keeps "
-                 "them."),
+        mask ? wr_words("The mask of %s follows the layers below. Rasterized, it can be painted "
+                        "on, but follows them no longer. A painted mask of a layer below, as "
+                        "another term, keeps both.")
+             : wr_words("The heights of %s come from a generator. Rasterized, they can be painted "
+                        "on, but its values can no longer be changed. A mask, or a new layer "
+                        "above, keeps them."),
         layer->name);
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, text);
     wr_gui_space(8);
     const int done = wr_dialog_buttons(app, "Rasterize", true);
     if (done) wr_dialog_close(app);
-    if (done > 0) wr_action_run(app, WR_ACT(layer_rasterize));
+    if (done > 0 && mask) wr_app_run_linef(app, "layer mask %d live=off", document->active + 1);
+    else if (done > 0) wr_action_run(app, WR_ACT(layer_rasterize));
     wr_gui_dialog_end();
 }
 

@@ -52,6 +52,7 @@ void wr_dialog_file(WrApp *app);
 void wr_dialog_preset(WrApp *app); /* name of a preset to save */
 void wr_dialog_select_open(WrApp *app, WrOutlineKind kind);
 void wr_dialog_select(WrApp *app);
+void wr_dialog_mask(WrApp *app);
 void wr_dialog_recover_open(WrApp *app); /* if there are recoverable journals */
 void wr_dialog_recover(WrApp *app);
 void wr_recovery_free(WrRecovery *recovery); /* NULL is allowed */

@@ -112,6 +112,7 @@
     X(mask_black, "")                                                                              \
     X(mask_height, "")                                                                             \
     X(mask_slope, "")                                                                              \
+    X(mask_live, "")                                                                               \
     X(mask_invert, "")                                                                             \
     X(mask_none, "")                                                                               \
     X(mask_edit, "Alt+M")                                                                          \
