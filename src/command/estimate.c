@@ -187,6 +187,8 @@ static const Need needs[] = {
     UNKNOWN("picture", "photo", BY_FILE),
     UNKNOWN("picture", "normals", BY_FILE),
     UNKNOWN("picture", "paste", BY_FILE),
+    UNKNOWN("picture", "svg", BY_FILE),
+    UNKNOWN("picture", "path", BY_AREA),
     UNKNOWN("image", NULL, BY_FILE),
     UNKNOWN("bake", NULL, BY_FILE),
     UNKNOWN("bake-tiles", NULL, BY_FILE),

@@ -131,9 +131,6 @@ static bool make_outline(Lay *lay, int glyph, WrError *err)
                    WR_FONT_FLAT_MAX);
 }
 
-static bool text_shape_add(WrTextShape *shape, const double *xy, int count, const double move[2],
-                           WrError *err);
-
 /* Adds one letter with its pen at (x, y) from the stand, y up along its normal. */
 static bool draw(Lay *lay, int32_t placed, const Stand *stand, double x, double y, WrError *err)
 {
@@ -154,8 +151,8 @@ static bool draw(Lay *lay, int32_t placed, const Stand *stand, double x, double 
     for (int k = 0; k < outline->first.count; k++) {
         int first = outline->first.data[k];
         int end = k + 1 < outline->first.count ? outline->first.data[k + 1] : count;
-        if (!text_shape_add(lay->shape, lay->turned.data + 2 * (ptrdiff_t)first, end - first, move,
-                            err))
+        if (!wr_text_shape_add(lay->shape, lay->turned.data + 2 * (ptrdiff_t)first, end - first,
+                               move, err))
             return false;
     }
     return true;
@@ -456,11 +453,8 @@ static bool is_off(const WrTextShape *shape, const double *xy, int count, const 
            (!shape->wraps_v && (high[1] + move[1] < -1 || low[1] + move[1] > shape->height + 1));
 }
 
-/* Adds a closed polygon: its corners are moved by `move`, which is separate so that a move by whole
- * texels stays exact. xy: [count][2] texels, within 2^20 of 0; move: within 2^30.
- * Errors   out of range, too many pieces, out of memory */
-static bool text_shape_add(WrTextShape *shape, const double *xy, int count, const double move[2],
-                           WrError *err)
+bool wr_text_shape_add(WrTextShape *shape, const double *xy, int count, const double move[2],
+                       WrError *err)
 {
     if (!(fabs(move[0]) <= FAR && fabs(move[1]) <= FAR))
         return wr_fail(err, "a letter stands more than %.0f texels away", FAR);
