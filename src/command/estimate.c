@@ -139,7 +139,7 @@ static double copies_of(const Job *job)
     return across * rows;
 }
 
-/* bytes: per texel covered by a copy, plus 440 for each copy. Copies that are joined exist once more. */
+/* bytes: per texel covered by a copy, plus 440 for each copy. Copies that are joined are drawn twice. */
 static double solid(const Job *job, const Need *need)
 {
     const double copies = copies_of(job), area = shadow(job, leans(job));

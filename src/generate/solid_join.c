@@ -122,7 +122,7 @@ static bool find_groups(Grouping *g, int64_t copies, int *count, WrError *err)
 /* ---- joining ---- */
 
 typedef struct Joined {
-    const WrRelief *groups; /* heights in texels */
+    const WrRelief *groups; /* [count] 1 or 2; heights in texels */
     int count;
     double melt, scale;
 } Joined;
@@ -154,7 +154,7 @@ static void fill_block(const void *ctx, const WrGenerateBlock *b, int worker, fl
 {
     (void)worker;
     const Joined *joined = ctx;
-    const float *z[GROUPS], *c[GROUPS];
+    const float *z[2], *c[2];
     for (int n = 0; n < joined->count; n++) {
         z[n] = wr_field_tile(joined->groups[n].heights, b->i / WR_TILE, b->j / WR_TILE);
         c[n] = wr_field_tile(joined->groups[n].cover, b->i / WR_TILE, b->j / WR_TILE);
@@ -162,7 +162,7 @@ static void fill_block(const void *ctx, const WrGenerateBlock *b, int worker, fl
     for (int y = 0; y < b->count_j; y++)
         for (int x = 0; x < b->count_i; x++) {
             const int k = y * WR_TILE + x;
-            double h[GROUPS], free = 1.0, alone = 0.0;
+            double h[2], free = 1.0, alone = 0.0;
             int there = 0;
             for (int n = 0; n < joined->count; n++) {
                 const double part = value_at(joined->groups[n].cover, c[n], k);
@@ -212,7 +212,7 @@ bool wr_solid_join(const WrZScene *scene, int64_t copies, double melt, const WrG
                    WrRelief *out, WrError *err)
 {
     const int64_t triangles = scene->triangle_count / copies;
-    WrRelief made[GROUPS] = { { NULL, NULL } };
+    WrRelief made[2] = { { NULL, NULL }, { NULL, NULL } }; /* the groups so far, the next one */
     Grouping g = { .size = { wr_field_width(job->like), wr_field_height(job->like) },
                    .wraps = { wr_field_wrap_u(job->like) == WR_WRAP_PERIODIC,
                               wr_field_wrap_v(job->like) == WR_WRAP_PERIODIC } };
@@ -227,16 +227,24 @@ bool wr_solid_join(const WrZScene *scene, int64_t copies, double melt, const WrG
     g.boxes = boxes;
     int count = 0;
     good = good && find_groups(&g, copies, &count, err);
+    /* the formula is associative: each group joins those before it */
     for (int n = 0; good && n < count; n++) {
-        WrProgressPart step;
+        WrProgressPart step, last;
         WrGenerateJob part = *job;
+        WrRelief sum = { NULL, NULL };
         part.progress =
-            wr_progress_part(&step, job->progress, 0.9 * n / count, 0.9 * (n + 1) / count);
-        good = draw_group(scene, copies, g.group, n, &part, &made[n], err);
+            wr_progress_part(&step, job->progress, (double)n / count, (n + 0.8) / count);
+        good = draw_group(scene, copies, g.group, n, &part, &made[1], err);
+        part.progress =
+            wr_progress_part(&last, job->progress, (n + 0.8) / count, (n + 1.0) / count);
+        const Joined joined = { n > 0 ? made : made + 1, n > 0 ? 2 : 1, melt,
+                                n + 1 == count ? scene->scale : 1.0 };
+        good = good && wr_generate_build(&part, fill_block, &joined, true, 0.0, &sum, err);
+        wr_relief_fini(&made[0]);
+        wr_relief_fini(&made[1]);
+        made[0] = sum;
     }
-    const Joined joined = { made, count, melt, scene->scale };
-    good = good && wr_generate_build(job, fill_block, &joined, true, 0.9, out, err);
-    for (int n = 0; n < count; n++) wr_relief_fini(&made[n]);
+    if (good) *out = made[0];
     wr_free(boxes);
     wr_free(g.first);
     wr_free(g.next);
