@@ -8,6 +8,7 @@
 #include "document/document.h"
 #include "export/export.h"
 #include "field/field.h"
+#include "generate/generator.h"
 #include "scene/scene.h"
 
 #include <math.h>
@@ -123,18 +124,39 @@ static bool leans(const Job *job)
            number(job, "tilt", 0) != 0.0 || number(job, "alternate", 0) != 0.0;
 }
 
-/* bytes: per texel covered by a copy, plus 440 for each copy. */
+/* Upper bound of the number of copies of a solid. */
+static double copies_of(const Job *job)
+{
+    const double across = number(job, "across", 0), rows = number(job, "rows", 0);
+    const double step =
+        number(job, "spacing", 0) > 0.0 ? number(job, "spacing", 0) : job->width / across;
+    const WrArg *path = has(job, "points") ? wr_call_arg(job->call, "points") : NULL;
+    if (path && path->rows > 0) { /* a smooth curve is at most half as long again as its chords */
+        double length = 0.0;
+        for (int i = 0; i < path->rows; i++) {
+            const double *a = path->numbers + i * 2, *b = path->numbers + (i + 1) % path->rows * 2;
+            length += hypot((b[0] - a[0]) * job->width, (b[1] - a[1]) * job->height);
+        }
+        return fmax(across, 1.5 * length / step + 2.0) * rows;
+    }
+    if (choice(job, "layout") == WR_LAYOUT_CHANCE) return 1.16 * job->texels / (step * step) + 1.0;
+    if (choice(job, "layout") == WR_LAYOUT_HEXAGON)
+        return across * fmax(rows, 1.16 * job->height / step + 2.0);
+    return across * rows;
+}
+
+/* bytes: per texel covered by a copy, plus 440 for each copy. Copies that are joined are drawn twice. */
 static double solid(const Job *job, const Need *need)
 {
-    const double copies = number(job, "across", 0) * number(job, "rows", 0);
-    const double area = shadow(job, leans(job));
-    return need->bytes * fmin(copies * area, job->texels) + 440.0 * copies;
+    const double copies = copies_of(job), area = shadow(job, leans(job));
+    const double joined = choice(job, "join") > 0.0 ? 2.0 : 1.0;
+    return joined * (need->bytes * fmin(copies * area, job->texels) + 440.0 * copies);
 }
 
 /* 180 bytes for each triangle. The size of a surface determines its subdivision. */
 static double net(const Job *job, const Need *need)
 {
-    const double copies = number(job, "across", 0) * number(job, "rows", 0);
+    const double copies = copies_of(job);
     const double triangles = copies * fmin(600.0 * number(job, "size", 0), 3.3e6);
     return 180.0 * triangles + need->bytes * job->texels;
 }
@@ -193,6 +215,8 @@ static const Need needs[] = {
     UNKNOWN("picture", "photo", BY_FILE),
     UNKNOWN("picture", "normals", BY_FILE),
     UNKNOWN("picture", "paste", BY_FILE),
+    UNKNOWN("picture", "svg", BY_FILE),
+    UNKNOWN("picture", "path", BY_AREA),
     UNKNOWN("image", NULL, BY_FILE),
     UNKNOWN("bake", NULL, BY_FILE),
     UNKNOWN("bake-tiles", NULL, BY_FILE),

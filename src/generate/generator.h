@@ -11,6 +11,8 @@
    - Heights are finite. Lengths are in texels, heights in table units, angles in degrees anticlockwise
      as seen. */
 #pragma once
+#include "base/enum_rows.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -20,7 +22,7 @@ typedef struct WrField WrField;
 typedef struct WrPool WrPool;
 typedef struct WrProgress WrProgress;
 
-#define WR_GENERATOR_PARAMS 28 /* maximum for one generator */
+#define WR_GENERATOR_PARAMS 36 /* maximum for one generator */
 #define WR_GENERATOR_POINTS 4096
 
 typedef enum WrParamKind {
@@ -126,6 +128,11 @@ typedef struct WrFamily {
 extern const WrFamily wr_families[];
 extern const WrGenerator wr_patterns[], wr_noise_rows[], wr_text_rows[], wr_solids[], wr_terrains[],
     wr_picture_rows[], wr_formula_rows[], wr_rim_rows[];
+
+/* Values of the solids' parameter `layout`. */
+#define WR_LAYOUTS(X)                                                                              \
+    X(WR_LAYOUT_GRID, "grid") X(WR_LAYOUT_HEXAGON, "hexagon") X(WR_LAYOUT_CHANCE, "chance")
+enum { WR_LAYOUTS(WR_WORD_ID) };
 
 const WrFamily *wr_family_find(const char *name);
 const WrGenerator *wr_generator_find(const char *family,

@@ -85,4 +85,6 @@ WrImage *wr_picture_read(const WrParams *params, const char *channels, WrImageRe
 WR_PICTURE(photo);   /* picture_generators.c */
 WR_PICTURE(normals); /* normals.c */
 WR_PICTURE(paste);   /* picture_generators.c */
+WR_PICTURE(svg);     /* svg_generators.c */
+WR_PICTURE(path);
 #undef WR_PICTURE

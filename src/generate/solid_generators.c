@@ -1,11 +1,11 @@
-/* Solids drawn into the table: their positions, repetition and height, closed forms, letters, surfaces and meshes. */
+/* Solids drawn into the table: closed forms, letters, surfaces and meshes. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/text.h"
 #include "field/field.h"
 #include "generate/generator.h"
-#include "generate/pattern.h"
+#include "generate/solid_places.h"
 #include "generate/text_relief.h"
 #include "generate/tile_builder.h"
 #include "generate/zbuffer.h"
@@ -45,6 +45,7 @@
 #define WR_S_PLACE                                                                                 \
     WR_P_NUMBER("sink", "Sink", 0, -16384, 16384, 64, "texels",                                    \
                 "depth of its part below the ground, which is hidden"),                            \
+        WR_P_TEXELS("deep", "Deeper", 0, 64, "random further depth, up to that"),                  \
         WR_P_TEXELS("soft", "Soft", 0, 16, "height over the ground up to which its edge fades"),   \
         WR_P_WHOLE("across", "Across", 1, 1, WR_SOLID_MAX, 32, "how many side by side"),           \
         WR_P_WHOLE("rows", "Rows", 1, 1, WR_SOLID_MAX, 32, "how many above one another"),          \
@@ -58,13 +59,26 @@
                     "random turn about the upright, up to that"),                                  \
         WR_P_NUMBER("tilt", "Tilt", 0, 0, 180, 45, "degrees", "random tilt, up to that"),          \
         WR_P_NUMBER("vary", "Vary", 0, 0, 0.9, 0.9, "", "random change of size, as a part of it"), \
-        WR_P_SEED
-#define WR_SOLID_MAX 1024
-
-/* One copy: at x, y (wr_z_place) and z; rotated and scaled about its origin. */
-typedef struct WrSolidPlace {
-    double at[3], turn[9], scale;
-} WrSolidPlace;
+        WR_P_SEED,                                                                                 \
+        WR_P_CHOICE("layout", "Layout", WR_LAYOUT_GRID, layouts,                                   \
+                    "grid: across by rows; hexagon: every other row between those beside it; "     \
+                    "chance: at random, none nearer to another than the spacing"),                 \
+        { .name = "points",                                                                        \
+          .label = "Path",                                                                         \
+          .help = "they stand along a smooth curve through these places, turned with it, at "      \
+                  "equal distances: the spacing, rounded so that it closes",                       \
+          .unit = "",                                                                              \
+          .kind = WR_PARAM_POINTS,                                                                 \
+          .low = -64,                                                                              \
+          .high = 64 },                                                                            \
+        WR_P_SWITCH("closed", "Closed", 0, "the path ends where it begins"),                       \
+        WR_P_CHOICE("join", "Join", JOIN_MAX, joins,                                               \
+                    "where they overlap: the highest, melted into each other, or added up"),       \
+        WR_P_ABOVE("melt", "Melt", 4, 0, 16384, 64, "texels", "of join=smooth: how far they melt")
+static const char *const layouts[] = { WR_LAYOUTS(WR_WORD) NULL };
+#define JOINS(X) X(JOIN_MAX, "max") X(JOIN_SMOOTH, "smooth") X(JOIN_ADD, "add")
+enum { JOINS(WR_WORD_ID) };
+static const char *const joins[] = { JOINS(WR_WORD) NULL };
 
 /* A triangle mesh to be placed. */
 typedef struct WrSolidNet {
@@ -81,118 +95,21 @@ extern const WrParam wr_params_solid_mesh[], wr_params_solid_letters[], wr_param
 
 /* ---- placement ---- */
 
-/* Positions of solids: lattices with random variation, and drawing. */
+/* Drawing of the copies that solid_places.h places. */
 
 #define TRIANGLES_MAX 12000000 /* for all copies */
 
-static void multiply(const double a[9], const double b[9], double out[9])
-{
-    for (int row = 0; row < 3; row++)
-        for (int column = 0; column < 3; column++) {
-            double sum = 0.0;
-            for (int k = 0; k < 3; k++) sum += a[3 * row + k] * b[3 * k + column];
-            out[3 * row + column] = sum;
-        }
-}
-
-/* Reduces to [0, n) if the axis is periodic; by whole periods, so without rounding. */
-static double wrapped(double x, int n, WrWrap wrap)
-{
-    if (wrap == WR_WRAP_CLAMP) return x;
-    x -= n * floor(x / n);
-    return x < n ? x : 0.0;
-}
-
-typedef struct Lattice {
-    const WrParams *params;
-    double x, y; /* of `at` */
-    double step[2];
-    int across, rows;
-    double base[9], other[9]; /* rotation, and that of every other copy */
-    uint32_t seed;
-    WrWrap wrap_u, wrap_v;
-    int width, height;
-} Lattice;
-
-/* -1..1 */
-static double chance(const Lattice *l, int i, int j, int use)
-{
-    return 2.0 * wr_chance(l->seed, i, j, use) - 1.0;
-}
-
-/* The row's rotation is loosened by random angles about all axes, applied after it: R = L B, matrices row by row. */
-static void turn_place(const Lattice *l, int i, int j, double out[9])
-{
-    const double *base = (i + j) % 2 ? l->other : l->base;
-    double turn = wr_param_number(l->params, "turn"), tilt = wr_param_number(l->params, "tilt");
-    double loose[9];
-    const double angles[3] = { tilt * chance(l, i, j, 3), tilt * chance(l, i, j, 4),
-                               turn * chance(l, i, j, 5) };
-    if (turn > 0.0 || tilt > 0.0) {
-        wr_z_turn(angles, loose);
-        multiply(loose, base, out);
-    } else {
-        for (int k = 0; k < 9; k++) out[k] = base[k];
-    }
-}
-
-/* (0, 0) is the first of the lowest row; the lattice's middle is at `at`. wr_z_place rounds to a fixed fraction of a texel,
-   so that a copy that is moved by whole periods of the table has the same bits: the relief tiles exactly. */
-static WrSolidPlace place(const Lattice *l, int i, int j)
-{
-    double jitter = wr_param_number(l->params, "jitter"), dx = i - 0.5 * (l->across - 1);
-    double dy = j - 0.5 * (l->rows - 1);
-    if (j % 2) dx += wr_param_number(l->params, "stagger");
-    WrSolidPlace p = { .scale = 1.0 + wr_param_number(l->params, "vary") * chance(l, i, j, 2) };
-    double x = l->x + wr_z_place(dx * l->step[0] + jitter * chance(l, i, j, 0));
-    double y = l->y - wr_z_place(dy * l->step[1] + jitter * chance(l, i, j, 1));
-    p.at[0] = wrapped(x, l->width, l->wrap_u);
-    p.at[1] = wrapped(y, l->height, l->wrap_v);
-    p.at[2] = -wr_param_number(l->params, "sink") * p.scale;
-    turn_place(l, i, j, p.turn);
-    return p;
-}
-
-/* Positions of all copies. *places is owned by the caller (wr_free), [*count]. */
-static bool solid_places(const WrParams *params, const WrGenerateJob *job, WrSolidPlace **places,
-                         int64_t *count, WrError *err)
-{
-    const double *at = wr_param_value(params, "at")->number;
-    const double *spacing = wr_param_value(params, "spacing")->number;
-    Lattice l = { .params = params,
-                  .across = wr_param_whole(params, "across"),
-                  .rows = wr_param_whole(params, "rows"),
-                  .seed = wr_param_seed(params),
-                  .wrap_u = wr_field_wrap_u(job->like),
-                  .wrap_v = wr_field_wrap_v(job->like),
-                  .width = wr_field_width(job->like),
-                  .height = wr_field_height(job->like) };
-    l.x = wr_z_place(at[0] * l.width - 0.5);
-    l.y = wr_z_place((1.0 - at[1]) * l.height - 0.5);
-    l.step[0] = spacing[0] > 0.0 ? spacing[0] : (double)l.width / l.across;
-    l.step[1] = spacing[1] > 0.0 ? spacing[1] : (double)l.height / l.rows;
-    const double about_x[3] = { wr_param_number(params, "alternate"), 0.0, 0.0 };
-    double alternate[9];
-    wr_z_turn(wr_param_value(params, "rotate")->number, l.base);
-    wr_z_turn(about_x, alternate);
-    multiply(l.base, alternate, l.other);
-    *count = (int64_t)l.across * l.rows;
-    WrSolidPlace *made = wr_try_alloc((size_t)*count, sizeof *made, "places of solids", err);
-    if (!made) return false;
-    for (int j = 0; j < l.rows; j++)
-        for (int i = 0; i < l.across; i++) made[(int64_t)j * l.across + i] = place(&l, i, j);
-    *places = made;
-    return true;
-}
-
-/* Draws the scene with the parameters' height (for `rise` texels of z), cut at the ground. */
-static bool solid_draw(const WrParams *params, WrZScene *scene, double rise,
+/* Draws the scene of `copies` with the parameters' height (for `rise` texels of z), cut at the ground. */
+static bool solid_draw(const WrParams *params, WrZScene *scene, int64_t copies, double rise,
                        const WrGenerateJob *job, WrRelief *out, WrError *err)
 {
+    const int join = wr_param_whole(params, "join");
     scene->floor = 0.0;
     scene->soft = wr_param_number(params, "soft");
     scene->scale = wr_param_number(params, "height") / (rise > 0.0 ? rise : 1.0);
-    return wr_zbuffer_draw(scene, job, out, err);
+    if (join == JOIN_MAX || copies == 1) return wr_zbuffer_draw(scene, job, out, err);
+    return wr_solid_join(scene, copies, join == JOIN_ADD ? 0.0 : wr_param_number(params, "melt"),
+                         job, out, err);
 }
 
 /* Lowest and highest corner of the posed box, relative to its origin. pose[6..8] is the row of the rotation that makes z: the
@@ -217,7 +134,7 @@ static bool draw_copies(const WrParams *params, WrZShape shape, double param,
     WrSolidPlace *places = NULL;
     int64_t count;
     double rise = 1.0;
-    if (!solid_places(params, job, &places, &count, err)) return false;
+    if (!wr_solid_places(params, job, &places, &count, err)) return false;
     WrZSolid *solids =
         wr_try_alloc((size_t)count, sizeof *solids, letters ? "letters" : "solids", err);
     bool good = solids;
@@ -232,7 +149,7 @@ static bool draw_copies(const WrParams *params, WrZShape shape, double param,
         if (i == 0) rise = (letters ? range[1] - range[0] : wr_zsolid_rise(&solids[0])) / p->scale;
     }
     WrZScene scene = { .solids = solids, .solid_count = count };
-    good = good && solid_draw(params, &scene, rise, job, out, err);
+    good = good && solid_draw(params, &scene, count, rise, job, out, err);
     wr_free(solids);
     wr_free(places);
     return good;
@@ -287,7 +204,7 @@ static bool solid_draw_net(const WrParams *params, const WrSolidNet *net, const 
 {
     WrSolidPlace *places = NULL;
     int64_t count;
-    if (!solid_places(params, job, &places, &count, err)) return false;
+    if (!wr_solid_places(params, job, &places, &count, err)) return false;
     bool good = count * net->count <= TRIANGLES_MAX;
     if (!good)
         wr_fail(err, "%lld copies of %lld triangles: must be at most %d triangles together",
@@ -311,7 +228,7 @@ static bool solid_draw_net(const WrParams *params, const WrSolidNet *net, const 
         good = !wr_progress_stopped() || wr_fail(err, "cancelled");
     }
     WrZScene scene = { .triangles = triangles, .triangle_count = count * net->count };
-    good = good && solid_draw(params, &scene, rise, job, out, err);
+    good = good && solid_draw(params, &scene, count, rise, job, out, err);
     wr_free(c.turned);
     wr_free(triangles);
     wr_free(places);

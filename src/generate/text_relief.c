@@ -3,6 +3,7 @@
 #include "base/pool.h"
 #include "base/progress.h"
 #include "field/field.h"
+#include "generate/path.h"
 #include "generate/pattern.h"
 #include "generate/text_relief.h"
 
@@ -12,18 +13,6 @@
 /* ---- layout ---- */
 
 #define TOLERANCE (1.0 / 64.0) /* texels */
-#define SMOOTH 32              /* straight pieces between two points of a path */
-
-/* A position and the direction of writing there; y down. */
-typedef struct Stand {
-    double x, y, cosine, sine; /* sine > 0: uphill as seen */
-} Stand;
-
-/* A path as a polyline. */
-typedef struct Path {
-    WR_ARRAY(double) xy;     /* texels, y down */
-    WR_ARRAY(double) length; /* from the start to each point */
-} Path;
 
 typedef struct Lay {
     const WrTextRequest *wish;
@@ -39,76 +28,6 @@ typedef struct Lay {
     WR_ARRAY(double) turned;
     int64_t points; /* of all outlines */
 } Lay;
-
-/* ---- paths ---- */
-
-static void path_fini(Path *path)
-{
-    wr_array_free(&path->xy);
-    wr_array_free(&path->length);
-}
-
-static void path_add(Path *path, double x, double y)
-{
-    int n = path->length.count;
-    double so_far = 0.0;
-    if (n > 0) {
-        double dx = x - path->xy.data[2 * n - 2], dy = y - path->xy.data[2 * n - 1];
-        if (dx == 0.0 && dy == 0.0) return;
-        so_far = path->length.data[n - 1] + sqrt(dx * dx + dy * dy);
-    }
-    wr_array_push(&path->xy, x);
-    wr_array_push(&path->xy, y);
-    wr_array_push(&path->length, so_far);
-}
-
-/* Catmull-Rom between b and c.
-     p(t) = b + t (c - a) / 2 + t^2 (2 a - 5 b + 4 c - d) / 2 + t^3 (3 b - 3 c + d - a) / 2 */
-static double smooth(double a, double b, double c, double d, double t)
-{
-    return b +
-           0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a)));
-}
-
-/* The curve through the points; it continues straight beyond its ends. */
-static bool path_make(Path *path, const Lay *lay, WrError *err)
-{
-    const double *p = lay->wish->points;
-    int n = lay->wish->point_count;
-    for (int i = 0; i + 1 < n; i++)
-        for (int k = i ? 1 : 0; k <= SMOOTH; k++) {
-            double t = (double)k / SMOOTH, at[2];
-            for (int c = 0; c < 2; c++) {
-                double b0 = p[2 * i + c], c0 = p[2 * i + 2 + c];
-                double a0 = i > 0 ? p[2 * i - 2 + c] : 2.0 * b0 - c0;
-                double d0 = i + 2 < n ? p[2 * i + 4 + c] : 2.0 * c0 - b0;
-                at[c] = smooth(a0, b0, c0, d0, t);
-            }
-            path_add(path, at[0] * lay->width, (1.0 - at[1]) * lay->height);
-        }
-    if (path->length.count >= 2) return true;
-    return wr_fail(err, "points: a path needs two different places");
-}
-
-static double path_length(const Path *path)
-{
-    return path->length.data[path->length.count - 1];
-}
-
-/* Binary search for the straight piece; before the first and after the last one the line continues. */
-static Stand path_at(const Path *path, double s)
-{
-    int low = 0, high = path->length.count - 2;
-    while (low < high) {
-        int middle = (low + high + 1) / 2;
-        if (path->length.data[middle] <= s) low = middle;
-        else high = middle - 1;
-    }
-    const double *a = &path->xy.data[2 * (ptrdiff_t)low];
-    double run = path->length.data[low + 1] - path->length.data[low];
-    double dx = (a[2] - a[0]) / run, dy = (a[3] - a[1]) / run, t = s - path->length.data[low];
-    return (Stand){ a[0] + t * dx, a[1] + t * dy, dx, -dy };
-}
 
 /* ---- letters ---- */
 
@@ -131,11 +50,8 @@ static bool make_outline(Lay *lay, int glyph, WrError *err)
                    WR_FONT_FLAT_MAX);
 }
 
-static bool text_shape_add(WrTextShape *shape, const double *xy, int count, const double move[2],
-                           WrError *err);
-
 /* Adds one letter with its pen at (x, y) from the stand, y up along its normal. */
-static bool draw(Lay *lay, int32_t placed, const Stand *stand, double x, double y, WrError *err)
+static bool draw(Lay *lay, int32_t placed, const WrStand *stand, double x, double y, WrError *err)
 {
     int glyph = lay->text->placed[placed].glyph;
     if (wr_progress_cancelled(lay->job->progress)) return wr_fail(err, "cancelled");
@@ -154,8 +70,8 @@ static bool draw(Lay *lay, int32_t placed, const Stand *stand, double x, double 
     for (int k = 0; k < outline->first.count; k++) {
         int first = outline->first.data[k];
         int end = k + 1 < outline->first.count ? outline->first.data[k + 1] : count;
-        if (!text_shape_add(lay->shape, lay->turned.data + 2 * (ptrdiff_t)first, end - first, move,
-                            err))
+        if (!wr_text_shape_add(lay->shape, lay->turned.data + 2 * (ptrdiff_t)first, end - first,
+                               move, err))
             return false;
     }
     return true;
@@ -188,8 +104,8 @@ static double nearest_copy(const Lay *lay, double x)
 static bool lay_lines(Lay *lay, WrError *err)
 {
     const WrTextRequest *wish = lay->wish;
-    Stand stand = { nearest_copy(lay, wish->at[0] * lay->width),
-                    nearest_copy(lay, (1.0 - wish->at[1]) * lay->height), 1.0, 0.0 };
+    WrStand stand = { nearest_copy(lay, wish->at[0] * lay->width),
+                      nearest_copy(lay, (1.0 - wish->at[1]) * lay->height), 1.0, 0.0 };
     double up = rise(lay);
     wr_sincos_turns(wish->rotate_deg / 360.0, &stand.sine, &stand.cosine);
     for (int32_t i = 0; i < lay->text->placed_count; i++)
@@ -202,26 +118,27 @@ static bool lay_lines(Lay *lay, WrError *err)
 /* Each letter is perpendicular to the path at its middle. */
 static bool lay_path(Lay *lay, WrError *err)
 {
-    Path path = { 0 };
+    WrPath path = { 0 };
     double part = lay->wish->setting.align == WR_FONT_CENTRE  ? 0.5
                   : lay->wish->setting.align == WR_FONT_RIGHT ? 1.0
                                                               : 0.0;
-    bool good = path_make(&path, lay, err);
-    double from = good ? part * path_length(&path) : 0.0, up = rise(lay);
+    bool good = wr_path_make(&path, lay->wish->points, lay->wish->point_count, false, lay->width,
+                             lay->height, err);
+    double from = good ? part * wr_path_length(&path) : 0.0, up = rise(lay);
     for (int32_t i = 0; i < lay->text->placed_count && good; i++) {
         const WrFontPlaced *p = &lay->text->placed[i];
         double scale = scale_of(lay, p), half = 0.5 * p->advance * scale, own = p->dx * scale;
-        Stand stand = path_at(&path, from + lay->place[i][0] - own + half);
+        WrStand stand = wr_path_at(&path, from + lay->place[i][0] - own + half);
         good = draw(lay, i, &stand, own - half, lay->place[i][1] + up, err);
     }
-    path_fini(&path);
+    wr_path_fini(&path);
     return good;
 }
 
 /* ---- around the table ---- */
 
 /* One line, repeated so often that the spacing changes least, and spaced so that it closes. */
-static bool lay_round(Lay *lay, int32_t index, const Stand *stand, double length, double up,
+static bool lay_round(Lay *lay, int32_t index, const WrStand *stand, double length, double up,
                       WrError *err)
 {
     const WrFontText *text = lay->text;
@@ -265,8 +182,8 @@ static bool lay_around(Lay *lay, WrError *err)
         return wr_fail(err, "around: the table must be periodic in %s, and edge=wrap",
                        i != 0.0 && !lay->shape->wraps_u ? "u" : "v");
     double dx = i * lay->width, dy = j * lay->height, length = sqrt(dx * dx + dy * dy);
-    Stand stand = { wish->at[0] * lay->width, (1.0 - wish->at[1]) * lay->height, dx / length,
-                    dy / length };
+    WrStand stand = { wish->at[0] * lay->width, (1.0 - wish->at[1]) * lay->height, dx / length,
+                      dy / length };
     double up = rise(lay);
     for (int32_t line = 0; line < lay->text->line_count; line++)
         if (!lay_round(lay, line, &stand, length, up, err)) return false;
@@ -456,11 +373,8 @@ static bool is_off(const WrTextShape *shape, const double *xy, int count, const 
            (!shape->wraps_v && (high[1] + move[1] < -1 || low[1] + move[1] > shape->height + 1));
 }
 
-/* Adds a closed polygon: its corners are moved by `move`, which is separate so that a move by whole
- * texels stays exact. xy: [count][2] texels, within 2^20 of 0; move: within 2^30.
- * Errors   out of range, too many pieces, out of memory */
-static bool text_shape_add(WrTextShape *shape, const double *xy, int count, const double move[2],
-                           WrError *err)
+bool wr_text_shape_add(WrTextShape *shape, const double *xy, int count, const double move[2],
+                       WrError *err)
 {
     if (!(fabs(move[0]) <= FAR && fabs(move[1]) <= FAR))
         return wr_fail(err, "a letter stands more than %.0f texels away", FAR);

@@ -42,6 +42,11 @@ typedef struct WrTextShape {
 bool wr_text_shape_init(WrTextShape *shape, const WrField *like, bool clip, WrError *err);
 void wr_text_shape_fini(WrTextShape *shape);
 
+/* Adds a closed polygon: its corners are moved by `move`, which is separate so that a move by whole
+ * texels stays exact. xy: [count][2] texels, within 2^20 of 0; move: within 2^30.
+ * Errors   out of range, too many pieces, out of memory */
+bool wr_text_shape_add(WrTextShape *shape, const double *xy, int count, const double move[2],
+                       WrError *err);
 /* Adds a single side from a to b; then the winding numbers at the rows' corners are undefined. Within
  * 2^20 of 0. */
 bool wr_text_shape_side(WrTextShape *shape, const double a[2], const double b[2], WrError *err);
@@ -165,6 +170,6 @@ typedef struct WrTextRequest {
 /* Adds all letters' outlines to a shape. Curves are approximated within 1/64 texel. Dots of bitmap
  * fonts with an integer number of texels each, unrotated, are exactly at texels.
  * Errors   all points are equal; around= on a table that is not periodic, or without direction; those
- *          of text_shape_add; cancelled */
+ *          of wr_text_shape_add; cancelled */
 bool wr_text_lay(const WrTextRequest *wish, const WrFontText *text, const WrGenerateJob *job,
                  WrTextShape *shape, WrError *err);

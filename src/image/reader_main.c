@@ -1,4 +1,4 @@
-/* The reader process: reads untrusted image, mesh and font files, so that a hostile one harms nothing
+/* The reader process: reads untrusted image, mesh, font and SVG files, so that a hostile one harms nothing
    else. Its protocol is reader_protocol.h. It forks for each file, so that no file is affected by
    another one. The process itself reads only the first bytes of a file, to determine whether the image
    library is needed. The library is loaded once: when a file needs it, or when the process is idle. */
@@ -11,6 +11,7 @@
 #include "image/mesh_decode.h"
 #include "image/oiio.h"
 #include "image/reader_protocol.h"
+#include "image/svg.h"
 #include "system/channel.h"
 #include "system/child.h"
 #include "system/fd.h"
@@ -183,6 +184,15 @@ static bool make_font(const char *bytes, size_t length, const char *want, size_t
     return wr_font_shape_text(files, order.file_count, &ask, block, err);
 }
 
+static bool make_svg(const char *bytes, size_t length, const char *want, size_t want_length,
+                     WrText *block, bool *memory, WrError *err)
+{
+    WrSvgRequest ask;
+    if (want_length != sizeof ask) return wr_fail(err, "no request of a drawing");
+    memcpy(&ask, want, sizeof ask);
+    return wr_svg_make(bytes, length, &ask, block, memory, err);
+}
+
 static char *receive_ask(uint32_t *length)
 {
     WrWireHead head;
@@ -206,6 +216,8 @@ static void serve_block(const WrWireOrder *order)
     if (!bytes) memory = true;
     else if (order->task == WR_WIRE_MESH)
         good = wr_mesh_make(bytes, length, order->ending, ask_length > 0, &block, &memory, &err);
+    else if (order->task == WR_WIRE_SVG)
+        good = make_svg(bytes, length, ask, ask_length, &block, &memory, &err);
     else good = make_font(bytes, length, ask, ask_length, &block, &err);
     wr_free(bytes);
     wr_free(ask);
@@ -305,6 +317,7 @@ static void start_child(Process *process, const WrWireOrder *order, int file, in
         warm(process);
     /* loaded in the parent, so that it is loaded only once */
     if (order->task == WR_WIRE_MESH) wr_mesh_load(NULL);
+    if (order->task == WR_WIRE_SVG) wr_svg_load(NULL);
     WrPid pid = wr_child_fork();
     if (pid == 0) {
         if (!wr_process_die_with(self)) wr_process_leave(1);

@@ -16,7 +16,8 @@
 
    Other files than images are read at once; there the program sends first:
 
-     program:  ASK (for a font: WrFontOrder and texts, font_internal.h; for a whole mesh: a byte)
+     program:  ASK (for a font: WrFontOrder and texts, font_internal.h; for a whole mesh: a byte;
+               for a drawing: WrSvgRequest)
                -> child: BLOCK bytes, FAILED, MEMORY
 
    Pixels are transferred in a memory file of the program, sealed against changes of size, which is sent
@@ -28,11 +29,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define WR_WIRE_VERSION 7
+#define WR_WIRE_VERSION 8
 #define WR_WIRE_MAX (512U << 20) /* bytes of a message */
 
 /* Kind of file. */
-typedef enum WrWireTask { WR_WIRE_PICTURE, WR_WIRE_MESH, WR_WIRE_FONT } WrWireTask;
+typedef enum WrWireTask { WR_WIRE_PICTURE, WR_WIRE_MESH, WR_WIRE_FONT, WR_WIRE_SVG } WrWireTask;
 
 typedef struct WrWireOrder {
     uint32_t version; /* WR_WIRE_VERSION */

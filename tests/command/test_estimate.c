@@ -135,6 +135,8 @@ static void memory_stays_within_the_estimate(void **state)
         "text Wrinkles size=300",
         "solid sphere radius=500",
         "solid torus across=64 rows=64",
+        "solid sphere radius=20 layout=chance spacing=30,0 join=smooth",
+        "solid sphere radius=9 points=0.1,0.1;0.9,0.2;0.5,0.9 spacing=3,0",
         "solid surface sphere size=600",
         "terrain fractal",
         "terrain thermal rounds=1",

@@ -63,6 +63,9 @@ static void compare(const char *line)
 
 static void write_files(void)
 {
+    static const char drawing[] =
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"7\">"
+        "<circle cx=\"4.1\" cy=\"3.3\" r=\"2.7\"/></svg>";
     static const char mesh[] = "v 0 0 0\nv 4 0 1\nv 4 4 2\nv 0 4 3\nf 1 2 3 4\n";
     uint8_t texels[768];
     uint16_t codes[64];
@@ -70,6 +73,7 @@ static void write_files(void)
     for (int k = 0; k < 768; k++) texels[k] = (uint8_t)(128 + (k * 37) % 91);
     for (int k = 0; k < 64; k++) codes[k] = (uint16_t)(k * k * 11);
     if (!wr_file_write("a.obj", mesh, strlen(mesh), &err) ||
+        !wr_file_write("a.svg", drawing, strlen(drawing), &err) ||
         !wr_file_write("a.r16", codes, sizeof codes, &err) ||
         !wr_image_write_pixels("a.png", 16, 16, 3, WR_PIXEL_U8, true, texels, &err))
         fail_msg("%s", err.text);
@@ -78,6 +82,7 @@ static void write_files(void)
 static const char *file_for(const WrGenerator *row)
 {
     if (strcmp(row->family, "solid") == 0) return "a.obj";
+    if (strcmp(row->name, "svg") == 0) return "a.svg";
     return strcmp(row->family, "terrain") == 0 ? "a.r16 size=8x8" : "a.png";
 }
 
