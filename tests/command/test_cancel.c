@@ -87,13 +87,17 @@ static const char *line_of(const WrGenerator *g, WrText *line)
 {
     static const struct {
         const char *family, *name, *rest;
-    } given[] = {
-        { "text", NULL, " Wrinkles size=200" },     { "solid", "letters", " ab size=400" },
-        { "solid", "surface", " sphere size=300" }, { "formula", "fourier", " terms=3,2,0.5" },
-        { "formula", "poly", " c=1,1,0.5" },        { "terrain", "elevation", " big.exr" },
-        { "picture", "photo", " big.exr" },         { "picture", "paste", " big.exr" },
-        { "picture", "normals", " big.png" },       { "solid", "mesh", NULL }
-    };
+    } given[] = { { "text", NULL, " Wrinkles size=200" },
+                  { "solid", "letters", " ab size=400" },
+                  { "solid", "surface", " sphere size=300" },
+                  { "formula", "fourier", " terms=3,2,0.5" },
+                  { "formula", "poly", " c=1,1,0.5" },
+                  { "terrain", "elevation", " big.exr" },
+                  { "picture", "photo", " big.exr" },
+                  { "picture", "paste", " big.exr" },
+                  { "picture", "normals", " big.png" },
+                  { "picture", "svg", NULL }, /* drawn as path */
+                  { "solid", "mesh", NULL } };
     wr_text_clear(line);
     wr_text_addf(line, "%s%s%s", g->family, g->name ? " " : "", g->name ? g->name : "");
     for (size_t i = 0; i < sizeof given / sizeof *given; i++) {
