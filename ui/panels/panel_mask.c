@@ -98,6 +98,15 @@ static void words_of_kind(const WrApp *app, const char *kind, WrText *words)
 
 /* ---- rows ---- */
 
+/* A number of the term; `otherwise` if it has none of that name. */
+static double number_of(const WrCall *term, const char *name, double otherwise)
+{
+    for (int i = 0; i < term->count; i++)
+        if (strcmp(term->specs[i].name, name) == 0 && term->args[i].numbers)
+            return term->args[i].numbers[0];
+    return otherwise;
+}
+
 static bool number_row(WrApp *app, const WrMaskTerms *terms, int index, int arg)
 {
     const WrCall *term = terms->calls[index];
@@ -113,6 +122,10 @@ static bool number_row(WrApp *app, const WrMaskTerms *terms, int index, int arg)
                         .reset = spec->fallback ? *spec->fallback : 0.0,
                         .decimals = spec->whole ? 0 : -1,
                         .unit = spec->unit };
+    /* the ends of a range do not cross */
+    if (strcmp(spec->name, "low") == 0)
+        number.hard_high = number_of(term, "high", number.hard_high);
+    if (strcmp(spec->name, "high") == 0) number.hard_low = number_of(term, "low", number.hard_low);
     for (int i = 0; strcmp(spec->name, "soft") == 0 && i < term->count; i++)
         if (strcmp(term->specs[i].name, "high") == 0 && term->specs[i].high < 1000.0)
             number.high = term->specs[i].high; /* it fades in the units of the range */
