@@ -613,7 +613,7 @@ const WrRayTree *wr_session_mesh_tree(const WrSession *session, const WrTriangle
 /* `project` has none. */
 static void take_mirrors(const WrSession *session, const WrCall *call, WrBrushGround *ground)
 {
-    if (!wr_call_given(call, "mirror_axes")) return;
+    if (!wr_call_gives(call, "mirror_axes")) return;
     ground->mirrors = (unsigned)wr_call_choice(call, "mirror_axes");
     ground->mirror_at = wr_mesh_mirrors_at(session->state.document->scene->triangles);
     if (!wr_call_given(call, "mirror_at")) return;

@@ -1050,7 +1050,10 @@ static void masked_relief_ends_at_its_border(void **state)
             const bool hard = k == 0 || k == 2;
             if (hard && fmin(weight[0], fmin(b, c)) < 0.1) continue;
             const double away = distance(&body.mesh, v3_mad(place, v3_unit(n, n), f));
-            if (away > (hard && count == 0 ? 1e-6 : e * 1.02))
+            /* the bound is measured at the mask's texels; where it is cut off at 0 or 1 between two of them, the
+               relief has a kink that is not measured */
+            const double bound = k == 5 ? 1.6 * e : 1.02 * e;
+            if (away > (hard && count == 0 ? 1e-6 : bound))
                 fail_msg("case %d: %g mm, error=%g, %d terms", k, away, e, count);
             inside += count > 0, outside += count == 0;
         }

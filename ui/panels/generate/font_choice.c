@@ -357,7 +357,8 @@ static int rows(const WrApp *app, WrFontChoice *choice, int param)
     }
     choice->jump = false;
     if (!choice->listed)
-        wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, "Looking for the fonts that are installed...");
+        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
+                            "Looking for the fonts that are installed...");
     else if (choice->err.text[0])
         wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_BAD, wr_error_message(&choice->err));
     else if (choice->shown.count == 0)
