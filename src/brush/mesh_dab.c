@@ -308,8 +308,8 @@ static void target_grid(const WrStrokeResolver *maker, Grid *grid)
     wr_field_free(field);
 }
 
-/* Targets from the surface around, where the table has a seam. What the grid does not resolve is kept: of the largest height
-   around no texel is above it, and so on. */
+/* Blend targets from a grid on the surface, for dabs that reach over a seam of the table. The grid is coarser than the
+   texels: so a largest height is never below the texel's own, a smallest one never above it. */
 static void set_targets(WrDraw *draw, const WrDabShape *shape, const WrMeshTexel *texels, int count,
                         int half)
 {

@@ -60,8 +60,9 @@ bool wr_call_join(const WrCall *call, const WrRelief *relief, const WrField *sel
 bool wr_call_lay(const WrCall *call, const WrRelief *relief, WrLayer *layer, WrPool *pool,
                  const WrProgress *progress, WrError *err);
 
-/* Copy blend= and radius= of a line to its generator layer. all: defaults too, as for a new layer. */
-void wr_call_take_blend(const WrCall *call, bool all, WrLayer *layer);
+/* Give a new generator layer its line's blend mode and radius, and the selection (0..1; NULL: none) as its mask unless the
+ * family works beyond it. */
+void wr_call_begin_layer(const WrCall *call, const WrField *selection, WrLayer *layer);
 
 /* Run the line's generator. Reads its files, and sets or checks their checksums in the call. job: with like, selection,
  * mask and progress; the rest is set. The caller owns *out. */

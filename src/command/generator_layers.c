@@ -43,7 +43,8 @@ static const char *own_name(const WrCall *call, const char *plain)
     return generator ? wr_generator_argument(generator, plain) : plain;
 }
 
-void wr_call_take_blend(const WrCall *call, bool all, WrLayer *layer)
+/* Copy blend= and radius= of the line to the layer. all: defaults too, as for a new layer. */
+static void take_blend(const WrCall *call, bool all, WrLayer *layer)
 {
     const char *name = own_name(call, "blend");
     const int blend = blend_of(call, name);
@@ -53,6 +54,13 @@ void wr_call_take_blend(const WrCall *call, bool all, WrLayer *layer)
     if (!wr_call_generator(call)) return;
     name = own_name(call, "radius");
     if (all || wr_call_given(call, name)) layer->radius = (float)wr_call_number(call, name);
+}
+
+void wr_call_begin_layer(const WrCall *call, const WrField *selection, WrLayer *layer)
+{
+    const WrFamily *family = wr_family_find(call->command->name);
+    if (selection && !(family && family->beyond)) layer->mask = wr_field_share(selection);
+    take_blend(call, true, layer);
 }
 
 /* File names become absolute: the line is run again later, from any folder. */
@@ -155,15 +163,11 @@ bool wr_session_add_generator_layer(WrSession *session, WrCall *outer, int index
 {
     WrDocument *document = session->state.document;
     WrCall *call = wr_call_inner(outer);
+    wr_call_begin_layer(call, document->selection, &layer);
     wr_document_insert(document, index, layer);
-    WrLayer *place = &document->layers[index];
     bool good = wr_session_take_tiles(session, call, err);
     if (good) {
         name_files(call, session);
-        const WrFamily *family = wr_family_find(call->command->name);
-        if (document->selection && !(family && family->beyond))
-            place->mask = wr_field_share(document->selection);
-        wr_call_take_blend(call, true, place);
         good = generate(session, index, call, outer, err);
     }
     wr_call_free(call);
@@ -207,7 +211,7 @@ bool wr_session_change_generator_layer(WrSession *session, WrCall *outer, int in
         (!change || wr_call_change(call, change, err)) && wr_session_take_tiles(session, call, err);
     if (good) {
         name_files(call, session);
-        wr_call_take_blend(call, false, layer);
+        take_blend(call, false, layer);
         good = generate(session, index, call, replaces ? outer : NULL, err);
     }
     wr_call_free(call);

@@ -503,7 +503,7 @@ static WrField *make_mask(MaskJob *job, const WrMaskTerms *terms, WrError *err)
     return NULL;
 }
 
-/* Tiles with equal bits are shared with the mask before, so that composites and the history see what changed. */
+/* Tiles with equal bits are shared with the mask before, so that composites and the history handle only the tiles that differ. */
 static void share_equal(WrField *mask, const WrField *before)
 {
     if (!before || !wr_field_alike(mask, before)) return;

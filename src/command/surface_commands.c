@@ -124,8 +124,9 @@ static bool hide_layer(WrSession *session, int index, const WrScene *scene, cons
 {
     WrLayer *layer = &session->state.document->layers[index];
     if (scene->layer && strcmp(scene->layer, layer->name) == 0)
-        return wr_fail(err, is_mask ? "the object wears that layer: its mask must be another"
-                                    : "the object wears that layer: its form must be another");
+        return wr_fail(err, is_mask
+                                ? "that layer is the object's table: choose another as its mask"
+                                : "that layer is the object's table: choose another as its form");
     if (before && strcmp(before, layer->name) == 0) return true;
     if (!layer->visible) return true;
     layer->visible = false;
@@ -364,9 +365,9 @@ WrTriangles *wr_session_read_mesh(WrSession *session, const char *path, const do
 
 /* ---- notes ---- */
 
-static void add_count(WrText *text, int32_t count, const char *what)
+static void add_count(WrText *text, int32_t count, const char *label)
 {
-    if (count > 0) wr_text_addf(text, "; %s: %d", what, (int)count);
+    if (count > 0) wr_text_addf(text, "; %s: %d", label, (int)count);
 }
 
 static void add_parts(WrText *text, const WrTriangles *mesh)

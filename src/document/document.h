@@ -24,7 +24,7 @@ typedef struct WrScene WrScene;
 typedef struct WrLayer {
     char *name;         /* UTF-8, owned; not necessarily unique */
     char *line;         /* command line of a generator layer; NULL: a plain layer. Owned */
-    WrHash below;       /* of the composite that the line read; 0: it reads none */
+    WrHash below;       /* hash of the composite that the line read; 0: it reads none */
     uint64_t made;      /* wr_field_key of the heights as the line made them */
     char *mask_line;    /* terms of a live mask; NULL: a plain mask, or none. Owned */
     WrHash mask_read;   /* of all that the terms read */

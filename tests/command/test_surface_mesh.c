@@ -956,7 +956,7 @@ static void masks_of_layers_are_refused(void **state)
     must_fail(s, "surface mesh mask=there", "there");
     must_run(s, "object set layer=where");
     must_fail(s, "surface mesh mask=where",
-              "the object wears that layer: its mask must be another");
+              "that layer is the object's table: choose another as its mask");
     assert_true(wr_session_document(s)->layers[1].visible);
     wr_session_free(s);
     wr_text_fini(&notes);

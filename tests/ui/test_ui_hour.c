@@ -250,7 +250,8 @@ static void an_hour_takes_no_more_memory_than_undo_may(void **state)
     static Hour hour;
     const char *said = getenv("WR_HOUR"), *tell = getenv("WR_HOUR_TELL");
     const int seconds = said ? atoi(said) : 3600;
-    double opened, told, half = 0, most = 0, held[2] = { HUGE_VAL, HUGE_VAL };
+    double opened, told, half = 0, most = 0;
+    double least_held[2] = { HUGE_VAL, HUGE_VAL }; /* of each half, without undo; bytes */
     begin_hour(&hour);
     opened = told = resident();
     for (int i = 0; i < seconds; i++) {
@@ -258,7 +259,7 @@ static void an_hour_takes_no_more_memory_than_undo_may(void **state)
         const double now = resident();
         if (now > most) most = now;
         if (2 * i < seconds) half = most;
-        double *least = &held[2 * i >= seconds];
+        double *least = &least_held[2 * i >= seconds];
         const size_t undo = wr_session_history_bytes(hour.bench.session);
         if (4 * i >= seconds) *least = fmin(*least, (double)wr_memory_bytes() - (double)undo);
         if (tell && now > told + 8e6) {
@@ -279,11 +280,11 @@ static void an_hour_takes_no_more_memory_than_undo_may(void **state)
            "%.1f MB in the first half, %.1f MB in all; held besides undo: %.1f and %.1f MB\n",
            (long long)hour.strokes, (long long)hour.motions, (long long)hour.lines,
            (long long)hour.refused, opened / 1048576.0, half / 1048576.0, most / 1048576.0,
-           held[0] / 1048576.0, held[1] / 1048576.0);
+           least_held[0] / 1048576.0, least_held[1] / 1048576.0);
     assert_true(hour.lines == 0 || hour.refused < hour.lines / 2);
     if (most > opened + BUDGET + CONSTANT) fail_msg("%.1f MB resident", most / 1048576.0);
-    if (held[1] > held[0] + HELD_SLACK)
-        fail_msg("%.1f MB more are held besides undo", (held[1] - held[0]) / 1048576.0);
+    if (least_held[1] > least_held[0] + HELD_SLACK)
+        fail_msg("%.1f MB more are held besides undo", (least_held[1] - least_held[0]) / 1048576.0);
     if (seconds >= 3600 && most > half + SLACK)
         fail_msg("the second half took %.1f MB more", (most - half) / 1048576.0);
     compare(&hour);

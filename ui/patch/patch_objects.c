@@ -66,7 +66,7 @@ void wr_patch_prepare_mesh(WrApp *app)
     if (!p->on || wr_strokes_under_way(app) || p->tried == revision ||
         !wr_session_mesh_needs_preparing(app->session))
         return;
-    p->tried = revision; /* what fails now is reported by the stroke */
+    p->tried = revision; /* once for each revision; the stroke reports a failure */
     p->preparing = true;
     wr_background_upkeep_start(app, "Preparing the mesh", prepare, NULL);
 }

@@ -134,10 +134,8 @@ static bool into_active(WrDocument *document, const WrCall *call, WrGenerateJob 
 /* Above the active layer, with the selection as its mask. */
 static void add_layer(WrDocument *document, const WrCall *call)
 {
-    const WrFamily *family = wr_family_find(call->command->name);
     WrLayer layer = wr_layer_make("", document->layers[0].heights);
-    if (document->selection && !family->beyond) layer.mask = wr_field_share(document->selection);
-    wr_call_take_blend(call, true, &layer);
+    wr_call_begin_layer(call, document->selection, &layer);
     wr_document_insert(document, document->active + 1, layer);
     document->active++;
 }

@@ -51,7 +51,8 @@ bool wr_strokes_begin(WrApp *app, const WrBrush *brush, const WrPointer *at);
 /* Begin a stroke on the active object's mesh, painting what faces the eye; NULL: all faces. */
 bool wr_strokes_begin_on_mesh(WrApp *app, const WrBrush *brush, const WrPointer *at,
                               const WrVec3 *eye);
-/* Append what all strokes on a mesh have: the eye, or NULL, and the mirrors that are on. */
+/* Append the arguments common to all strokes on a mesh: the place of the eye (NULL: none), in the mesh's units, and the
+   mirror axes that are on. */
 void wr_strokes_mesh_line(const WrApp *app, const WrVec3 *eye, WrText *line);
 /* Add a sample at (u, v) of the table, unwrapped, with the pointer's pressure, tilt and time. */
 void wr_strokes_sample(WrApp *app, const WrPointer *at, double u, double v);
