@@ -583,7 +583,7 @@ void wr_panel_generate(WrApp *app, SDL_Rect room)
 {
     WrGenerateState *hand = app->generate;
     SDL_Rect top = cut(&room, wr_gui_px(82), true);
-    SDL_Rect low = cut(&room, wr_gui_px(74), false);
+    SDL_Rect low = cut(&room, wr_gui_px(94), false);
     if (!hand->generator) wr_generate_take(app, wr_generate_last(app));
     wr_generate_blame(hand);
     said(app, &room);
