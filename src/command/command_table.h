@@ -84,6 +84,7 @@ typedef struct WrArgSpec {
     bool (*check)(const void *ctx, const char *name, const char *value, WrError *err);
     const void *check_ctx;
     bool may_be_empty; /* texts: "" is allowed */
+    bool several;      /* layers: a list of them, separated by commas */
     const char *unit;  /* "texels", "degrees"; NULL: none */
     const char *help;  /* a few words; for a text also its allowed content */
 } WrArgSpec;

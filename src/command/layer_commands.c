@@ -232,14 +232,28 @@ static bool find(const WrSession *session, const WrCall *call, const char *name,
     return !arg->given || wr_session_find_layer(session, arg->text, index, err);
 }
 
-static bool find_unlocked(const WrSession *session, const WrCall *call, int *index, WrError *err)
+/* Layers of argument N, the lowest first; the active one if N is optional and missing. */
+static bool find_all(const WrSession *session, const WrCall *call, WrLayerList *layers,
+                     WrError *err)
 {
-    return find(session, call, "N", index, err) && wr_session_check_unlocked(session, *index, err);
+    const WrArg *arg = wr_call_arg(call, "N");
+    if (arg->given) return wr_session_find_layers(session, arg->text, layers, err);
+    *layers = (WrLayerList){ .index = { session->state.document->active }, .count = 1 };
+    return true;
 }
 
-static bool check_room(const WrDocument *document, WrError *err)
+static bool find_unlocked(const WrSession *session, const WrCall *call, WrLayerList *layers,
+                          WrError *err)
 {
-    if (document->layer_count < WR_LAYERS_MAX) return true;
+    if (!find_all(session, call, layers, err)) return false;
+    for (int i = 0; i < layers->count; i++)
+        if (!wr_session_check_unlocked(session, layers->index[i], err)) return false;
+    return true;
+}
+
+static bool check_room(const WrDocument *document, int more, WrError *err)
+{
+    if (document->layer_count + more <= WR_LAYERS_MAX) return true;
     return wr_fail(err, "a document has up to %d layers", WR_LAYERS_MAX);
 }
 
@@ -278,7 +292,7 @@ static bool layer_add(WrSession *session, WrCall *call, WrError *err)
     const char *name = wr_call_arg(call, "NAME")->text;
     int below;
     WrText made = { 0 };
-    if (!check_room(document, err) || !find(session, call, "above", &below, err)) return false;
+    if (!check_room(document, 1, err) || !find(session, call, "above", &below, err)) return false;
     free_name(document, &made);
     WrLayer layer = wr_layer_make(name ? name : wr_text_get(&made), document->layers[0].heights);
     wr_text_fini(&made);
@@ -292,11 +306,12 @@ static bool layer_add(WrSession *session, WrCall *call, WrError *err)
 
 static bool layer_delete(WrSession *session, WrCall *call, WrError *err)
 {
-    int index;
-    if (!find_unlocked(session, call, &index, err)) return false;
-    if (session->state.document->layer_count == 1)
+    WrLayerList layers;
+    if (!find_unlocked(session, call, &layers, err)) return false;
+    if (session->state.document->layer_count == layers.count)
         return wr_fail(err, "the last layer stays: a document has at least one");
-    wr_document_remove(session->state.document, index);
+    for (int i = layers.count - 1; i >= 0; i--)
+        wr_document_remove(session->state.document, layers.index[i]);
     return true;
 }
 
@@ -315,17 +330,26 @@ static char *copy_name(const char *name)
     return text.data;
 }
 
+/* The copies go above the highest of the layers, in their order; the active layer's copy, else the highest, becomes
+   active. */
 static bool layer_duplicate(WrSession *session, WrCall *call, WrError *err)
 {
     WrDocument *document = session->state.document;
-    int index;
-    if (!check_room(document, err) || !find(session, call, "N", &index, err)) return false;
-    WrLayer layer = wr_layer_share(&document->layers[index]);
-    wr_free(layer.name);
-    layer.name = copy_name(document->layers[index].name);
-    layer.locked = false;
-    wr_document_insert(document, index + 1, layer);
-    document->active = index + 1;
+    WrLayerList layers;
+    if (!find_all(session, call, &layers, err) || !check_room(document, layers.count, err))
+        return false;
+    const int top = layers.index[layers.count - 1];
+    int active = top + layers.count;
+    for (int i = 0; i < layers.count; i++) {
+        const WrLayer *from = &document->layers[layers.index[i]];
+        if (layers.index[i] == document->active) active = top + 1 + i;
+        WrLayer layer = wr_layer_share(from);
+        wr_free(layer.name);
+        layer.name = copy_name(from->name);
+        layer.locked = false;
+        wr_document_insert(document, top + 1 + i, layer);
+    }
+    document->active = active;
     return true;
 }
 
@@ -341,15 +365,39 @@ static bool check_visible(const WrSession *session, int index, WrError *err)
     return false;
 }
 
+/* True if the layers are neighbours. */
+static bool check_neighbours(const WrLayerList *layers, WrError *err)
+{
+    for (int i = 1; i < layers->count; i++)
+        if (layers->index[i] != layers->index[i - 1] + 1)
+            return wr_fail(err,
+                           "layers %d and %d are not neighbours: move them together, or merge the "
+                           "layers between too",
+                           layers->index[i - 1] + 1, layers->index[i] + 1);
+    return true;
+}
+
+/* Joins one layer with the one below, or several neighbours with each other, from the bottom: onto layer 1 that is
+   exact. */
 static bool layer_merge(WrSession *session, WrCall *call, WrError *err)
 {
-    int index;
-    if (!find_unlocked(session, call, &index, err)) return false;
-    if (index == 0) return wr_fail(err, "layer 1 has none below that it could be merged into");
-    if (!wr_session_check_unlocked(session, index - 1, err) ||
-        !check_visible(session, index, err) || !check_visible(session, index - 1, err))
+    WrLayerList layers;
+    if (!find_unlocked(session, call, &layers, err) || !check_neighbours(&layers, err))
         return false;
-    wr_document_merge(session->state.document, index, session->options.pool);
+    int low = layers.index[0];
+    const int high = layers.index[layers.count - 1];
+    if (high == 0) return wr_fail(err, "layer 1 has none below that it could be merged into");
+    if (low == high) low--;
+    if (!wr_session_check_unlocked(session, low, err)) return false;
+    for (int i = high; i >= low; i--)
+        if (!check_visible(session, i, err)) return false;
+    for (int i = low; i < high && !wr_progress_stopped(); i++) {
+        WrProgressPart part;
+        const WrProgress *whole = wr_progress_enter(&part, (double)(i - low) / (high - low),
+                                                    (double)(i - low + 1) / (high - low));
+        wr_document_merge(session->state.document, low + 1, session->options.pool);
+        wr_progress_set(whole);
+    }
     return true;
 }
 
@@ -386,12 +434,15 @@ static bool layer_use(WrSession *session, WrCall *call, WrError *err)
 static bool layer_move(WrSession *session, WrCall *call, WrError *err)
 {
     WrDocument *document = session->state.document;
-    int from;
+    WrLayerList layers;
     double to = wr_call_number(call, "to");
-    if (!find(session, call, "N", &from, err)) return false;
-    if (to > document->layer_count)
-        return wr_fail(err, "to=%g: must be 1..%d", to, document->layer_count);
-    wr_document_move(document, from, (int)to - 1);
+    if (!find_all(session, call, &layers, err)) return false;
+    const int most = document->layer_count - layers.count;
+    if (to > most + 1) return wr_fail(err, "to=%g: must be 1..%d", to, most + 1);
+    /* to the top, in their order; then down to their places */
+    for (int i = 0; i < layers.count; i++)
+        wr_document_move(document, layers.index[i] - i, document->layer_count - 1);
+    for (int i = 0; i < layers.count; i++) wr_document_move(document, most + i, (int)to - 1 + i);
     return true;
 }
 
@@ -410,15 +461,8 @@ static bool layer_rename(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
-static bool layer_set(WrSession *session, WrCall *call, WrError *err)
+static bool set_one(WrSession *session, WrCall *call, int index, WrError *err)
 {
-    int index;
-    bool any = false;
-    for (int i = 0; i < call->count; i++) any |= call->args[i].given && !call->specs[i].positional;
-    if (!any)
-        return wr_fail(err, "nothing to set: give blend=, opacity=, radius=, visible= or lock=, or "
-                            "of a generator layer change= or from=");
-    if (!find(session, call, "N", &index, err)) return false;
     const bool generates = wr_call_given(call, "change") || wr_call_given(call, "from");
     if (generates && (!wr_session_check_unlocked(session, index, err) ||
                       !wr_session_change_generator_layer(session, call, index,
@@ -431,16 +475,45 @@ static bool layer_set(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
-static bool layer_rasterize(WrSession *session, WrCall *call, WrError *err)
+static bool layer_set(WrSession *session, WrCall *call, WrError *err)
 {
-    int index;
-    if (!find_unlocked(session, call, &index, err)) return false;
+    WrLayerList layers;
+    bool any = false;
+    for (int i = 0; i < call->count; i++) any |= call->args[i].given && !call->specs[i].positional;
+    if (!any)
+        return wr_fail(err, "nothing to set: give blend=, opacity=, radius=, visible= or lock=, or "
+                            "of a generator layer change= or from=");
+    if (!find_all(session, call, &layers, err)) return false;
+    for (int i = 0; i < layers.count; i++)
+        if (!set_one(session, call, layers.index[i], err)) return false;
+    return true;
+}
+
+static bool rasterize_one(WrSession *session, WrCall *call, int index, WrError *err)
+{
+    (void)call;
     WrLayer *layer = &session->state.document->layers[index];
     if (!layer->line)
         return wr_fail(err, "layer %d is no generator layer: there is nothing to rasterize",
                        index + 1);
     wr_layer_set_line(layer, NULL, (WrHash){ 0, 0 });
     return true;
+}
+
+/* Run `one` for each layer of argument N, which must be unlocked. */
+static bool each_unlocked(WrSession *session, WrCall *call,
+                          bool (*one)(WrSession *, WrCall *, int, WrError *), WrError *err)
+{
+    WrLayerList layers;
+    if (!find_unlocked(session, call, &layers, err)) return false;
+    for (int i = 0; i < layers.count; i++)
+        if (!one(session, call, layers.index[i], err)) return false;
+    return true;
+}
+
+static bool layer_rasterize(WrSession *session, WrCall *call, WrError *err)
+{
+    return each_unlocked(session, call, rasterize_one, err);
 }
 
 static bool layer_solo(WrSession *session, WrCall *call, WrError *err)
@@ -462,12 +535,10 @@ static WrField *uniform(const WrLayer *layer, float level)
                         wr_field_wrap_v(f), level, NULL);
 }
 
-static bool layer_clear(WrSession *session, WrCall *call, WrError *err)
+static bool clear_one(WrSession *session, WrCall *call, int index, WrError *err)
 {
-    WrDocument *document = session->state.document;
-    int index;
-    if (!find_unlocked(session, call, &index, err)) return false;
-    WrLayer *layer = &document->layers[index];
+    (void)call;
+    WrLayer *layer = &session->state.document->layers[index];
     if (layer->filter.op)
         return wr_fail(err, "layer %d is a filter, without heights that could be cleared",
                        index + 1);
@@ -476,11 +547,16 @@ static bool layer_clear(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
+static bool layer_clear(WrSession *session, WrCall *call, WrError *err)
+{
+    return each_unlocked(session, call, clear_one, err);
+}
+
 static bool layer_paste(WrSession *session, WrCall *call, WrError *err)
 {
     WrDocument *document = session->state.document;
     WrText name = { 0 };
-    if (!check_room(document, err)) return false;
+    if (!check_room(document, 1, err)) return false;
     free_name(document, &name);
     const WrLayer layer = wr_layer_make(wr_text_get(&name), document->layers[0].heights);
     wr_text_fini(&name);
@@ -490,7 +566,9 @@ static bool layer_paste(WrSession *session, WrCall *call, WrError *err)
 static bool layer_mask(WrSession *session, WrCall *call, WrError *err)
 {
     int index;
-    return find_unlocked(session, call, &index, err) && layer_mask_make(session, call, index, err);
+    return find(session, call, "N", &index, err) &&
+           wr_session_check_unlocked(session, index, err) &&
+           layer_mask_make(session, call, index, err);
 }
 
 enum {
@@ -547,6 +625,11 @@ static const char *const layer_parts[] = { "heights", "mask", NULL };
         PLACE("N"), .type = WR_ARG_LAYER, .help = "the layer"                                      \
     }
 
+#define LAYERS_N                                                                                   \
+    {                                                                                              \
+        PLACE("N"), .type = WR_ARG_LAYER, .several = true, .help = "the layer, or several"         \
+    }
+
 #define LAYER_FROM(help_)                                                                          \
     {                                                                                              \
         .name = "from", .type = WR_ARG_TEXT, .shape = "\"COMMAND ...\"",                           \
@@ -584,7 +667,7 @@ static const WrForm layer_forms[] = {
                                   { .name = "above",
                                     .type = WR_ARG_LAYER,
                                     .help = "where it goes; left out, above the active one" } } },
-    [WR_ROW(LAYER_DELETE)] = { .name = "delete", .help = "remove a layer", .args = { LAYER_N } },
+    [WR_ROW(LAYER_DELETE)] = { .name = "delete", .help = "remove layers", .args = { LAYERS_N } },
     [WR_ROW(LAYER_USE)] = { .name = "use",
                             .help = "edits go to this layer from now on",
                             .args = { LAYER_N,
@@ -595,15 +678,16 @@ static const WrForm layer_forms[] = {
                                             "what of it strokes, fills, generators and `adjust` "
                                             "change; left out, as it was" } } },
     [WR_ROW(LAYER_MOVE)] = { .name = "move",
-                             .help = "bring a layer to another place in the stack",
-                             .args = { LAYER_N,
+                             .help = "bring layers to another place in the stack",
+                             .args = { LAYERS_N,
                                        { .name = "to",
                                          .type = WR_ARG_NUMBER,
                                          .required = true,
                                          .whole = true,
                                          .low = 1,
                                          .high = WR_LAYERS_MAX,
-                                         .help = "its new number" } } },
+                                         .help = "its new number; of several, which then follow "
+                                                 "each other, the lowest one's" } } },
     [WR_ROW(LAYER_RENAME)] = { .name = "rename",
                                .help = "give a layer another name",
                                .args = { LAYER_N,
@@ -611,7 +695,7 @@ static const WrForm layer_forms[] = {
                                            .help = "the new name" } } },
     [WR_ROW(LAYER_SET)] = { .name = "set",
                             .help = "only given arguments change",
-                            .args = { LAYER_N,
+                            .args = { LAYERS_N,
                                       LAYER_SETTINGS,
                                       { .name = "change",
                                         .type = WR_ARG_TEXT,
@@ -628,18 +712,21 @@ static const WrForm layer_forms[] = {
                                         .words = wr_off_on,
                                         .help = "whether edits are refused" } } },
     [WR_ROW(LAYER_RASTERIZE)] = { .name = "rasterize",
-                                  .help = "make a generator layer a plain one, which can be "
+                                  .help = "make generator layers plain ones, which can be "
                                           "painted on",
-                                  .args = { LAYER_N } },
-    [WR_ROW(LAYER_DUPLICATE)] = { .name = "duplicate",
-                                  .help = "a copy above it, active",
-                                  .args = { LAYER_N } },
+                                  .args = { LAYERS_N } },
+    [WR_ROW(
+        LAYER_DUPLICATE)] = { .name = "duplicate",
+                              .help =
+                                  "a copy above it, active; of several, copies above the highest",
+                              .args = { LAYERS_N } },
     [WR_ROW(LAYER_MERGE)] = { .name = "merge",
-                              .help = "join a layer and the one below; the composite changes by "
+                              .help = "join a layer and the one below, or several neighbours; the "
+                                      "composite changes by "
                                       "rounding at most: not at "
                                       "all onto layer 1, else by 2^-21 of the largest height that "
                                       "meets there",
-                              .args = { LAYER_N } },
+                              .args = { LAYERS_N } },
     [WR_ROW(LAYER_FLATTEN)] = { .name = "flatten",
                                 .help =
                                     "one layer that holds the composite; hidden layers are lost" },
@@ -648,6 +735,7 @@ static const WrForm layer_forms[] = {
                               .args = { { .name = "N",
                                           .type = WR_ARG_LAYER,
                                           .positional = true,
+                                          .several = true,
                                           .help = "left out, the active layer" } } },
     [WR_ROW(LAYER_SOLO)] = { .name = "solo",
                              .help = "show one layer alone, or all again",
@@ -676,8 +764,8 @@ const WrCommand wr_command_layer = {
     .help = "add, order, join and set layers",
     .details =
         "Layers are named by their numbers, from 1 at the bottom, or by their names where only "
-        "one "
-        "has it. Edits go to the active layer; where it is locked or not shown they are refused. A "
+        "one has it; \"the layer, or several\" takes a list, such as 2,4,5. Edits go to the active "
+        "layer; where it is locked or not shown they are refused. A "
         "generator layer keeps the command line of from=, a generator's, and is made again when "
         "change= gives that line other values, or when the layers below change that it reads; "
         "blend= and radius= of the line are the layer's.",

@@ -219,6 +219,34 @@ bool wr_session_find_layer(const WrSession *session, const char *word, int *inde
     return true;
 }
 
+bool wr_session_find_layers(const WrSession *session, const char *words, WrLayerList *layers,
+                            WrError *err)
+{
+    const WrDocument *document = session->state.document;
+    bool listed[WR_LAYERS_MAX] = { false };
+    /* a name may contain commas */
+    const bool one = !strchr(words, ',') || wr_layer_named(document, words) >= 0;
+    for (const char *p = words;;) {
+        const size_t length = one ? strlen(p) : strcspn(p, ",");
+        char excerpt[WR_EXCERPT_SIZE];
+        if (!length)
+            return wr_fail(err, "\"%s\": a layer is missing beside a comma",
+                           wr_excerpt(words, excerpt));
+        char *word = wr_strndup(p, length);
+        int index;
+        const bool good = wr_session_find_layer(session, word, &index, err);
+        wr_free(word);
+        if (!good) return false;
+        listed[index] = true;
+        if (!p[length]) break;
+        p += length + 1;
+    }
+    layers->count = 0;
+    for (int i = 0; i < document->layer_count; i++)
+        if (listed[i]) layers->index[layers->count++] = i;
+    return true;
+}
+
 /* ---- view history ---- */
 
 /* Record a view if the view of the document has changed. Views have a history of their own: moving the camera must not push

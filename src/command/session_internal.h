@@ -215,6 +215,13 @@ void wr_session_put_heights(WrSession *session, WrLayer *layer, WrField *heights
 void wr_session_replace_scene(WrSession *session, WrScene *scene);
 /* Index of the layer that a command's argument names: by number, from 1, or by name. */
 bool wr_session_find_layer(const WrSession *session, const char *word, int *index, WrError *err);
+/* Layers of an argument that may list several, separated by commas; each once, the lowest first. */
+typedef struct WrLayerList {
+    int index[WR_LAYERS_MAX];
+    int count;
+} WrLayerList;
+bool wr_session_find_layers(const WrSession *session, const char *words, WrLayerList *layers,
+                            WrError *err);
 
 /* SHA-256 of a file that a command reads. For a glTF with external parts, that of the packed file (gltf.h), which
    changes with any part. */

@@ -142,7 +142,10 @@ void wr_arg_expectation(const WrArgSpec *spec, WrText *text)
     case WR_ARG_SHA256: wr_message_addf(text, "64 hexadecimal digits"); return;
     case WR_ARG_NAME: wr_message_addf(text, "a name of up to %d bytes", WR_LAYER_NAME_MAX); return;
     case WR_ARG_LAYER:
-        wr_message_addf(text, "a layer's number, from 1 at the bottom, or name");
+        if (spec->several)
+            wr_message_addf(text,
+                            "layers' numbers, from 1 at the bottom, or names, separated by commas");
+        else wr_message_addf(text, "a layer's number, from 1 at the bottom, or name");
         return;
     case WR_ARG_PRESET:
         wr_message_addf(text, "a preset's name, or a file that ends in .myb");

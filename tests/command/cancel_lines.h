@@ -65,6 +65,7 @@ static const char *const lines[] = {
     "ramp radial from=0.5,0.5 to=0.5,1 blend=add",
     "ramp cone from=0.5,0.5 to=0.5,1 blend=max",
     "layer merge 3",
+    "layer merge 3,1,2",
     "layer add from=\"pattern planks rows=40\"",
     "layer flatten",
     "layer clear 1",

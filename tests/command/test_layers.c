@@ -186,6 +186,103 @@ static void layers_that_do_not_exist_are_named_in_the_message(void **state)
     wr_session_free(s);
 }
 
+/* ---- several layers in one line ---- */
+
+static WrSession *letters(void)
+{
+    return session_of((const char *[]){ "table 13x9", "layer add a", "layer add b", "layer add c",
+                                        "layer add d", "layer add e", "layer use c", NULL });
+}
+
+/* One line is one step: undo restores the whole stack. */
+static void check_step(const char *line, const char *names, int active, int solo)
+{
+    WrSession *s = letters();
+    must_run(s, "layer solo d");
+    const int before = wr_session_history_position(s);
+    const WrHash hash = wr_session_hash(s);
+    must_run(s, line);
+    check_stack(s, names, active, solo);
+    assert_string_equal(wr_session_last_command(s), line);
+    assert_int_equal(wr_session_history_position(s), before + 1);
+    must_run(s, "undo");
+    check_stack(s, "base a b c d e ", 4, 5);
+    assert_true(wr_hash_equal(wr_session_hash(s), hash));
+    wr_session_free(s);
+}
+
+static void several_layers_change_in_one_step(void **state)
+{
+    (void)state;
+    check_step("layer delete 2,6", "base b c d ", 3, 4);
+    check_step("layer delete 6,b,2", "base c d ", 2, 3);
+    check_step("layer delete c,d", "base a b e ", 3, 0); /* active: the layer below */
+    check_step("layer delete 1,2,3,4", "d e ", 1, 1);
+    check_step("layer move 2,4,5 to=1", "a c d base b e ", 2, 3);
+    check_step("layer move 5,2,4,4 to=4", "base b e a c d ", 5, 6);
+    check_step("layer move 1,6 to=2", "a base e b c d ", 5, 6);
+    check_step("layer move 4 to=4", "base a b c d e ", 4, 5);
+    check_step("layer duplicate 2,4", "base a b c a copy c copy d e ", 6, 7);
+    check_step("layer duplicate 6,2", "base a b c d e a copy e copy ", 8, 5);
+    check_step("layer merge 3,2,4", "base a d e ", 2, 3);
+}
+
+static void several_layers_take_the_same_settings(void **state)
+{
+    (void)state;
+    WrSession *s = letters();
+    must_run(s, "layer set 2,a,5 opacity=0.25 blend=max visible=off lock=on");
+    for (int i = 0; i < 6; i++) {
+        const WrLayer *layer = &doc(s)->layers[i];
+        const bool set = i == 1 || i == 4;
+        assert_true(layer->opacity == (set ? 0.25f : 1.0f));
+        assert_int_equal(layer->blend, set ? WR_BLEND_MAX : WR_BLEND_ADD);
+        assert_int_equal(layer->visible, !set);
+        assert_int_equal(layer->locked, set);
+    }
+    must_fail(s, "layer delete 3,5", "layer 5 \"d\" is locked");
+    must_fail(s, "layer merge 5,4", "layer 5 \"d\" is locked");
+    must_fail(s, "layer set 3,9 opacity=0.5", "layer 9: must be 1..6");
+    must_fail(s, "layer set 3, opacity=0.5", "\"3,\": a layer is missing beside a comma");
+    must_fail(s, "layer move 1,2,3 to=5", "to=5: must be 1..4");
+    must_fail(s, "layer merge 1,3", "layers 1 and 3 are not neighbours");
+    wr_session_free(s);
+}
+
+static void a_name_may_contain_commas(void **state)
+{
+    (void)state;
+    WrSession *s = session_of(
+        (const char *[]){ "table 5x4", "layer add a", "layer add b", "layer add \"a,b\"", NULL });
+    must_run(s, "layer delete a,b");
+    check_stack(s, "base a b ", 3, 0);
+    must_run(s, "layer delete a,b");
+    check_stack(s, "base ", 1, 0);
+    must_fail(s, "layer delete 1", "the last layer stays");
+    wr_session_free(s);
+}
+
+static void several_generator_layers_become_plain(void **state)
+{
+    (void)state;
+    WrSession *s = session_of((const char *[]){
+        "table 24x17", "layer add p from=\"pattern bricks\"", "layer add q", "dab 0.3,0.6",
+        "layer add r from=\"noise perlin\"", "layer add t from=\"pattern dots\"", NULL });
+    must_fail(s, "layer rasterize 2,3", "layer 3 is no generator layer");
+    assert_non_null(doc(s)->layers[1].line);
+    must_run(s, "layer rasterize 5,2");
+    assert_null(doc(s)->layers[1].line);
+    assert_non_null(doc(s)->layers[3].line);
+    assert_null(doc(s)->layers[4].line);
+    must_run(s, "layer clear 3,5");
+    for (int j = 0; j < 17; j++)
+        for (int i = 0; i < 24; i++) {
+            assert_true(wr_field_get(doc(s)->layers[2].heights, i, j) == 0);
+            assert_true(wr_field_get(doc(s)->layers[4].heights, i, j) == 0);
+        }
+    wr_session_free(s);
+}
+
 /* ---- joining ---- */
 
 static WrSession *stack(const char *lower, const char *upper, bool floor)
@@ -220,6 +317,33 @@ static void merging_any_two_layers_keeps_the_composite(void **state)
             wr_field_free(before);
             wr_session_free(s);
         }
+}
+
+/* Several neighbours: as one after the other, from the bottom. */
+static void merging_several_keeps_the_composite(void **state)
+{
+    (void)state;
+    for (int b = 0; b < WR_BLEND_COUNT; b++) {
+        WrSession *s = stack("max", wr_blends[b].name, true);
+        must_run(s, "layer duplicate 2,3");
+        WrField *before = wr_field_share(wr_document_field(doc(s)));
+        must_run(s, "layer merge 3,4,2");
+        assert_int_equal(doc(s)->layer_count, 3);
+        for (int j = 0; j < 80; j++)
+            for (int i = 0; i < 100; i++)
+                assert_near(f_at(s, i, j), wr_field_get(before, i, j), 2 * 8 * 0x1p-21);
+        must_run(s, "undo");
+        must_run(s, "layer merge 1,2,3,4");
+        assert_int_equal(doc(s)->layer_count, 2);
+        WrField *joined = wr_document_below(doc(s), 1, NULL);
+        must_run(s, "undo");
+        WrField *apart = wr_document_below(doc(s), 4, NULL);
+        assert_true(same_field(joined, apart)); /* onto layer 1 every bit stays */
+        wr_field_free(joined);
+        wr_field_free(apart);
+        wr_field_free(before);
+        wr_session_free(s);
+    }
 }
 
 static void merging_onto_the_bottom_and_flattening_keep_every_bit(void **state)
@@ -271,6 +395,11 @@ int main(void)
         cmocka_unit_test(a_document_of_one_plain_layer_is_that_layer),
         cmocka_unit_test(active_and_solo_stay_at_their_layers),
         cmocka_unit_test(layers_that_do_not_exist_are_named_in_the_message),
+        cmocka_unit_test(several_layers_change_in_one_step),
+        cmocka_unit_test(several_layers_take_the_same_settings),
+        cmocka_unit_test(a_name_may_contain_commas),
+        cmocka_unit_test(several_generator_layers_become_plain),
+        cmocka_unit_test(merging_several_keeps_the_composite),
         cmocka_unit_test(merging_any_two_layers_keeps_the_composite),
         cmocka_unit_test(merging_onto_the_bottom_and_flattening_keep_every_bit),
         cmocka_unit_test(merging_sums_of_layers_goes_with_later_edits_below),
