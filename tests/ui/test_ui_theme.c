@@ -39,10 +39,10 @@ static void words_can_be_read_in_every_theme(void **state)
                  { WR_THEMED_MUTED, 3.9 }, { WR_THEMED_LINK, 4.5 }, { WR_THEMED_BAD, 3.9 },
                  { WR_THEMED_CELL, 3.9 },  { WR_THEMED_WARN, 4.5 }, { WR_THEMED_GOOD, 3.9 },
                  { WR_THEMED_FAINT, 2.5 }, { WR_THEMED_ACCENT, 3 }, { WR_THEMED_FOCUS, 3 } };
-    static const WrThemeColour beneath[] = { WR_THEMED_SELECTED, WR_THEMED_FILL,
-                                             WR_THEMED_FILL_HOT, WR_THEMED_ROW_SELECTED,
-                                             WR_THEMED_BUTTON,   WR_THEMED_BUTTON_HOT,
-                                             WR_THEMED_REFUSED };
+    static const WrThemeColour beneath[] = { WR_THEMED_SELECTED,   WR_THEMED_FILL,
+                                             WR_THEMED_FILL_HOT,   WR_THEMED_ROW_SELECTED,
+                                             WR_THEMED_ROW_CHOSEN, WR_THEMED_BUTTON,
+                                             WR_THEMED_BUTTON_HOT, WR_THEMED_REFUSED };
     for (int theme = 0; theme < WR_THEME_KINDS; theme++) {
         wr_theme_set((WrThemeKind)theme);
         for (size_t i = 0; i < sizeof inks / sizeof *inks; i++)

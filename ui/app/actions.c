@@ -262,14 +262,13 @@ static void save(WrApp *app)
     wr_app_save(app);
 }
 
-#define ROW(name, ...)                                                                             \
-    [WR_ROW(WR_ACTION_##name)] = { #name, __VA_ARGS__, false, WR_ACTION_ANY_LAYER }
+#define ROW(name, ...) [WR_ROW(WR_ACTION_##name)] = { #name, __VA_ARGS__ }
 #define EDIT(name, ...)                                                                            \
-    [WR_ROW(WR_ACTION_##name)] = { #name, __VA_ARGS__, true, WR_ACTION_ANY_LAYER }
+    [WR_ROW(WR_ACTION_##name)] = { #name, __VA_ARGS__, .edits = true, .layer = WR_ACTION_ANY_LAYER }
 #define LAYER(name, ...)                                                                           \
-    [WR_ROW(WR_ACTION_##name)] = { #name, __VA_ARGS__, true, WR_ACTION_UNLOCKED }
+    [WR_ROW(WR_ACTION_##name)] = { #name, __VA_ARGS__, .edits = true, .layer = WR_ACTION_UNLOCKED }
 #define PAINT(name, ...)                                                                           \
-    [WR_ROW(WR_ACTION_##name)] = { #name, __VA_ARGS__, true, WR_ACTION_PAINTABLE }
+    [WR_ROW(WR_ACTION_##name)] = { #name, __VA_ARGS__, .edits = true, .layer = WR_ACTION_PAINTABLE }
 WR_ROWS(wr_actions);
 const WrAction wr_actions[] = {
     EDIT(new, "New", wr_app_new_document, NULL, NULL),
@@ -360,36 +359,43 @@ const WrAction wr_actions[] = {
          NULL),
     EDIT(select_height, "Select by height...", wr_act_select_height, NULL, NULL),
     EDIT(select_slope, "Select by slope...", wr_act_select_slope, NULL, NULL),
-    EDIT(select_mask, "Select by the mask", wr_act_select_mask, wr_has_mask, NULL),
+    EDIT(select_mask, "Select by the mask", wr_act_select_mask, wr_has_mask, NULL, .row_menu = 4),
     EDIT(layer_add, "New layer", wr_act_layer_add, NULL, NULL),
-    EDIT(layer_duplicate, "Duplicate layer", wr_act_layer_duplicate, NULL, NULL),
-    LAYER(layer_delete, "Delete layer", wr_act_layer_delete, wr_can_several_layers, NULL),
-    EDIT(layer_rename, "Rename layer", wr_act_layer_rename, NULL, NULL),
-    EDIT(filter_edit, "Edit filter or generator...", wr_act_filter_edit, wr_has_values, NULL),
-    LAYER(layer_rasterize, "Rasterize layer", wr_act_layer_rasterize, wr_is_generated, NULL),
-    LAYER(layer_merge, "Merge layer down", wr_act_layer_merge, wr_can_merge_down, NULL),
-    EDIT(layer_flatten, "Flatten all layers", wr_act_layer_flatten, wr_can_flatten, NULL),
+    EDIT(layer_duplicate, "Duplicate layer", wr_act_layer_duplicate, NULL, NULL, .row_menu = 1),
+    LAYER(layer_delete, "Delete layer", wr_act_layer_delete, wr_can_delete, NULL, .row_menu = 1),
+    EDIT(layer_rename, "Rename layer", wr_act_layer_rename, NULL, NULL, .row_menu = 1),
+    EDIT(filter_edit, "Edit filter or generator...", wr_act_filter_edit, wr_has_values, NULL,
+         .row_menu = 1),
+    LAYER(layer_rasterize, "Rasterize layer", wr_act_layer_rasterize, wr_can_rasterize, NULL,
+          .row_menu = 1),
+    LAYER(layer_merge, "Merge layer down", wr_act_layer_merge, wr_can_merge, NULL, .row_menu = 2),
+    EDIT(layer_flatten, "Flatten all layers", wr_act_layer_flatten, wr_can_flatten, NULL,
+         .row_menu = 2),
     EDIT(layer_project, "Project layer onto the mesh", wr_patch_project_layer, wr_app_can_bake,
          NULL),
-    LAYER(layer_clear, "Clear layer", wr_act_layer_clear, wr_has_heights, NULL),
+    LAYER(layer_clear, "Clear layer", wr_act_layer_clear, wr_can_clear, NULL, .row_menu = 2),
     ROW(layer_show, "Layer is shown", wr_act_layer_show, NULL, wr_is_layer_shown),
     ROW(layer_lock, "Layer is locked", wr_act_layer_lock, NULL, wr_is_layer_locked),
-    ROW(layer_solo, "Show layer alone", wr_act_layer_solo, NULL, wr_is_solo),
+    ROW(layer_solo, "Show layer alone", wr_act_layer_solo, NULL, wr_is_solo, .row_menu = 2),
     EDIT(layer_raise, "Raise layer", wr_act_layer_raise, wr_can_raise, NULL),
     EDIT(layer_lower, "Lower layer", wr_act_layer_lower, wr_can_lower, NULL),
-    ROW(layer_above, "Layer above", wr_act_layer_above, wr_can_raise, NULL),
-    ROW(layer_below, "Layer below", wr_act_layer_below, wr_can_lower, NULL),
-    LAYER(mask_selection, "Mask from selection", wr_act_mask_selection, wr_can_mask_selection,
-          NULL),
-    LAYER(mask_white, "Mask that shows all", wr_act_mask_white, NULL, NULL),
-    LAYER(mask_black, "Mask that hides all", wr_act_mask_black, NULL, NULL),
-    LAYER(mask_height, "Mask by height...", wr_act_mask_height, NULL, NULL),
-    LAYER(mask_slope, "Mask by slope...", wr_act_mask_slope, NULL, NULL),
-    LAYER(mask_live, "Live mask...", wr_act_mask_live, wr_can_mask_live, NULL),
-    LAYER(mask_invert, "Invert mask", wr_act_mask_invert, wr_has_mask, NULL),
-    LAYER(mask_none, "Remove mask", wr_act_mask_none, wr_has_mask, NULL),
-    ROW(mask_edit, "Paint on the mask", wr_act_mask_edit, wr_has_mask, wr_is_mask_edited),
-    ROW(mask_alone, "Show the mask alone", wr_act_mask_alone, wr_has_mask, wr_app_shows_mask),
+    ROW(layer_above, "Layer above", wr_act_layer_above, wr_has_above, NULL),
+    ROW(layer_below, "Layer below", wr_act_layer_below, wr_has_below, NULL),
+    ROW(layer_choose_all, "Choose all layers", wr_act_layer_choose_all, wr_can_several_layers,
+        NULL),
+    LAYER(mask_selection, "Mask from selection", wr_act_mask_selection, wr_can_mask_selection, NULL,
+          .row_menu = 3),
+    LAYER(mask_white, "Mask that shows all", wr_act_mask_white, NULL, NULL, .row_menu = 3),
+    LAYER(mask_black, "Mask that hides all", wr_act_mask_black, NULL, NULL, .row_menu = 3),
+    LAYER(mask_height, "Mask by height...", wr_act_mask_height, NULL, NULL, .row_menu = 3),
+    LAYER(mask_slope, "Mask by slope...", wr_act_mask_slope, NULL, NULL, .row_menu = 3),
+    LAYER(mask_live, "Live mask...", wr_act_mask_live, wr_can_mask_live, NULL, .row_menu = 3),
+    LAYER(mask_invert, "Invert mask", wr_act_mask_invert, wr_has_mask, NULL, .row_menu = 3),
+    LAYER(mask_none, "Remove mask", wr_act_mask_none, wr_has_mask, NULL, .row_menu = 3),
+    ROW(mask_edit, "Paint on the mask", wr_act_mask_edit, wr_has_mask, wr_is_mask_edited,
+        .row_menu = 4),
+    ROW(mask_alone, "Show the mask alone", wr_act_mask_alone, wr_has_mask, wr_app_shows_mask,
+        .row_menu = 4),
     EDIT(table_size, "New table...", table_size, NULL, NULL),
     EDIT(offset_half, "Offset by half a cell", wr_act_offset_half, wr_can_change_all, NULL),
     PAINT(fill, "Fill...", fill, NULL, NULL),
@@ -490,7 +496,7 @@ const WrAction wr_actions[] = {
     ROW(tablet, "Tablet tester...", wr_dialog_tablet_open, NULL, NULL),
     ROW(help, "Guide", help, NULL, NULL),
     ROW(about, "About Wrinkle", about, NULL, NULL),
-    [WR_ACTION_COUNT] = { NULL, NULL, NULL, NULL, NULL, false, WR_ACTION_ANY_LAYER }
+    [WR_ACTION_COUNT] = { NULL }
 };
 WR_ROWS_END(wr_actions, WR_ACTION_COUNT);
 #undef ROW

@@ -77,6 +77,7 @@ void wr_act_layer_above(WrApp *app);
 void wr_act_layer_below(WrApp *app);
 void wr_act_layer_show(WrApp *app);
 void wr_act_layer_lock(WrApp *app);
+void wr_act_layer_choose_all(WrApp *app);
 void wr_act_mask_selection(WrApp *app);
 void wr_act_mask_white(WrApp *app);
 void wr_act_mask_black(WrApp *app);
@@ -92,8 +93,13 @@ void wr_act_select_slope(WrApp *app);
 void wr_act_offset_half(WrApp *app);
 
 bool wr_can_several_layers(const WrApp *app);
-bool wr_can_lower(const WrApp *app); /* there is a layer below */
-bool wr_can_merge_down(const WrApp *app);
+bool wr_can_delete(const WrApp *app);
+bool wr_can_rasterize(const WrApp *app);
+bool wr_can_clear(const WrApp *app);
+bool wr_has_above(const WrApp *app); /* there is a layer above the active one */
+bool wr_has_below(const WrApp *app);
+bool wr_can_lower(const WrApp *app); /* there is a layer below the chosen ones */
+bool wr_can_merge(const WrApp *app);
 bool wr_can_flatten(const WrApp *app);
 bool wr_can_change_all(const WrApp *app); /* no layer is locked */
 bool wr_has_heights(const WrApp *app);    /* the active layer is no filter */

@@ -6,10 +6,13 @@
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/session_view.h"
 #include "ui/panels/generate/generate_state.h"
+#include "ui/panels/layer_choice.h"
 #include "ui/panels/panel_adjust.h"
 #include "ui/panels/panel_layers.h"
 #include "ui/panels/panels.h"
+#include "ui/toolkit/focus.h"
 
+#include "base/text.h"
 #include "document/document.h"
 #include "field/field.h"
 
@@ -32,7 +35,47 @@ static int count(const WrApp *app)
     return wr_app_document(app)->layer_count;
 }
 
-/* ---- layers ---- */
+/* ---- layers: the chosen ones change together ---- */
+
+static bool all(const WrLayer *layer)
+{
+    (void)layer;
+    return true;
+}
+
+static bool generated(const WrLayer *layer)
+{
+    return layer->line != NULL;
+}
+
+static bool with_heights(const WrLayer *layer)
+{
+    return !layer->filter.op;
+}
+
+/* The chosen layers that the action fits; returns their number. */
+static int chosen_of(const WrApp *app, bool (*fits)(const WrLayer *), bool out[WR_LAYERS_MAX])
+{
+    const WrChosenLayers *chosen = wr_app_chosen(app);
+    int n = 0;
+    for (int i = 0; i < WR_LAYERS_MAX; i++) {
+        out[i] = i < count(app) && chosen->chosen[i] && fits(&wr_app_document(app)->layers[i]);
+        n += out[i];
+    }
+    return n;
+}
+
+static void run_chosen(WrApp *app, const char *form, bool (*fits)(const WrLayer *),
+                       const char *rest)
+{
+    bool layers[WR_LAYERS_MAX];
+    if (chosen_of(app, fits, layers)) wr_layers_run(app, form, layers, rest);
+}
+
+static int chosen_count(const WrApp *app)
+{
+    return wr_chosen_count(wr_app_chosen(app));
+}
 
 void wr_act_layer_add(WrApp *app)
 {
@@ -41,12 +84,12 @@ void wr_act_layer_add(WrApp *app)
 
 void wr_act_layer_duplicate(WrApp *app)
 {
-    wr_app_run_linef(app, "layer duplicate %d", number(app));
+    wr_layers_run_to(app, "duplicate", "", wr_chosen_highest(wr_app_chosen(app)) + 1);
 }
 
 void wr_act_layer_delete(WrApp *app)
 {
-    wr_app_run_linef(app, "layer delete %d", number(app));
+    run_chosen(app, "delete", all, "");
 }
 
 void wr_act_layer_rename(WrApp *app)
@@ -56,9 +99,11 @@ void wr_act_layer_rename(WrApp *app)
 
 void wr_act_layer_merge(WrApp *app)
 {
-    char line[48];
-    snprintf(line, sizeof line, "layer merge %d", number(app));
-    wr_app_run_slow(app, line);
+    WrText line = { 0 };
+    wr_text_add(&line, "layer merge ");
+    wr_layers_print(wr_app_chosen(app)->chosen, &line);
+    wr_app_run_slow(app, wr_text_get(&line));
+    wr_text_fini(&line);
 }
 
 void wr_act_layer_flatten(WrApp *app)
@@ -68,7 +113,7 @@ void wr_act_layer_flatten(WrApp *app)
 
 void wr_act_layer_clear(WrApp *app)
 {
-    wr_app_run_linef(app, "layer clear %d", number(app));
+    run_chosen(app, "clear", with_heights, "");
 }
 
 void wr_act_layer_solo(WrApp *app)
@@ -79,33 +124,39 @@ void wr_act_layer_solo(WrApp *app)
 
 void wr_act_layer_raise(WrApp *app)
 {
-    wr_app_run_linef(app, "layer move %d to=%d", number(app), number(app) + 1);
+    const WrChosenLayers *chosen = wr_app_chosen(app);
+    wr_layers_move(app, chosen->chosen, wr_chosen_highest(chosen) - chosen_count(app) + 3);
 }
 
 void wr_act_layer_lower(WrApp *app)
 {
-    wr_app_run_linef(app, "layer move %d to=%d", number(app), number(app) - 1);
+    const WrChosenLayers *chosen = wr_app_chosen(app);
+    wr_layers_move(app, chosen->chosen, wr_chosen_lowest(chosen));
 }
 
 void wr_act_layer_above(WrApp *app)
 {
-    if (number(app) < count(app)) wr_app_run_linef(app, "layer use %d", number(app) + 1);
+    if (number(app) < count(app)) wr_layer_pick(app, number(app), WR_CHOOSE_ONLY);
 }
 
 void wr_act_layer_below(WrApp *app)
 {
-    if (number(app) > 1) wr_app_run_linef(app, "layer use %d", number(app) - 1);
+    if (number(app) > 1) wr_layer_pick(app, number(app) - 2, WR_CHOOSE_ONLY);
 }
 
 void wr_act_layer_show(WrApp *app)
 {
-    wr_app_run_linef(app, "layer set %d visible=%s", number(app),
-                     active(app)->visible ? "off" : "on");
+    run_chosen(app, "set", all, active(app)->visible ? "visible=off" : "visible=on");
 }
 
 void wr_act_layer_lock(WrApp *app)
 {
-    wr_app_run_linef(app, "layer set %d lock=%s", number(app), active(app)->locked ? "off" : "on");
+    run_chosen(app, "set", all, active(app)->locked ? "lock=off" : "lock=on");
+}
+
+void wr_act_layer_choose_all(WrApp *app)
+{
+    wr_layer_pick_all(app);
 }
 
 /* ---- masks ---- */
@@ -198,7 +249,13 @@ void wr_act_filter_edit(WrApp *app)
 
 void wr_act_layer_rasterize(WrApp *app)
 {
-    wr_app_run_linef(app, "layer rasterize %d", number(app));
+    run_chosen(app, "rasterize", generated, "");
+}
+
+bool wr_can_rasterize(const WrApp *app)
+{
+    bool layers[WR_LAYERS_MAX];
+    return chosen_of(app, generated, layers) > 0;
 }
 
 bool wr_is_generated(const WrApp *app)
@@ -216,16 +273,27 @@ bool wr_can_several_layers(const WrApp *app)
     return count(app) > 1;
 }
 
+bool wr_can_delete(const WrApp *app)
+{
+    return count(app) > chosen_count(app);
+}
+
 bool wr_can_lower(const WrApp *app)
+{
+    return wr_chosen_lowest(wr_app_chosen(app)) > 0;
+}
+
+bool wr_has_below(const WrApp *app)
 {
     return number(app) > 1;
 }
 
-/* Both layers are visible, and the one below is unlocked. */
-bool wr_can_merge_down(const WrApp *app)
+/* One layer: it and the one below are visible, and that one is unlocked. Of several the command says why they cannot. */
+bool wr_can_merge(const WrApp *app)
 {
     const WrLayer *layer = active(app);
-    return wr_can_lower(app) && layer->visible && layer[-1].visible && !layer[-1].locked;
+    if (chosen_count(app) > 1) return true;
+    return wr_has_below(app) && layer->visible && layer[-1].visible && !layer[-1].locked;
 }
 
 bool wr_can_change_all(const WrApp *app)
@@ -245,7 +313,18 @@ bool wr_has_heights(const WrApp *app)
     return !is_filter(app);
 }
 
+bool wr_can_clear(const WrApp *app)
+{
+    bool layers[WR_LAYERS_MAX];
+    return chosen_of(app, with_heights, layers) > 0;
+}
+
 bool wr_can_raise(const WrApp *app)
+{
+    return wr_chosen_highest(wr_app_chosen(app)) + 1 < count(app);
+}
+
+bool wr_has_above(const WrApp *app)
 {
     return number(app) < count(app);
 }
@@ -282,9 +361,12 @@ bool wr_is_layer_locked(const WrApp *app)
 
 /* ---- selections ---- */
 
+/* While the keys belong to a row of the layers' list, they choose layers. */
 void wr_act_select_all(WrApp *app)
 {
-    wr_app_run_line(app, "select all");
+    const unsigned ring = wr_gui_focus_now(app->gui);
+    if (ring && ring == app->layers->ring) wr_layer_pick_all(app);
+    else wr_app_run_line(app, "select all");
 }
 
 void wr_act_select_none(WrApp *app)

@@ -101,7 +101,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
     app->rest_event = app->ready_event + 3;
     app->trial = wr_edit_preview_new(app->options->threads, app->job_event);
     app->marks->outliner = wr_outliner_new(app->options->threads, app->job_event);
-    app->layers->dragged = app->layers->renamed = -1;
+    app->layers->dragged = app->layers->renamed = app->layers->eyes_from = -1;
     app->canvas = wr_canvas_new();
     app->canvas_map = wr_canvas_map_new(app->options->threads, app->job_event);
     app->canvas_second = wr_canvas_map_new(app->options->threads, app->job_event);

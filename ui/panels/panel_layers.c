@@ -14,7 +14,10 @@
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
 #include "ui/app/jobs/edit_preview.h"
+#include "ui/panels/layer_choice.h"
+#include "ui/panels/layer_drag.h"
 #include "ui/panels/panels.h"
+#include "ui/toolkit/focus.h"
 
 #include "base/text.h"
 #include "command/command_line.h"
@@ -35,27 +38,43 @@ void wr_panel_layers_forget(WrApp *app)
 {
     wr_thumb_list_free(&app->layers->thumbs);
     wr_thumb_list_free(&app->layers->steps);
+    wr_chosen_free(&app->layers->chosen);
 }
 
-/* ---- settings of the active layer ---- */
+/* ---- settings of the chosen layers: the active one's are shown ---- */
 
-static void try_layer(WrApp *app, int index, double opacity, double radius)
+static void try_opacity(WrApp *app, int index, double opacity)
 {
     const WrLayer *layer = &wr_app_document(app)->layers[index];
     WrEditPreviewRequest ask = {
-        .layer = index, .blend = layer->blend, .opacity = (float)opacity, .radius = (float)radius
+        .layer = index, .blend = layer->blend, .opacity = (float)opacity, .radius = layer->radius
+    };
+    memcpy(ask.also, wr_app_chosen(app)->chosen, sizeof ask.also);
+    wr_app_try(app, &ask);
+}
+
+static void try_radius(WrApp *app, int index, double radius)
+{
+    const WrLayer *layer = &wr_app_document(app)->layers[index];
+    WrEditPreviewRequest ask = {
+        .layer = index, .blend = layer->blend, .opacity = layer->opacity, .radius = (float)radius
     };
     wr_app_try(app, &ask);
 }
 
-static void set_number(WrApp *app, int index, const char *name, double value)
+/* text: as " opacity=0.5" */
+static void set_chosen(WrApp *app, const char *text)
 {
-    WrText line = { 0 };
-    wr_text_addf(&line, "layer set %d", index + 1);
-    wr_line_number(&line, name, value);
     wr_app_try_end(app);
-    wr_app_run_line(app, wr_text_get(&line));
-    wr_text_fini(&line);
+    wr_layers_run(app, "set", wr_app_chosen(app)->chosen, text + 1);
+}
+
+static void set_number(WrApp *app, const char *name, double value)
+{
+    WrText text = { 0 };
+    wr_line_number(&text, name, value);
+    set_chosen(app, wr_text_get(&text));
+    wr_text_fini(&text);
 }
 
 /* True if there was room for a radius. */
@@ -83,21 +102,23 @@ static void settings(WrApp *app, int index)
     bool chosen = wr_gui_choice("blend", 0, labels, WR_BLEND_COUNT, &blend);
     wr_gui_tip(wr_blends[layer->blend].help);
     if (chosen) {
-        wr_app_run_linef(app, "layer set %d blend=%s", index + 1, wr_blends[blend].name);
+        char text[64];
+        snprintf(text, sizeof text, " blend=%s", wr_blends[blend].name);
+        set_chosen(app, text);
         return;
     }
     wr_gui_label("Opacity");
     WrEdit edit = wr_gui_number("opacity", 0, &opacity_spec, &percent);
-    if (edit == WR_EDIT_LIVE) try_layer(app, index, percent / 100.0, radius);
+    if (edit == WR_EDIT_LIVE) try_opacity(app, index, percent / 100.0);
     if (edit == WR_EDIT_DONE) {
-        set_number(app, index, "opacity", wr_line_round(percent / 100.0, 6));
+        set_number(app, "opacity", wr_line_round(percent / 100.0, 6));
         return;
     }
     if (!wr_blends[layer->blend].uses_radius) return;
     wr_gui_label("Radius");
     edit = wr_gui_number("radius", 0, &radius_spec, &radius);
-    if (edit == WR_EDIT_LIVE) try_layer(app, index, (double)layer->opacity, radius);
-    if (edit == WR_EDIT_DONE) set_number(app, index, "radius", wr_line_round(radius, 6));
+    if (edit == WR_EDIT_LIVE) try_radius(app, index, radius);
+    if (edit == WR_EDIT_DONE) set_number(app, "radius", wr_line_round(radius, 6));
 }
 
 /* ---- rows ---- */
@@ -248,30 +269,48 @@ static bool row_pictures(WrApp *app, int i, bool active, double *x)
     return row_mask(app, i, active, x);
 }
 
-/* True if a command was run: the list of layers has changed. */
-static bool row_parts(WrApp *app, int i, bool active)
+static bool row_eye(WrApp *app, const WrLayerRow *row)
 {
     const WrDocument *document = wr_app_document(app);
+    const bool visible = wr_layer_eye_shows(app, row), alone = document->solo == row->layer;
+    const bool shown = document->solo < 0 ? visible : alone;
+    const bool pressed = wr_gui_glyph("eye", visible ? WR_ICON_EYE : WR_ICON_EYE_OFF, 24,
+                                      shown ? WR_COLOUR_TEXT : WR_COLOUR_OFF);
+    if (wr_layer_eye(app, row, pressed)) return true;
+    wr_gui_tip(alone     ? "Shown alone"
+               : visible ? "Hide this layer, or all chosen ones; a drag hides more"
+                         : "Show this layer, or all chosen ones; a drag shows more");
+    return false;
+}
+
+static bool row_lock(WrApp *app, int i)
+{
+    bool layers[WR_LAYERS_MAX];
+    const bool locked = wr_app_document(app)->layers[i].locked;
+    if (wr_gui_glyph("lock", locked ? WR_ICON_LOCK : WR_ICON_UNLOCK, 24,
+                     locked ? WR_COLOUR_CELL : WR_COLOUR_OFF))
+        return wr_layers_run(app, "set", wr_layers_of_row(app, i, layers),
+                             locked ? "lock=off" : "lock=on");
+    wr_gui_tip(locked ? "Locked: edits refuse it. Click to unlock"
+                      : "Click to lock: edits then refuse this layer");
+    return false;
+}
+
+/* True if a command was run: the list of layers has changed. */
+static bool row_parts(WrApp *app, const WrLayerRow *row, bool active)
+{
+    const WrDocument *document = wr_app_document(app);
+    const int i = row->layer;
     const WrLayer *layer = &document->layers[i];
-    bool shown = wr_document_shows(document, i);
+    const bool shown = wr_document_shows(document, i) && !wr_layer_is_dragged(app, i);
     double x = wr_gui_px(8), gap = wr_gui_px(8);
     double right = wr_gui_row_width() - wr_gui_px(34);
     wr_gui_row_set_cursor(x, wr_gui_px(24));
-    const char *eye = layer->visible ? WR_ICON_EYE : WR_ICON_EYE_OFF;
-    if (wr_gui_glyph("eye", eye, 24, shown ? WR_COLOUR_TEXT : WR_COLOUR_OFF))
-        return wr_app_run_linef(app, "layer set %d visible=%s", i + 1,
-                                layer->visible ? "off" : "on");
-    wr_gui_tip(document->solo == i ? "Shown alone"
-               : layer->visible    ? "Hide this layer"
-                                   : "Show this layer");
+    if (row_eye(app, row)) return true;
     x += wr_gui_px(24) + gap;
     if (row_pictures(app, i, active, &x)) return true;
     wr_gui_row_set_cursor(right, wr_gui_px(24));
-    const char *lock = layer->locked ? WR_ICON_LOCK : WR_ICON_UNLOCK;
-    if (wr_gui_glyph("lock", lock, 24, layer->locked ? WR_COLOUR_CELL : WR_COLOUR_OFF))
-        return wr_app_run_linef(app, "layer set %d lock=%s", i + 1, layer->locked ? "off" : "on");
-    wr_gui_tip(layer->locked ? "Locked: edits refuse it. Click to unlock"
-                             : "Click to lock: edits then refuse this layer");
+    if (row_lock(app, i)) return true;
     if (app->layers->renamed == i) {
         wr_gui_row_set_cursor(x, 0);
         name_field(app, right - x - gap);
@@ -281,86 +320,66 @@ static bool row_parts(WrApp *app, int i, bool active)
     return false;
 }
 
-/* Update the drop position of the dragged layer. */
-static void follow_drag(WrApp *app, const WrRow *row, int i, int count)
-{
-    WrLayersState *hand = app->layers;
-    hand->dragged = i;
-    /* rows run down, layers up */
-    double rows_up = (row->top + row->height / 2.0 - row->pointer_y) / row->height;
-    int gap = i + (int)floor(rows_up + 1.0);
-    hand->gap = gap < 0 ? 0 : gap > count ? count : gap;
-    wr_gui_drop_line(row->top + row->height * (i + 1 - hand->gap));
-}
-
-static void drop(WrApp *app)
-{
-    WrLayersState *hand = app->layers;
-    int from = hand->dragged, to = hand->gap > from ? hand->gap - 1 : hand->gap;
-    hand->dragged = -1;
-    if (from >= 0 && to != from) wr_app_run_linef(app, "layer move %d to=%d", from + 1, to + 1);
-}
-
 static bool has_values(const WrLayer *layer)
 {
     return layer->filter.op || layer->line;
 }
 
-static bool row(WrApp *app, int i)
+static WrChoosing choosing(int mods)
 {
-    const WrDocument *document = wr_app_document(app);
-    bool active = document->active == i;
-    int count = document->layer_count;
-    WrRow r = wr_gui_row_begin(i, ROW_UNITS, active);
-    bool changed = row_parts(app, i, active);
-    wr_gui_row_end();
-    if (changed) return true;
-    if (r.dragging && count > 1 && !wr_busy_greys(app)) follow_drag(app, &r, i, count);
-    if (r.dropped && app->layers->dragged >= 0) {
-        drop(app);
-        return true;
-    }
-    if (r.menu) app->layers->open = true;
-    if ((r.clicked || r.menu) && !active) return wr_app_run_linef(app, "layer use %d", i + 1);
-    if (r.doubled && has_values(&document->layers[i])) edit_values(app, i);
-    else if (r.doubled && app->layers->renamed < 0) wr_layer_rename_start(app, i);
+    if (mods & WR_MOD_SHIFT) return WR_CHOOSE_RANGE;
+    return mods & WR_MOD_CTRL ? WR_CHOOSE_TOGGLE : WR_CHOOSE_ONLY;
+}
+
+/* Clicks on the row, and arrow keys that come to it. True if a command was run. */
+static bool row_pressed(WrApp *app, int i, const WrRow *row, bool chosen)
+{
+    const int mods = app->hand->mods & (WR_MOD_CTRL | WR_MOD_SHIFT);
+    if (row->ringed) app->layers->ring = wr_gui_focus_now(app->gui);
+    if (row->menu) app->layers->open = true;
+    if (row->menu && !chosen) return wr_layer_pick(app, i, WR_CHOOSE_ONLY);
+    if (row->reached) return wr_layer_pick(app, i, row->extends ? WR_CHOOSE_RANGE : WR_CHOOSE_ONLY);
+    if (row->clicked && wr_layer_pick(app, i, choosing(mods))) return true;
+    if (!row->doubled || mods) return false;
+    if (has_values(&wr_app_document(app)->layers[i])) edit_values(app, i);
+    else if (app->layers->renamed < 0) wr_layer_rename_start(app, i);
     return false;
+}
+
+/* Row `at` from the top. True if a command was run. */
+static bool row(WrApp *app, const WrLayerRows *rows, int at)
+{
+    const int i = rows->layer[at];
+    const bool active = wr_app_document(app)->active == i, chosen = wr_app_chosen(app)->chosen[i];
+    const WrRowLook look = active ? WR_ROW_SELECTED : chosen ? WR_ROW_CHOSEN : WR_ROW_PLAIN;
+    const WrLayerRow row = {
+        .rows = rows, .at = at, .layer = i, .row = wr_gui_row_begin(i, ROW_UNITS, look)
+    };
+    const bool changed = row_parts(app, &row, active);
+    wr_gui_row_end();
+    return changed || wr_layer_drag(app, &row) || row_pressed(app, i, &row.row, chosen);
 }
 
 /* ---- context menu of a layer ---- */
 
+/* Actions whose rows name a part of the menu; parts stand in their order. */
 static void menu(WrApp *app)
 {
-    static const char *const names[] = { WR_ACT(filter_edit),
-                                         WR_ACT(layer_rasterize),
-                                         WR_ACT(layer_rename),
-                                         WR_ACT(layer_duplicate),
-                                         WR_ACT(layer_delete),
-                                         "-",
-                                         WR_ACT(layer_merge),
-                                         WR_ACT(layer_flatten),
-                                         WR_ACT(layer_clear),
-                                         WR_ACT(layer_solo),
-                                         "-",
-                                         WR_ACT(mask_selection),
-                                         WR_ACT(mask_white),
-                                         WR_ACT(mask_black),
-                                         WR_ACT(mask_height),
-                                         WR_ACT(mask_slope),
-                                         WR_ACT(mask_live),
-                                         WR_ACT(mask_invert),
-                                         WR_ACT(mask_none),
-                                         "-",
-                                         WR_ACT(mask_edit),
-                                         WR_ACT(mask_alone),
-                                         WR_ACT(select_mask),
-                                         NULL };
     if (app->layers->open) wr_gui_popup_open("layer");
     app->layers->open = false;
     if (!wr_gui_popup_begin("layer")) return;
-    for (int i = 0; names[i]; i++) {
-        if (names[i][0] == '-') wr_gui_menu_separator();
-        else wr_menu_item(app, names[i]);
+    const WrAction *actions = app->registry->actions;
+    bool more = true;
+    for (int part = 1; more; part++) {
+        bool any = false;
+        more = false;
+        for (const WrAction *a = actions; a->name; a++) {
+            more |= a->row_menu > part;
+            if (a->row_menu != part) continue;
+            if (!any && part > 1) wr_gui_menu_separator();
+            any = true;
+            wr_menu_item(app, a->name);
+        }
     }
     wr_gui_popup_end();
 }
@@ -412,9 +431,9 @@ void wr_dialog_rasterize(WrApp *app)
 static void list(WrApp *app)
 {
     wr_gui_space(-12); /* rows start at the panel's edge */
-    int count = wr_app_document(app)->layer_count;
-    for (int i = count - 1; i >= 0; i--)
-        if (row(app, i)) break; /* the rest follows in the next frame */
+    const WrLayerRows rows = wr_layer_rows(wr_app_document(app));
+    for (int i = 0; i < rows.count; i++)
+        if (row(app, &rows, i)) break; /* the rest follows in the next frame */
     menu(app);
 }
 
@@ -487,7 +506,10 @@ void wr_panel_layers(WrApp *app, SDL_Rect room)
 
 static void another(WrApp *app)
 {
-    app->layers->dragged = app->layers->renamed = -1;
+    WrLayersState *hand = app->layers;
+    hand->dragged = hand->renamed = hand->eyes_from = -1;
+    wr_chosen_free(&hand->chosen);
+    hand->chosen.count = 0;
 }
 
 const WrPart wr_part_layers = { .another = another, .forget = wr_panel_layers_forget };

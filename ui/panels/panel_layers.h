@@ -1,5 +1,7 @@
 /* panel_layers.h - layers panel. */
 #pragma once
+#include "ui/app/state/chosen_layers.h"
+#include "ui/panels/layer_rows.h"
 #include "ui/panels/thumb_list.h"
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/registry.h"
@@ -12,10 +14,13 @@
 #include <stdint.h>
 
 typedef struct WrLayersState {
-    int dragged; /* index of the dragged layer, -1: none */
-    int gap;     /* drop position: between layers gap - 1 and gap */
-    int renamed; /* index of the layer being renamed, -1: none */
-    bool fresh;  /* first frame of the text field */
+    WrChosenLayers chosen;
+    int dragged;            /* index of the dragged layer, -1: none */
+    WrLayerDrop drop;       /* where it would land */
+    int eyes_from, eyes_to; /* rows whose eyes a drag passed over; eyes_from -1: no drag */
+    unsigned ring; /* the row with the ring of the keyboard focus, as in focus.h; 0: none */
+    int renamed;   /* index of the layer being renamed, -1: none */
+    bool fresh;    /* first frame of the text field */
     char name[WR_LAYER_NAME_MAX + 1];
     bool open;          /* open the menu */
     WrThumbList thumbs; /* two per layer: heights, mask */

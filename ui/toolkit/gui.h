@@ -252,18 +252,31 @@ typedef struct WrRow {
     /* released over the row without a drag; for the second time in quick succession */
     bool clicked, doubled;
     bool menu;     /* pressed with the right button */
-    bool dragging; /* pressed and moved */
-    bool dropped;  /* released after a drag */
+    bool dragging; /* pressed and moved; near the area's edge it scrolls */
+    bool dropped;  /* released after a drag, which Escape has not cancelled */
+    bool ringed;   /* it has the ring of the keyboard focus */
+    bool reached;  /* the ring came to it from another row, by Up or Down; */
+    bool extends;  /* with Shift */
 } WrRow;
+typedef enum WrRowLook {
+    WR_ROW_PLAIN,
+    WR_ROW_SELECTED,
+    WR_ROW_CHOSEN /* one of several, beside the selected row */
+} WrRowLook;
 /* A row across the whole area. */
-WrRow wr_gui_row_begin(int id, double height_units, bool selected);
+WrRow wr_gui_row_begin(int id, double height_units, WrRowLook look);
 /* x: pixels from the row's left edge. tall: height of the following content in pixels; 0: a line of text. */
 void wr_gui_row_set_cursor(double x, double tall);
 void wr_gui_row_see(void);     /* right after begin: scroll the list until the row is visible */
 double wr_gui_row_width(void); /* pixels */
 void wr_gui_row_end(void);
-/* A line across the area at y pixels of the window, as the drop position of a drag. */
-void wr_gui_drop_line(double y);
+/* A line across the area at y pixels of the window, from x pixels right of its left edge, as the drop position of a
+   drag. */
+void wr_gui_drop_line(double x, double y);
+/* The pointer holds the previous widget. */
+bool wr_gui_held(void);
+/* Ends the pointer's hold of a widget without effect. */
+void wr_gui_let_go(void);
 /* Text truncated with an ellipsis at `width` pixels. */
 void wr_gui_text_cut(WrFont font, WrColour colour, const char *text, double width);
 /* Text wrapped at `width` pixels. */

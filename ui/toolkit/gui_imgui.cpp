@@ -296,7 +296,7 @@ extern "C" bool wr_gui_wants_text(const WrGui *)
 
 extern "C" bool wr_gui_has_pending_timer(const WrGui *gui)
 {
-    return gui->armed != 0 || gui->tip_waits;
+    return gui->armed != 0 || gui->tip_waits || gui->drag_scrolls;
 }
 
 static int dialogs_open()
@@ -383,7 +383,7 @@ try {
     ImGui::NewFrame();
     ImGuiContext &g = *ImGui::GetCurrentContext();
     gui->popups = g.OpenPopupStack.Size;
-    gui->tip_waits = false;
+    gui->tip_waits = gui->drag_scrolls = false;
     int keep = dialogs_open(); /* close lists of a dialog; the dialog decides for itself */
     gui->list_open = g.OpenPopupStack.Size > keep;
     if (gui->close_popups && g.OpenPopupStack.Size > keep) ImGui::ClosePopupToLevel(keep, true);

@@ -35,6 +35,7 @@ struct WrFocus {
     int waiting_count;
     SDL_Keysym key;     /* key for the stop at `at` in this frame; no scancode: none */
     bool pressed;       /* pressed in this frame as by the pointer */
+    bool stepped_rows;  /* the key of this frame moved the ring from row to row */
     bool arrow_let_go;  /* an arrow key was released */
     ImGuiID stepped;    /* number field changed by arrow keys: drag_value */
     bool step_ends;     /* its change ends in this frame */
@@ -119,6 +120,7 @@ struct WrGui {
     /* the open row in pixels of the window; the dragged row */
     float row_left, row_right, row_top, row_height;
     ImGuiID row_drag;
+    bool drag_scrolls;                 /* its area scrolls in this frame */
     ImDrawList *pad;                   /* target of drawing; NULL: the views */
     bool as_it_is;                     /* texts are user-defined and not translated */
     const char *next_id;               /* of wr_gui_next_id; NULL: none */

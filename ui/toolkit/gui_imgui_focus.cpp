@@ -213,7 +213,7 @@ void wr_gui_focus_before(WrGui *gui)
     WrFocus *focus = &gui->focus;
     if (ImGui::GetCurrentContext() != gui->context) return;
     focus->key = SDL_Keysym{};
-    focus->pressed = false;
+    focus->pressed = focus->stepped_rows = false;
     focus->close_to = -1;
     follow_popups(focus);
     if (focus->waiting_count > 0) {
@@ -531,9 +531,25 @@ static void arrow_in_group(WrFocus *focus, const WrKeyStop *now, SDL_Scancode ke
     if (to && (now->kind == WR_STOP_SEGMENT || now->kind == WR_STOP_TAB)) press(focus, to->id);
 }
 
+/* Up and Down lead from row to row, past the widgets inside; the last row keeps the ring. */
+static bool arrow_to_row(WrFocus *focus, const WrKeyStop *now, SDL_Scancode key)
+{
+    if (now->kind != WR_STOP_ROW || (key != SDL_SCANCODE_UP && key != SDL_SCANCODE_DOWN))
+        return false;
+    const WrKeyStop *end = focus->stops + focus->count;
+    for (const WrKeyStop *to = now + way_of(key); to >= focus->stops && to < end; to += way_of(key))
+        if (to->window == now->window && to->kind == WR_STOP_ROW) {
+            gui_go_to(focus, to);
+            focus->stepped_rows = true;
+            break;
+        }
+    return true;
+}
+
 static void arrow(WrFocus *focus, const WrKeyStop *now, SDL_Scancode key, bool fine)
 {
     const float step = fine ? 1.0f / 256 : 1.0f / 32;
+    if (arrow_to_row(focus, now, key)) return;
     if (now->kind == WR_STOP_MENU && key == SDL_SCANCODE_DOWN) press(focus, now->id);
     else if (now->group) arrow_in_group(focus, now, key);
     else if (now->kind == WR_STOP_SCROLL) scroll(focus, 0.1 * way_of(key));

@@ -507,7 +507,31 @@ static void full_width(float *left, float *right)
     *right = window->Pos.x + window->Size.x - window->ScrollbarSizes.x;
 }
 
-extern "C" WrRow wr_gui_row_begin(int id, double height_units, bool selected)
+/* While a row is dragged near the area's upper or lower edge, or beyond it, the area scrolls. */
+static void scroll_at_edges()
+{
+    ImGuiWindow *window = ImGui::GetCurrentWindow();
+    const ImGuiIO &io = ImGui::GetIO();
+    const float margin = px(20), y = io.MousePos.y;
+    float beyond = 0;
+    if (y < window->InnerRect.Min.y + margin) beyond = y - window->InnerRect.Min.y - margin;
+    if (y > window->InnerRect.Max.y - margin) beyond = y - window->InnerRect.Max.y + margin;
+    if (beyond == 0 || window->ScrollMax.y <= 0) return;
+    const float pace = fminf(fmaxf(beyond / margin, -2), 2) * px(300); /* pixels in a second */
+    const float to = fminf(fmaxf(window->Scroll.y + pace * io.DeltaTime, 0), window->ScrollMax.y);
+    if (to == window->Scroll.y) return;
+    ImGui::SetScrollY(to);
+    wr_gui_current()->drag_scrolls = true;
+}
+
+static WrColour ground_of(WrRowLook look, bool hovered)
+{
+    if (look == WR_ROW_SELECTED) return WR_COLOUR_ROW_SELECTED;
+    if (look == WR_ROW_CHOSEN) return WR_COLOUR_ROW_CHOSEN;
+    return hovered ? WR_COLOUR_ROW_HOT : 0;
+}
+
+extern "C" WrRow wr_gui_row_begin(int id, double height_units, WrRowLook look)
 try {
     WrGui *gui = wr_gui_current();
     ImGui::PushID(id);
@@ -529,18 +553,36 @@ try {
     bool menu = (hovered && ImGui::IsMouseClicked(1)) || wr_gui_focus_menu(ImGui::GetItemID());
     bool moved = ImGui::IsMouseDragPastThreshold(0, px(5));
     ImGui::SetItemAllowOverlap();
-    WrColour ground = selected ? WR_COLOUR_ROW_SELECTED : hovered ? WR_COLOUR_ROW_HOT : 0;
+    const ImGuiID own = ImGui::GetItemID();
+    const WrColour ground = ground_of(look, hovered);
     if (ground)
         list->AddRectFilled(ImVec2(left, at.y), ImVec2(right, at.y + height),
                             wr_gui_colour_u32(ground));
     list->AddRectFilled(ImVec2(left, at.y + height - 1), ImVec2(right, at.y + height),
                         wr_gui_colour_u32(WR_COLOUR_POPUP));
-    bool was = gui->row_drag != 0 && gui->row_drag == ImGui::GetID("row");
-    if (held && moved) gui->row_drag = ImGui::GetID("row");
-    bool dropped = was && !held;
+    const bool was = gui->row_drag == own;
+    if (held && moved) gui->row_drag = own;
+    bool dragging = held && gui->row_drag == own, dropped = was && !held;
+    if (dragging && wr_gui_escape_pressed()) {
+        ImGui::ClearActiveID();
+        gui->row_drag = 0;
+        dragging = false;
+    }
+    if (dragging) scroll_at_edges();
     if (dropped) gui->row_drag = 0;
-    return WrRow{ (double)at.y, (double)height, (double)ImGui::GetIO().MousePos.y, released && !was,
-                  doubled,      menu,           held && gui->row_drag != 0,        dropped };
+    WrRow row = {};
+    row.top = (double)at.y;
+    row.height = (double)height;
+    row.pointer_y = (double)ImGui::GetIO().MousePos.y;
+    row.clicked = released && !was;
+    row.doubled = doubled;
+    row.menu = menu;
+    row.dragging = dragging;
+    row.dropped = dropped;
+    row.ringed = wr_gui_focused(own);
+    row.reached = row.ringed && gui->focus.stepped_rows;
+    row.extends = row.reached && (gui->focus.key.mod & KMOD_SHIFT);
+    return row;
 }
 WR_CAUGHT(WrRow{})
 
@@ -574,12 +616,25 @@ try {
 }
 WR_CAUGHT()
 
-extern "C" void wr_gui_drop_line(double y)
+extern "C" void wr_gui_drop_line(double x, double y)
 {
     float left, right, at = roundf((float)y);
+    const ImRect &inner = ImGui::GetCurrentWindow()->InnerRect;
     full_width(&left, &right);
+    left += (float)x;
+    at = fminf(fmaxf(at, inner.Min.y + px(1)), inner.Max.y - px(1));
     ImGui::GetForegroundDrawList()->AddRectFilled(
         ImVec2(left, at - px(1)), ImVec2(right, at + px(1)), wr_gui_colour_u32(WR_COLOUR_ACCENT));
+}
+
+extern "C" bool wr_gui_held(void)
+{
+    return ImGui::IsItemActive() && ImGui::GetIO().MouseDown[0];
+}
+
+extern "C" void wr_gui_let_go(void)
+{
+    ImGui::ClearActiveID();
 }
 
 extern "C" void wr_gui_text_cut(WrFont font, WrColour colour, const char *text, double width)

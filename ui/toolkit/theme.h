@@ -27,6 +27,7 @@ typedef uint32_t WrColour; /* 0xAARRGGBB */
     X(FILL_HOT, 0xff42709fu, 0xffa0c6eeu, 0xff0050c8u)                                             \
     X(ROW_HOT, 0xff323232u, 0xffdfe6eeu, 0xff303030u)                                              \
     X(ROW_SELECTED, 0xff36475cu, 0xffc0dbf6u, 0xff0050c8u)                                         \
+    X(ROW_CHOSEN, 0xff2f3a47u, 0xffdcebf9u, 0xff002c70u) /* beside the selected row */             \
     X(LIST, 0xff292929u, 0xfff6f6f6u, 0xff000000u)                                                 \
     X(POPUP, 0xff242424u, 0xfffafafau, 0xff000000u)                                                \
     X(BUTTON, 0xff393939u, 0xffd6d6d6u, 0xff303030u)                                               \
@@ -109,6 +110,7 @@ const char *wr_icon_word(const char *icon);
 #define WR_COLOUR_FILL_HOT wr_theme_colour(WR_THEMED_FILL_HOT)
 #define WR_COLOUR_ROW_HOT wr_theme_colour(WR_THEMED_ROW_HOT)
 #define WR_COLOUR_ROW_SELECTED wr_theme_colour(WR_THEMED_ROW_SELECTED)
+#define WR_COLOUR_ROW_CHOSEN wr_theme_colour(WR_THEMED_ROW_CHOSEN)
 #define WR_COLOUR_LIST wr_theme_colour(WR_THEMED_LIST)
 #define WR_COLOUR_POPUP wr_theme_colour(WR_THEMED_POPUP)
 #define WR_COLOUR_BUTTON wr_theme_colour(WR_THEMED_BUTTON)

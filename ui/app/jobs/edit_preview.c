@@ -310,6 +310,8 @@ static void set_layer(const Work *work)
     layer->blend = ask->blend;
     layer->opacity = ask->opacity;
     layer->radius = ask->radius;
+    for (int i = 0; i < work->document->layer_count; i++)
+        if (ask->also[i]) work->document->layers[i].opacity = ask->opacity;
 }
 
 static bool generate(Work *work, WrPool *pool, const WrProgress *progress)

@@ -2,15 +2,13 @@
    the window never waits. All calls are from the window's thread. */
 #pragma once
 #include "document/blend.h"
+#include "document/document.h"
 #include "field/ops.h"
 
 #include <SDL.h>
 #include <stdbool.h>
 
 typedef struct WrBrush WrBrush;
-typedef struct WrDocument WrDocument;
-typedef struct WrError WrError;
-typedef struct WrField WrField;
 
 typedef struct WrEditPreview WrEditPreview;
 
@@ -45,6 +43,7 @@ typedef struct WrEditPreviewRequest {
     int layer; /* or a layer with changed settings; or the filter or generator layer */
     WrBlend blend;
     float opacity, radius;
+    bool also[WR_LAYERS_MAX]; /* other layers that get that opacity */
 } WrEditPreviewRequest;
 
 /* Request the document's composite after an edit. Cancels an earlier request; its result, if any, stays until the new

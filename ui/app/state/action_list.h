@@ -107,6 +107,7 @@
     X(layer_lower, "Ctrl+PageDown")                                                                \
     X(layer_above, "PageUp")                                                                       \
     X(layer_below, "PageDown")                                                                     \
+    X(layer_choose_all, "Ctrl+Alt+A")                                                              \
     X(mask_selection, "")                                                                          \
     X(mask_white, "")                                                                              \
     X(mask_black, "")                                                                              \

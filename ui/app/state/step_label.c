@@ -182,6 +182,15 @@ static void other_words(const Words *w, WrText *out)
     }
 }
 
+/* Text for a change of the settings of several layers; %d is their number. */
+static const char *layers_deed(const Words *w)
+{
+    const char *visible = value_of(w, "visible"), *lock = value_of(w, "lock");
+    if (visible) return strcmp(visible, "off") == 0 ? "%d layers hidden" : "%d layers shown";
+    if (lock) return strcmp(lock, "off") == 0 ? "%d layers unlocked" : "%d layers locked";
+    return NULL;
+}
+
 /* Text for a click on a layer; %.20s is the layer's number. */
 static const char *layer_deed(const Words *w)
 {
@@ -193,6 +202,18 @@ static const char *layer_deed(const Words *w)
     if (visible) return "Layer %.20s shown";
     if (lock && strcmp(lock, "off") == 0) return "Layer %.20s unlocked";
     return lock ? "Layer %.20s locked" : NULL;
+}
+
+/* True if the line is such a change. */
+static bool layer_words(const Words *w, WrText *out)
+{
+    const char *deed = layer_deed(w), *list = plain(w, 2);
+    if (!deed) return false;
+    int layers = 1;
+    for (const char *p = list; *p; p++) layers += *p == ',';
+    if (layers > 1 && layers_deed(w)) wr_text_addf(out, wr_words(layers_deed(w)), layers);
+    else wr_text_addf(out, wr_words(deed), list);
+    return true;
 }
 
 void wr_step_label(const char *line, WrText *out)
@@ -209,8 +230,7 @@ void wr_step_label(const char *line, WrText *out)
         wr_text_addf(out, "%s: %.40s", wr_words("Text"), kind);
     else if (kind && strcmp(verb, "layer") == 0 && strcmp(kind, "paste") == 0)
         wr_text_add(out, wr_words("Pasted"));
-    else if (strcmp(verb, "layer") == 0 && layer_deed(&w))
-        wr_text_addf(out, wr_words(layer_deed(&w)), plain(&w, 2));
+    else if (strcmp(verb, "layer") == 0 && layer_words(&w, out)) (void)0;
     else if (op) wr_text_add(out, wr_words(op->label));
     else if (generator && generator->label) wr_text_add(out, wr_words(generator->label));
     else if (w.count > 0) other_words(&w, out);

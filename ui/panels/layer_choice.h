@@ -1,0 +1,23 @@
+/* layer_choice.h - layers chosen in the window, and command lines that change several layers in one step. */
+#pragma once
+#include "ui/app/state/app_state.h"
+#include "ui/app/state/chosen_layers.h"
+
+#include <stdbool.h>
+
+/* The chosen layers of the present document. */
+WrChosenLayers *wr_app_chosen(const WrApp *app);
+/* Choose layer `index`; true if a command was run, since another layer becomes active. */
+bool wr_layer_pick(WrApp *app, int index, WrChoosing how);
+/* Choose all layers. */
+void wr_layer_pick_all(WrApp *app);
+/* The layers changed by a widget in the row of layer `index`: the chosen ones if it is one of them, else it alone.
+   Returns out. */
+const bool *wr_layers_of_row(const WrApp *app, int index, bool out[WR_LAYERS_MAX]);
+/* Run "layer FORM 2,4,5 REST" on these layers; rest: "" for none. Returns whether a command was run. */
+bool wr_layers_run(WrApp *app, const char *form, const bool layers[WR_LAYERS_MAX],
+                   const char *rest);
+/* The same for the chosen layers, of a form that leaves as many layers chosen, from index `first` on. */
+bool wr_layers_run_to(WrApp *app, const char *form, const char *rest, int first);
+/* Move these layers together, so that the lowest becomes number `to`. */
+bool wr_layers_move(WrApp *app, const bool layers[WR_LAYERS_MAX], int to);
