@@ -1,0 +1,534 @@
+/* The layers' list: which layers are chosen, where dragged rows land, and the list in a window without a display, where
+   each action on several layers is one step of the history. */
+#include "test.h"
+
+#include "app.h"
+
+#include "base/text.h"
+#include "document/document.h"
+
+#include "ui/app/state/chosen_layers.h"
+#include "ui/app/state/messages.h"
+#include "ui/app/state/pointer_state.h"
+#include "ui/app/state/registry.h"
+#include "ui/app/state/settings.h"
+#include "ui/panels/layer_choice.h"
+#include "ui/panels/layer_rows.h"
+#include "ui/panels/panel_layers.h"
+#include "ui/toolkit/focus.h"
+#include "ui/toolkit/gui.h"
+
+#include <string.h>
+
+static void run(WrSession *session, const char *line)
+{
+    WrError err = { "" };
+    if (!wr_session_run(session, line, &err)) fail_msg("%s: %s", line, err.text);
+}
+
+/* Layers a, b, c ... from the bottom. */
+static void letters(WrSession *session, int count)
+{
+    char line[32];
+    run(session, "table 32x24");
+    run(session, "layer rename 1 a");
+    for (int i = 1; i < count; i++) {
+        snprintf(line, sizeof line, "layer add %c", 'a' + i);
+        run(session, line);
+    }
+}
+
+/* ---- the choice, without a window ---- */
+
+/* Names of the chosen layers, the active one as a capital. */
+static void print_chosen(const WrDocument *document, const WrChosenLayers *chosen, char *out)
+{
+    for (int i = 0; i < document->layer_count; i++) {
+        if (!chosen->chosen[i]) continue;
+        *out = document->layers[i].name[0];
+        if (i == document->active) *out = (char)(*out - 'a' + 'A');
+        out++;
+    }
+    *out = '\0';
+}
+
+typedef struct List {
+    WrSession *session;
+    WrChosenLayers chosen;
+} List;
+
+static void follow(List *list)
+{
+    wr_chosen_follow(&list->chosen, wr_session_document(list->session),
+                     wr_session_last_command(list->session));
+}
+
+static void assert_chosen(List *list, const char *names)
+{
+    char text[WR_LAYERS_MAX + 1];
+    follow(list);
+    print_chosen(wr_session_document(list->session), &list->chosen, text);
+    assert_string_equal(text, names);
+}
+
+static void pick(List *list, char name, WrChoosing how)
+{
+    char line[32];
+    const WrDocument *document = wr_session_document(list->session);
+    int index = 0;
+    while (document->layers[index].name[0] != name) index++;
+    follow(list);
+    const int next = wr_chosen_pick(&list->chosen, document->active, index, how);
+    snprintf(line, sizeof line, "layer use %d", next + 1);
+    wr_chosen_expect(&list->chosen, line, list->chosen.chosen);
+    if (next != document->active) run(list->session, line);
+}
+
+static void clicks_choose_as_in_other_programs(void **state)
+{
+    (void)state;
+    List list = { .session = wr_session_new(&(WrSessionOptions){ .outputs = false }) };
+    letters(list.session, 7);
+    assert_chosen(&list, "G");
+    pick(&list, 'c', WR_CHOOSE_ONLY);
+    assert_chosen(&list, "C");
+    pick(&list, 'e', WR_CHOOSE_TOGGLE);
+    assert_chosen(&list, "cE");
+    pick(&list, 'a', WR_CHOOSE_TOGGLE);
+    assert_chosen(&list, "Ace");
+    pick(&list, 'e', WR_CHOOSE_TOGGLE); /* not the active one */
+    assert_chosen(&list, "Ac");
+    pick(&list, 'a', WR_CHOOSE_TOGGLE);
+    assert_chosen(&list, "C");
+    pick(&list, 'c', WR_CHOOSE_TOGGLE); /* the only one stays */
+    assert_chosen(&list, "C");
+    pick(&list, 'f', WR_CHOOSE_RANGE);
+    assert_chosen(&list, "cdeF");
+    pick(&list, 'b', WR_CHOOSE_RANGE); /* from the same end */
+    assert_chosen(&list, "Bc");
+    pick(&list, 'g', WR_CHOOSE_TOGGLE);
+    pick(&list, 'e', WR_CHOOSE_RANGE);
+    assert_chosen(&list, "Efg");
+    pick(&list, 'f', WR_CHOOSE_ONLY);
+    assert_chosen(&list, "F");
+    wr_chosen_free(&list.chosen);
+    wr_session_free(list.session);
+}
+
+static void chosen_layers_stay_chosen_while_others_change(void **state)
+{
+    (void)state;
+    List list = { .session = wr_session_new(&(WrSessionOptions){ .outputs = false }) };
+    letters(list.session, 6);
+    pick(&list, 'b', WR_CHOOSE_ONLY);
+    pick(&list, 'd', WR_CHOOSE_TOGGLE);
+    run(list.session, "layer move b to=6");
+    assert_chosen(&list, "Db");
+    run(list.session, "layer move c to=1");
+    assert_chosen(&list, "Db");
+    run(list.session, "undo 2");
+    assert_chosen(&list, "bD");
+    run(list.session, "layer delete a,e");
+    assert_chosen(&list, "bD");
+    run(list.session, "layer delete d"); /* the active one: the one below becomes active */
+    assert_chosen(&list, "C");
+    run(list.session, "undo");
+    assert_chosen(&list, "D");
+    pick(&list, 'f', WR_CHOOSE_RANGE);
+    run(list.session, "layer add x above=d");
+    assert_chosen(&list, "X");
+    run(list.session, "layer use f");
+    assert_chosen(&list, "F");
+    wr_chosen_free(&list.chosen);
+    wr_session_free(list.session);
+}
+
+/* ---- drop places ---- */
+
+/* The list from the top with the moved layers, in their order, put before place `gap`. */
+static void drop_in_list(const char *list, const bool *moved, int gap, char *out)
+{
+    const int count = (int)strlen(list);
+    int n = 0;
+    for (int half = 0; half < 2; half++) {
+        for (int r = half ? gap : 0; r < (half ? count : gap); r++)
+            if (!moved[list[r] - 'a']) out[n++] = list[r];
+        for (int r = 0; r < count && !half; r++)
+            if (moved[list[r] - 'a']) out[n++] = list[r];
+    }
+    out[n] = '\0';
+}
+
+static void print_list(const WrSession *session, char *out)
+{
+    const WrDocument *document = wr_session_document(session);
+    for (int i = document->layer_count - 1; i >= 0; i--) *out++ = document->layers[i].name[0];
+    *out = '\0';
+}
+
+#define DROPPED 5
+
+/* Every set of five layers, at every place. */
+static void dropped_layers_land_at_the_line(void **state)
+{
+    (void)state;
+    WrSession *session = wr_session_new(&(WrSessionOptions){ .outputs = false });
+    letters(session, DROPPED);
+    for (int set = 1; set < 1 << DROPPED; set++)
+        for (int step = -1; step <= 4 * DROPPED + 2; step++) {
+            const double y = 0.25 * step + 0.05; /* not at a half */
+            const int gap = (int)fmin(fmax(floor(y + 0.5), 0), DROPPED);
+            bool moved[WR_LAYERS_MAX] = { false };
+            char right[DROPPED + 1], before[DROPPED + 1], after[DROPPED + 1], line[64];
+            WrText layers = { 0 };
+            for (int i = 0; i < DROPPED; i++) moved[i] = set >> i & 1;
+            print_list(session, before);
+            drop_in_list(before, moved, gap, right);
+            const WrDocument *document = wr_session_document(session);
+            const WrLayerRows rows = wr_layer_rows(document);
+            const WrLayerDrop drop = wr_layer_drop(document, &rows, moved, y);
+            assert_true(drop.line == gap);
+            assert_int_equal(drop.to == 0, strcmp(before, right) == 0);
+            if (!drop.to) continue;
+            wr_layers_print(moved, &layers);
+            snprintf(line, sizeof line, "layer move %s to=%d", wr_text_get(&layers), drop.to);
+            run(session, line);
+            print_list(session, after);
+            assert_string_equal(after, right);
+            run(session, "undo");
+            wr_text_fini(&layers);
+        }
+    wr_session_free(session);
+}
+
+/* ---- the list in a window ---- */
+
+static void open_list(Bench *bench, int count)
+{
+    begin(bench);
+    letters(bench->session, count);
+    bench->app->settings->lower = 0.9; /* six rows are visible */
+    for (const WrPart *const *p = bench->app->registry->parts; *p; p++)
+        if ((*p)->another) (*p)->another(bench->app);
+    settle(bench);
+}
+
+/* Row n of the list, from the top. */
+static WrKeyStop row(const Bench *bench, int n)
+{
+    int count;
+    const WrKeyStop *stops = wr_gui_stops(bench->app->gui, &count);
+    for (int i = 0; i < count; i++)
+        if (stops[i].kind == WR_STOP_ROW && n-- == 0) return stops[i];
+    fail_msg("the row is missing");
+    return (WrKeyStop){ 0 };
+}
+
+static int middle(const Bench *bench, int n)
+{
+    const WrKeyStop stop = row(bench, n);
+    return (int)(0.5f * (stop.y0 + stop.y1));
+}
+
+static int name_x(const Bench *bench)
+{
+    const WrKeyStop stop = row(bench, 0);
+    return (int)(stop.x0 + 0.45f * (stop.x1 - stop.x0));
+}
+
+static int eye_x(const Bench *bench)
+{
+    return (int)row(bench, 0).x0 + wr_gui_px(20);
+}
+
+static void push_key(const WrApp *app, bool down, SDL_Scancode code, SDL_Keymod mod)
+{
+    SDL_PushEvent(&(SDL_Event){ .key = { .type = down ? SDL_KEYDOWN : SDL_KEYUP,
+                                         .windowID = SDL_GetWindowID(app->window),
+                                         .keysym = { .scancode = code,
+                                                     .sym = SDL_GetKeyFromScancode(code),
+                                                     .mod = (Uint16)mod } } });
+}
+
+static void hold(Bench *bench, bool down, SDL_Scancode code, SDL_Keymod mod)
+{
+    push_key(bench->app, down, code, down ? mod : KMOD_NONE);
+    draw_again(bench->app);
+}
+
+static void tap(Bench *bench, SDL_Scancode code, SDL_Keymod mod)
+{
+    push_key(bench->app, true, code, mod);
+    push_key(bench->app, false, code, mod);
+    settle(bench);
+}
+
+static void press(Bench *bench, bool down, int which, int x, int y)
+{
+    push_motion(bench->app, x, y);
+    draw_again(bench->app);
+    push_button(bench->app, down, which, x, y);
+    draw_again(bench->app);
+}
+
+static void click(Bench *bench, int n, SDL_Scancode code, SDL_Keymod mod)
+{
+    if (code) hold(bench, true, code, mod);
+    press(bench, true, SDL_BUTTON_LEFT, name_x(bench), middle(bench, n));
+    press(bench, false, SDL_BUTTON_LEFT, name_x(bench), middle(bench, n));
+    if (code) hold(bench, false, code, mod);
+    settle(bench);
+}
+
+static void click_eye(Bench *bench, int n)
+{
+    press(bench, true, SDL_BUTTON_LEFT, eye_x(bench), middle(bench, n));
+    press(bench, false, SDL_BUTTON_LEFT, eye_x(bench), middle(bench, n));
+    settle(bench);
+}
+
+/* Of the names, away from clicks before, so that none becomes a double click. */
+static int drag_x(const Bench *bench)
+{
+    return name_x(bench) + wr_gui_px(24);
+}
+
+/* From x and the middle of row `from` to y, without the release. */
+static void drag(Bench *bench, int x, int from, int y)
+{
+    const int start = middle(bench, from);
+    press(bench, true, SDL_BUTTON_LEFT, x, start);
+    for (int i = 1; i <= 6; i++) {
+        push_motion(bench->app, x, start + (y - start) * i / 6);
+        draw_again(bench->app);
+    }
+}
+
+static void let_go(Bench *bench, int x, int y)
+{
+    press(bench, false, SDL_BUTTON_LEFT, x, y);
+    settle(bench);
+}
+
+static void assert_list(const Bench *bench, const char *names, const char *chosen)
+{
+    char text[WR_LAYERS_MAX + 1];
+    print_list(bench->session, text);
+    assert_string_equal(text, names);
+    print_chosen(wr_session_document(bench->session), wr_app_chosen(bench->app), text);
+    assert_string_equal(text, chosen);
+}
+
+static int steps(const Bench *bench)
+{
+    return wr_session_history_position(bench->session);
+}
+
+static void assert_last(const Bench *bench, const char *line)
+{
+    assert_string_equal(wr_session_last_command(bench->session), line);
+}
+
+#define CTRL SDL_SCANCODE_LCTRL, KMOD_LCTRL
+#define SHIFT SDL_SCANCODE_LSHIFT, KMOD_LSHIFT
+#define PLAIN SDL_SCANCODE_UNKNOWN, KMOD_NONE
+
+static void rows_are_chosen_by_clicks_and_keys(void **state)
+{
+    (void)state;
+    Bench bench;
+    open_list(&bench, 5);
+    assert_list(&bench, "edcba", "E");
+    click(&bench, 3, PLAIN);
+    assert_list(&bench, "edcba", "B");
+    click(&bench, 1, SHIFT);
+    assert_list(&bench, "edcba", "bcD");
+    click(&bench, 4, CTRL);
+    assert_list(&bench, "edcba", "Abcd");
+    click(&bench, 2, CTRL);
+    assert_list(&bench, "edcba", "Abd");
+    press(&bench, true, SDL_BUTTON_RIGHT, name_x(&bench), middle(&bench, 3)); /* keeps the choice */
+    press(&bench, false, SDL_BUTTON_RIGHT, name_x(&bench), middle(&bench, 3));
+    assert_true(wr_gui_popup_open_now(bench.app->gui));
+    tap(&bench, SDL_SCANCODE_ESCAPE, KMOD_NONE);
+    assert_list(&bench, "edcba", "Abd");
+    click(&bench, 0, PLAIN);
+    assert_list(&bench, "edcba", "E");
+
+    assert_true(wr_gui_focus_on(bench.app->gui, row(&bench, 0).id));
+    draw_again(bench.app);
+    tap(&bench, SDL_SCANCODE_DOWN, KMOD_NONE);
+    assert_list(&bench, "edcba", "D");
+    tap(&bench, SDL_SCANCODE_DOWN, KMOD_LSHIFT);
+    tap(&bench, SDL_SCANCODE_DOWN, KMOD_LSHIFT);
+    assert_list(&bench, "edcba", "Bcd");
+    tap(&bench, SDL_SCANCODE_UP, KMOD_LSHIFT);
+    assert_list(&bench, "edcba", "Cd");
+    tap(&bench, SDL_SCANCODE_A, KMOD_LCTRL);
+    assert_list(&bench, "edcba", "abCde");
+    assert_null(wr_session_document(bench.session)->selection);
+    tap(&bench, SDL_SCANCODE_ESCAPE, KMOD_NONE); /* the keys belong to the canvas */
+    tap(&bench, SDL_SCANCODE_A, KMOD_LCTRL);
+    assert_non_null(wr_session_document(bench.session)->selection);
+    finish(&bench);
+}
+
+static void actions_change_all_chosen_layers_in_one_step(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *action, *line, *names, *chosen;
+    } acts[] = {
+        { "layer_duplicate", "layer duplicate 2,4", "fedcedbcba", NULL },
+        { "layer_delete", "layer delete 2,4", "fecba", NULL },
+        { "layer_show", "layer set 2,4 visible=off", "fedcba", "bD" },
+        { "layer_lock", "layer set 2,4 lock=on", "fedcba", "bD" },
+        { "layer_raise", "layer move 2,4 to=4", "fdbeca", "bD" },
+        { "layer_lower", "layer move 2,4 to=1", "fecadb", "bD" },
+        { "layer_clear", "layer clear 2,4", "fedcba", "bD" },
+        { "layer_above", "layer use 5", "fedcba", "E" },
+    };
+    Bench bench;
+    open_list(&bench, 6);
+    for (size_t i = 0; i < sizeof acts / sizeof *acts; i++) {
+        click(&bench, 4, PLAIN);
+        click(&bench, 2, CTRL);
+        assert_list(&bench, "fedcba", "bD");
+        const int before = steps(&bench);
+        wr_action_run(bench.app, acts[i].action);
+        settle(&bench);
+        assert_last(&bench, acts[i].line);
+        assert_int_equal(steps(&bench), before + 1);
+        if (acts[i].chosen) assert_list(&bench, acts[i].names, acts[i].chosen);
+        wr_action_run(bench.app, "undo");
+        settle(&bench);
+    }
+    finish(&bench);
+}
+
+static void copies_are_chosen_and_merged(void **state)
+{
+    (void)state;
+    Bench bench;
+    open_list(&bench, 4);
+    click(&bench, 3, PLAIN);
+    click(&bench, 1, CTRL);
+    wr_action_run(bench.app, "layer_duplicate");
+    settle(&bench);
+    /* names begin with the same letters as those of the originals */
+    assert_list(&bench, "dcacba", "aC");
+    assert_true(wr_app_chosen(bench.app)->chosen[3] && wr_app_chosen(bench.app)->chosen[4]);
+    const int before = steps(&bench);
+    wr_action_run(bench.app, "layer_merge");
+    settle(&bench);
+    assert_last(&bench, "layer merge 4,5");
+    assert_int_equal(steps(&bench), before + 1);
+    assert_list(&bench, "dacba", "A");
+    click(&bench, 0, PLAIN);
+    click(&bench, 2, CTRL);
+    wr_action_run(bench.app, "layer_merge"); /* the message says why not */
+    settle(&bench);
+    assert_list(&bench, "dacba", "Cd");
+    const WrMessages *messages = bench.app->messages;
+    assert_non_null(strstr(messages->list.data[messages->list.count - 1].text, "not neighbours"));
+    finish(&bench);
+}
+
+static void eyes_of_several_layers(void **state)
+{
+    (void)state;
+    Bench bench;
+    open_list(&bench, 5);
+    click(&bench, 1, PLAIN);
+    click(&bench, 3, SHIFT);
+    int before = steps(&bench);
+    click_eye(&bench, 2); /* of a chosen row: all chosen */
+    assert_last(&bench, "layer set 2,3,4 visible=off");
+    click_eye(&bench, 0); /* of another row: itself */
+    assert_last(&bench, "layer set 5 visible=off");
+    assert_int_equal(steps(&bench), before + 2);
+    assert_list(&bench, "edcba", "Bcd");
+    before = steps(&bench);
+    drag(&bench, eye_x(&bench), 4, middle(&bench, 2)); /* from the visible one upwards */
+    assert_int_equal(steps(&bench), before);
+    let_go(&bench, eye_x(&bench), middle(&bench, 2));
+    assert_last(&bench, "layer set 1,2,3 visible=off");
+    drag(&bench, eye_x(&bench), 1, middle(&bench, 3));
+    let_go(&bench, eye_x(&bench), middle(&bench, 3));
+    assert_last(&bench, "layer set 2,3,4 visible=on");
+    assert_int_equal(steps(&bench), before + 2);
+    drag(&bench, eye_x(&bench), 0, middle(&bench, 3));
+    tap(&bench, SDL_SCANCODE_ESCAPE, KMOD_NONE);
+    let_go(&bench, eye_x(&bench), middle(&bench, 3));
+    assert_int_equal(steps(&bench), before + 2);
+    assert_list(&bench, "edcba", "Bcd");
+    finish(&bench);
+}
+
+static int edge_below(const Bench *bench, int n, int off)
+{
+    return (int)row(bench, n).y1 + off;
+}
+
+static void rows_are_dragged_together(void **state)
+{
+    (void)state;
+    Bench bench;
+    open_list(&bench, 5);
+    click(&bench, 0, PLAIN);
+    click(&bench, 2, CTRL);
+    int before = steps(&bench);
+    drag(&bench, drag_x(&bench), 2, edge_below(&bench, 3, -6));
+    assert_true(bench.app->layers->dragged == 2 && bench.app->layers->drop.line == 4);
+    let_go(&bench, drag_x(&bench), edge_below(&bench, 3, -6));
+    assert_last(&bench, "layer move 3,5 to=2");
+    assert_list(&bench, "dbeca", "Ce");
+    drag(&bench, drag_x(&bench), 0, edge_below(&bench, 4, 3)); /* a row that is not chosen */
+    let_go(&bench, drag_x(&bench), edge_below(&bench, 4, 3));
+    assert_last(&bench, "layer move 5 to=1");
+    assert_list(&bench, "becad", "Ce");
+    assert_int_equal(steps(&bench), before + 2);
+    drag(&bench, drag_x(&bench), 1, edge_below(&bench, 3, 5));
+    tap(&bench, SDL_SCANCODE_ESCAPE, KMOD_NONE);
+    assert_int_equal(bench.app->layers->dragged, -1);
+    let_go(&bench, drag_x(&bench), edge_below(&bench, 3, 5));
+    drag(&bench, drag_x(&bench), 1, edge_below(&bench, 2, -4)); /* its own place */
+    let_go(&bench, drag_x(&bench), edge_below(&bench, 2, -4));
+    assert_int_equal(steps(&bench), before + 2);
+    assert_list(&bench, "becad", "Ce");
+    finish(&bench);
+}
+
+static void a_drag_scrolls_at_the_edge(void **state)
+{
+    (void)state;
+    Bench bench;
+    open_list(&bench, 26);
+    const WrKeyStop first = row(&bench, 0);
+    click(&bench, 0, PLAIN);
+    assert_true(wr_gui_focus_on(bench.app->gui, row(&bench, 0).id));
+    settle(&bench);
+    const int bottom = 700 - wr_gui_px(70); /* the list's lower edge, above its buttons */
+    drag(&bench, drag_x(&bench), 0, bottom);
+    for (int i = 0; i < 400 && row(&bench, 25).y1 > (float)bottom; i++) draw_again(bench.app);
+    assert_true(row(&bench, 0).y0 < first.y0 - 300);
+    let_go(&bench, drag_x(&bench), bottom);
+    assert_last(&bench, "layer move 26 to=1");
+    finish(&bench);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(clicks_choose_as_in_other_programs),
+        cmocka_unit_test(chosen_layers_stay_chosen_while_others_change),
+        cmocka_unit_test(dropped_layers_land_at_the_line),
+        cmocka_unit_test(rows_are_chosen_by_clicks_and_keys),
+        cmocka_unit_test(actions_change_all_chosen_layers_in_one_step),
+        cmocka_unit_test(copies_are_chosen_and_merged),
+        cmocka_unit_test(eyes_of_several_layers),
+        cmocka_unit_test(rows_are_dragged_together),
+        cmocka_unit_test(a_drag_scrolls_at_the_edge),
+    };
+    return cmocka_run_group_tests(tests, enter_window, remove_folder);
+}
