@@ -426,7 +426,7 @@ static void copies_are_chosen_and_merged(void **state)
     assert_list(&bench, "dacba", "A");
     click(&bench, 0, PLAIN);
     click(&bench, 2, CTRL);
-    wr_action_run(bench.app, "layer_merge"); /* the message says why not */
+    wr_action_run(bench.app, "layer_merge"); /* refused, with the reason */
     settle(&bench);
     assert_list(&bench, "dacba", "Cd");
     const WrMessages *messages = bench.app->messages;

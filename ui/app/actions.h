@@ -66,7 +66,6 @@ void wr_act_layer_rename(WrApp *app);
 void wr_act_layer_merge(WrApp *app);
 void wr_act_filter_edit(WrApp *app);
 void wr_act_layer_rasterize(WrApp *app);
-bool wr_is_generated(const WrApp *app); /* the active layer is a generator layer */
 bool wr_has_values(const WrApp *app);   /* it is a filter or a generator layer */
 void wr_act_layer_flatten(WrApp *app);
 void wr_act_layer_clear(WrApp *app);

@@ -243,7 +243,7 @@ static bool is_filter(const WrApp *app)
 
 void wr_act_filter_edit(WrApp *app)
 {
-    if (wr_is_generated(app)) wr_generate_edit_layer(app, wr_app_document(app)->active);
+    if (generated(active(app))) wr_generate_edit_layer(app, wr_app_document(app)->active);
     else wr_filter_edit(app);
 }
 
@@ -258,14 +258,9 @@ bool wr_can_rasterize(const WrApp *app)
     return chosen_of(app, generated, layers) > 0;
 }
 
-bool wr_is_generated(const WrApp *app)
-{
-    return active(app)->line != NULL;
-}
-
 bool wr_has_values(const WrApp *app)
 {
-    return is_filter(app) || wr_is_generated(app);
+    return is_filter(app) || generated(active(app));
 }
 
 bool wr_can_several_layers(const WrApp *app)
