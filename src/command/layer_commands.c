@@ -10,6 +10,7 @@
 #include "command/session_internal.h"
 #include "document/blend.h"
 #include "document/document.h"
+#include "document/object_tables.h"
 #include "field/field.h"
 #include "field/select.h"
 #include "generate/generator.h"
@@ -232,28 +233,86 @@ static bool find(const WrSession *session, const WrCall *call, const char *name,
     return !arg->given || wr_session_find_layer(session, arg->text, index, err);
 }
 
-/* Layers of argument N, the lowest first; the active one if N is optional and missing. */
-static bool find_all(const WrSession *session, const WrCall *call, WrLayerList *layers,
-                     WrError *err)
+/* Layers of an argument, the lowest first; the active one if it is optional and missing. */
+static bool find_all(const WrSession *session, const WrCall *call, const char *name,
+                     WrLayerList *layers, WrError *err)
 {
-    const WrArg *arg = wr_call_arg(call, "N");
+    const WrArg *arg = wr_call_arg(call, name);
     if (arg->given) return wr_session_find_layers(session, arg->text, layers, err);
     *layers = (WrLayerList){ .index = { session->state.document->active }, .count = 1 };
+    return true;
+}
+
+/* Only those of the layers that are not in another one of them, with which they change. */
+static void keep_outermost(const WrDocument *document, WrLayerList *layers)
+{
+    int count = 0;
+    for (int i = 0; i < layers->count; i++) {
+        bool inside = false;
+        for (int k = i + 1; k < layers->count && !inside; k++)
+            inside = wr_document_is_within(document, layers->index[i], layers->index[k]);
+        if (!inside) layers->index[count++] = layers->index[i];
+    }
+    layers->count = count;
+}
+
+/* Rows of a layer with its members. */
+static int rows_of(const WrDocument *document, int index)
+{
+    return index + 1 - wr_layers_first(document->layers, index);
+}
+
+static int rows_of_all(const WrDocument *document, const WrLayerList *layers)
+{
+    int rows = 0;
+    for (int i = 0; i < layers->count; i++) rows += rows_of(document, layers->index[i]);
+    return rows;
+}
+
+/* The layers, which move and vanish with their members. */
+static bool find_outermost(const WrSession *session, const WrCall *call, WrLayerList *layers,
+                           WrError *err)
+{
+    if (!find_all(session, call, "N", layers, err)) return false;
+    keep_outermost(session->state.document, layers);
+    return true;
+}
+
+/* The layer with its members. */
+static bool check_all_unlocked(const WrSession *session, int index, WrError *err)
+{
+    for (int i = wr_layers_first(session->state.document->layers, index); i <= index; i++)
+        if (!wr_session_check_unlocked(session, i, err)) return false;
     return true;
 }
 
 static bool find_unlocked(const WrSession *session, const WrCall *call, WrLayerList *layers,
                           WrError *err)
 {
-    if (!find_all(session, call, layers, err)) return false;
+    if (!find_outermost(session, call, layers, err)) return false;
     for (int i = 0; i < layers->count; i++)
-        if (!wr_session_check_unlocked(session, layers->index[i], err)) return false;
+        if (!check_all_unlocked(session, layers->index[i], err)) return false;
     return true;
 }
 
-static bool check_room(const WrDocument *document, int more, WrError *err)
+/* The group of argument `in`; -1: none is given, or "none". */
+static bool find_group(const WrSession *session, const WrCall *call, int *group, WrError *err)
 {
-    if (document->layer_count + more <= WR_LAYERS_MAX) return true;
+    const char *word = wr_call_arg(call, "in")->text;
+    *group = -1;
+    if (!word || strcmp(word, "none") == 0) return true;
+    if (!wr_session_find_layer(session, word, group, err)) return false;
+    if (session->state.document->layers[*group].is_group) return true;
+    WrText name = { 0 };
+    wr_fail(err, "%s is no group: `layer group` makes one of layers",
+            wr_session_layer_name(session, *group, &name));
+    wr_text_fini(&name);
+    return false;
+}
+
+static bool check_room(const WrDocument *document, int rows, WrError *err)
+{
+    if (document->layer_count + rows <= WR_LAYERS_MAX) return true;
     return wr_fail(err, "a document has up to %d layers", WR_LAYERS_MAX);
 }
 
@@ -290,12 +349,18 @@ static bool layer_add(WrSession *session, WrCall *call, WrError *err)
 {
     WrDocument *document = session->state.document;
     const char *name = wr_call_arg(call, "NAME")->text;
-    int below;
+    int below, group;
     WrText made = { 0 };
-    if (!check_room(document, 1, err) || !find(session, call, "above", &below, err)) return false;
+    if (!check_room(document, 1, err) || !find(session, call, "above", &below, err) ||
+        !find_group(session, call, &group, err))
+        return false;
+    if (wr_call_given(call, "in") && wr_call_given(call, "above"))
+        return wr_fail(err, "above= and in= do not go together: above= a layer of the group");
+    if (wr_call_given(call, "in")) below = group < 0 ? document->layer_count - 1 : group - 1;
     free_name(document, &made);
     WrLayer layer = wr_layer_make(name ? name : wr_text_get(&made), document->layers[0].heights);
     wr_text_fini(&made);
+    if (group >= 0) layer.depth = WR_DEPTH_MAX; /* the deepest possible there: in the group */
     bool good = true;
     if (wr_call_given(call, "from"))
         good = wr_session_add_generator_layer(session, call, below + 1, layer, err);
@@ -306,9 +371,10 @@ static bool layer_add(WrSession *session, WrCall *call, WrError *err)
 
 static bool layer_delete(WrSession *session, WrCall *call, WrError *err)
 {
+    const WrDocument *document = session->state.document;
     WrLayerList layers;
     if (!find_unlocked(session, call, &layers, err)) return false;
-    if (session->state.document->layer_count == layers.count)
+    if (rows_of_all(document, &layers) == document->layer_count)
         return wr_fail(err, "the last layer stays: a document has at least one");
     for (int i = layers.count - 1; i >= 0; i--)
         wr_document_remove(session->state.document, layers.index[i]);
@@ -330,24 +396,39 @@ static char *copy_name(const char *name)
     return text.data;
 }
 
+/* Inserts a copy of a layer and its members above row place - 1, that much deeper. index < place. */
+static void copy_layer(WrDocument *document, int index, int place, int deeper)
+{
+    for (int i = index; i >= wr_layers_first(document->layers, index); i--) {
+        WrLayer layer = wr_layer_share(&document->layers[i]);
+        layer.depth += deeper;
+        if (i == index) {
+            wr_free(layer.name);
+            layer.name = copy_name(document->layers[index].name);
+            layer.locked = false;
+        }
+        wr_document_insert(document, place, layer);
+    }
+}
+
 /* The copies go above the highest of the layers, in their order; the active layer's copy, else the highest, becomes
    active. */
 static bool layer_duplicate(WrSession *session, WrCall *call, WrError *err)
 {
     WrDocument *document = session->state.document;
     WrLayerList layers;
-    if (!find_all(session, call, &layers, err) || !check_room(document, layers.count, err))
-        return false;
-    const int top = layers.index[layers.count - 1];
-    int active = top + layers.count;
-    for (int i = 0; i < layers.count; i++) {
-        const WrLayer *from = &document->layers[layers.index[i]];
-        if (layers.index[i] == document->active) active = top + 1 + i;
-        WrLayer layer = wr_layer_share(from);
-        wr_free(layer.name);
-        layer.name = copy_name(from->name);
-        layer.locked = false;
-        wr_document_insert(document, top + 1 + i, layer);
+    if (!find_outermost(session, call, &layers, err)) return false;
+    const int top = layers.index[layers.count - 1], depth = document->layers[top].depth;
+    const int rows = rows_of_all(document, &layers), was_active = document->active;
+    if (!check_room(document, rows, err)) return false;
+    int active = top + rows, place = top + rows;
+    for (int i = layers.count - 1; i >= 0; i--) {
+        const int index = layers.index[i];
+        if (depth + wr_document_height(document, index) > WR_DEPTH_MAX)
+            return wr_fail(err, "up to %d groups can be nested", WR_DEPTH_MAX);
+        if (index == was_active) active = place;
+        place -= rows_of(document, index);
+        copy_layer(document, index, top + 1, depth - document->layers[index].depth);
     }
     document->active = active;
     return true;
@@ -366,38 +447,80 @@ static bool check_visible(const WrSession *session, int index, WrError *err)
 }
 
 /* True if the layers are neighbours. */
-static bool check_neighbours(const WrLayerList *layers, WrError *err)
+static bool check_neighbours(const WrDocument *document, const WrLayerList *layers, WrError *err)
 {
-    for (int i = 1; i < layers->count; i++)
-        if (layers->index[i] != layers->index[i - 1] + 1)
+    for (int i = 1; i < layers->count; i++) {
+        const int below = layers->index[i - 1], above = layers->index[i];
+        if (wr_layers_first(document->layers, above) != below + 1 ||
+            document->layers[below].depth != document->layers[above].depth)
             return wr_fail(err,
                            "layers %d and %d are not neighbours: move them together, or merge the "
                            "layers between too",
-                           layers->index[i - 1] + 1, layers->index[i] + 1);
+                           below + 1, above + 1);
+    }
     return true;
 }
 
-/* Joins one layer with the one below, or several neighbours with each other, from the bottom: onto layer 1 that is
-   exact. */
-static bool layer_merge(WrSession *session, WrCall *call, WrError *err)
+static void note_hidden(WrSession *session, int from, int to)
 {
-    WrLayerList layers;
-    if (!find_unlocked(session, call, &layers, err) || !check_neighbours(&layers, err))
-        return false;
-    int low = layers.index[0];
-    const int high = layers.index[layers.count - 1];
-    if (high == 0) return wr_fail(err, "layer 1 has none below that it could be merged into");
-    if (low == high) low--;
-    if (!wr_session_check_unlocked(session, low, err)) return false;
-    for (int i = high; i >= low; i--)
-        if (!check_visible(session, i, err)) return false;
-    for (int i = low; i < high && !wr_progress_stopped(); i++) {
+    int hidden = 0;
+    for (int i = from; i < to; i++) hidden += !session->state.document->layers[i].visible;
+    if (hidden) wr_session_note(session, "%d hidden layers are gone", hidden);
+}
+
+static bool join_group(WrSession *session, int index)
+{
+    WrDocument *document = session->state.document;
+    note_hidden(session, wr_layers_first(document->layers, index), index);
+    wr_document_rasterize_group(document, index, session->options.pool);
+    return true;
+}
+
+/* The layer below in its group, which it is merged into. */
+static bool add_below(const WrSession *session, WrLayerList *layers, WrError *err)
+{
+    const WrDocument *document = session->state.document;
+    const int index = layers->index[0];
+    if (index == wr_layers_first_sibling(document->layers, index))
+        return wr_fail(err,
+                       document->layers[index].depth
+                           ? "layer %d has none below in its group that it could be merged into"
+                           : "layer %d has none below that it could be merged into",
+                       index + 1);
+    *layers = (WrLayerList){ .index = { index - 1, index }, .count = 2 };
+    return check_all_unlocked(session, index - 1, err);
+}
+
+/* Joins neighbours from the bottom: onto layer 1, and onto the lowest of a group, that is exact. Groups among them
+   become layers first, so that each layer has one row. */
+static void join_layers(WrSession *session, const WrLayerList *layers)
+{
+    WrDocument *document = session->state.document;
+    const int low = wr_layers_first(document->layers, layers->index[0]);
+    const int joints = layers->count - 1;
+    for (int i = joints; i >= 0 && !wr_progress_stopped(); i--)
+        if (document->layers[layers->index[i]].is_group) join_group(session, layers->index[i]);
+    for (int i = 0; i < joints && !wr_progress_stopped(); i++) {
         WrProgressPart part;
-        const WrProgress *whole = wr_progress_enter(&part, (double)(i - low) / (high - low),
-                                                    (double)(i - low + 1) / (high - low));
-        wr_document_merge(session->state.document, low + 1, session->options.pool);
+        const WrProgress *whole = wr_progress_enter(&part, (double)i / joints, (i + 1.0) / joints);
+        wr_document_merge(document, low + 1, session->options.pool);
         wr_progress_set(whole);
     }
+}
+
+/* One layer is joined with the one below, several with each other, a single group becomes a layer. */
+static bool layer_merge(WrSession *session, WrCall *call, WrError *err)
+{
+    const WrDocument *document = session->state.document;
+    WrLayerList layers;
+    if (!find_unlocked(session, call, &layers, err)) return false;
+    if (layers.count == 1 && document->layers[layers.index[0]].is_group)
+        return join_group(session, layers.index[0]);
+    if (layers.count == 1 && !add_below(session, &layers, err)) return false;
+    if (!check_neighbours(document, &layers, err)) return false;
+    for (int i = layers.count - 1; i >= 0; i--)
+        if (!check_visible(session, layers.index[i], err)) return false;
+    join_layers(session, &layers);
     return true;
 }
 
@@ -405,12 +528,9 @@ static bool layer_flatten(WrSession *session, WrCall *call, WrError *err)
 {
     (void)call;
     WrDocument *document = session->state.document;
-    int hidden = 0;
-    for (int i = 0; i < document->layer_count; i++) {
+    for (int i = 0; i < document->layer_count; i++)
         if (!wr_session_check_unlocked(session, i, err)) return false;
-        hidden += !document->layers[i].visible;
-    }
-    if (hidden) wr_session_note(session, "%d hidden layers are gone", hidden);
+    note_hidden(session, 0, document->layer_count);
     wr_document_flatten(document, session->options.pool);
     return true;
 }
@@ -431,19 +551,86 @@ static bool layer_use(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
+/* Lowest row of the layers, in a block, without to=: at the top of the group, or above the one that the highest of them
+   leaves. */
+static int place_in(const WrDocument *document, const WrLayerList *layers, int group)
+{
+    const int highest = layers->index[layers->count - 1];
+    int place = highest;
+    if (group >= 0 && !wr_document_is_within(document, highest, group)) {
+        place = group;
+        for (int i = 0; i < layers->count; i++)
+            if (layers->index[i] < group) place -= rows_of(document, layers->index[i]);
+        return place;
+    }
+    for (int i = highest; i != group && i >= 0; i = wr_document_parent(document, i)) place = i;
+    return place + 1 - rows_of_all(document, layers);
+}
+
+/* Moves a layer to that row. in: into the group of that name, or out of all groups (NULL); else as deep as possible
+   and at most as it is. number: for messages. The name is compared as a pointer. */
+static bool move_layer(WrDocument *document, int from, int to, bool in, const char *name, int depth,
+                       int number, WrError *err)
+{
+    int least, most;
+    wr_document_move_depths(document, from, to, &least, &most);
+    const int possible = depth < least ? least : depth > most ? most : depth;
+    if (!in) depth = possible;
+    if (depth + wr_document_height(document, from) > WR_DEPTH_MAX)
+        return wr_fail(err, "up to %d groups can be nested", WR_DEPTH_MAX);
+    wr_document_move(document, from, to, possible);
+    const int into = wr_document_parent(document, to);
+    if (depth == possible && (!in || (into < 0 ? NULL : document->layers[into].name) == name))
+        return true;
+    return wr_fail(err, name ? "to=%d is not in that group" : "to=%d is in a group", number);
+}
+
+/* Moves the layers, in their order, so that their lowest row becomes `place`: to the top first, then each to its
+   place. */
+static bool move_rows(WrDocument *document, const WrLayerList *layers, int place, bool in,
+                      int group, int number, WrError *err)
+{
+    int depths[WR_LAYERS_MAX], rows[WR_LAYERS_MAX], moved = 0;
+    const int last = document->layer_count - 1;
+    const char *name = group < 0 ? NULL : document->layers[group].name;
+    for (int i = 0; i < layers->count; i++) {
+        const WrLayer *layer = &document->layers[layers->index[i]];
+        depths[i] = !in ? layer->depth : group < 0 ? 0 : document->layers[group].depth + 1;
+        rows[i] = rows_of(document, layers->index[i]);
+    }
+    for (int i = 0; i < layers->count; moved += rows[i++])
+        wr_document_move(document, layers->index[i] - moved, last, 0);
+    for (int i = 0, at = last + 1 - moved; i < layers->count; i++) {
+        place += rows[i];
+        at += rows[i];
+        if (!move_layer(document, at - 1, place - 1, in, name, depths[i], number, err))
+            return false;
+    }
+    return true;
+}
+
 static bool layer_move(WrSession *session, WrCall *call, WrError *err)
 {
     WrDocument *document = session->state.document;
     WrLayerList layers;
-    double to = wr_call_number(call, "to");
-    if (!find_all(session, call, &layers, err)) return false;
-    const int most = document->layer_count - layers.count;
-    if (to > most + 1) return wr_fail(err, "to=%g: must be 1..%d", to, most + 1);
-    /* to the top, in their order; then down to their places */
+    int group;
+    if (!find_outermost(session, call, &layers, err) || !find_group(session, call, &group, err))
+        return false;
     for (int i = 0; i < layers.count; i++)
-        wr_document_move(document, layers.index[i] - i, document->layer_count - 1);
-    for (int i = 0; i < layers.count; i++) wr_document_move(document, most + i, (int)to - 1 + i);
-    return true;
+        if (group == layers.index[i] ||
+            (group >= 0 && wr_document_is_within(document, group, layers.index[i])))
+            return wr_fail(err, "layer %d cannot go into itself", layers.index[i] + 1);
+    const bool in = wr_call_given(call, "in"), to_given = wr_call_given(call, "to");
+    const int rows = rows_of_all(document, &layers);
+    const int members = rows_of(document, layers.index[0]) - 1; /* of the lowest */
+    const int to = to_given ? (int)wr_call_number(call, "to") - 1
+                            : place_in(document, &layers, group) + members;
+    const int most = document->layer_count - rows + members;
+    if (!in && !to_given)
+        return wr_fail(err, "where to? give to=, its new number, or in=, a group");
+    if (to < members || to > most)
+        return wr_fail(err, "to=%d: must be %d..%d", to + 1, members + 1, most + 1);
+    return move_rows(document, &layers, to - members, in, group, to + 1, err);
 }
 
 static bool layer_rename(WrSession *session, WrCall *call, WrError *err)
@@ -463,6 +650,8 @@ static bool layer_rename(WrSession *session, WrCall *call, WrError *err)
 
 static bool set_one(WrSession *session, WrCall *call, int index, WrError *err)
 {
+    if (wr_call_given(call, "collapsed") && !session->state.document->layers[index].is_group)
+        return wr_fail(err, "layer %d is no group that could be collapsed", index + 1);
     const bool generates = wr_call_given(call, "change") || wr_call_given(call, "from");
     if (generates && (!wr_session_check_unlocked(session, index, err) ||
                       !wr_session_change_generator_layer(session, call, index,
@@ -471,6 +660,7 @@ static bool set_one(WrSession *session, WrCall *call, int index, WrError *err)
     if (!settle(session, call, index, err)) return false;
     WrLayer *layer = &session->state.document->layers[index];
     if (wr_call_given(call, "visible")) layer->visible = wr_call_choice(call, "visible") == 1;
+    if (wr_call_given(call, "collapsed")) layer->collapsed = wr_call_choice(call, "collapsed") == 1;
     if (wr_call_given(call, "lock")) layer->locked = wr_call_choice(call, "lock") == 1;
     return true;
 }
@@ -481,9 +671,9 @@ static bool layer_set(WrSession *session, WrCall *call, WrError *err)
     bool any = false;
     for (int i = 0; i < call->count; i++) any |= call->args[i].given && !call->specs[i].positional;
     if (!any)
-        return wr_fail(err, "nothing to set: give blend=, opacity=, radius=, visible= or lock=, or "
-                            "of a generator layer change= or from=");
-    if (!find_all(session, call, &layers, err)) return false;
+        return wr_fail(err, "nothing to set: give blend=, opacity=, radius=, visible= or lock=, "
+                            "of a generator layer change= or from=, or of a group collapsed=");
+    if (!find_all(session, call, "N", &layers, err)) return false;
     for (int i = 0; i < layers.count; i++)
         if (!set_one(session, call, layers.index[i], err)) return false;
     return true;
@@ -493,20 +683,22 @@ static bool rasterize_one(WrSession *session, WrCall *call, int index, WrError *
 {
     (void)call;
     WrLayer *layer = &session->state.document->layers[index];
+    if (layer->is_group) return join_group(session, index);
     if (!layer->line)
-        return wr_fail(err, "layer %d is no generator layer: there is nothing to rasterize",
+        return wr_fail(err,
+                       "layer %d is no generator layer and no group: there is nothing to rasterize",
                        index + 1);
     wr_layer_set_line(layer, NULL, (WrHash){ 0, 0 });
     return true;
 }
 
-/* Run `one` for each layer of argument N, which must be unlocked. */
+/* Run `one` for each layer of argument N, which must be unlocked; from the top, so that rows may vanish. */
 static bool each_unlocked(WrSession *session, WrCall *call,
                           bool (*one)(WrSession *, WrCall *, int, WrError *), WrError *err)
 {
     WrLayerList layers;
     if (!find_unlocked(session, call, &layers, err)) return false;
-    for (int i = 0; i < layers.count; i++)
+    for (int i = layers.count - 1; i >= 0; i--)
         if (!one(session, call, layers.index[i], err)) return false;
     return true;
 }
@@ -514,6 +706,50 @@ static bool each_unlocked(WrSession *session, WrCall *call,
 static bool layer_rasterize(WrSession *session, WrCall *call, WrError *err)
 {
     return each_unlocked(session, call, rasterize_one, err);
+}
+
+/* ---- groups ---- */
+
+static bool layer_group(WrSession *session, WrCall *call, WrError *err)
+{
+    WrDocument *document = session->state.document;
+    const char *name = wr_call_arg(call, "NAME")->text;
+    WrLayerList layers;
+    if (!check_room(document, 1, err) || !find_all(session, call, "of", &layers, err)) return false;
+    bool chosen[WR_LAYERS_MAX] = { false };
+    for (int i = 0; i < layers.count; i++) chosen[layers.index[i]] = true;
+    WrText text = { 0 };
+    int number = 1;
+    do {
+        wr_text_clear(&text);
+        wr_text_addf(&text, "group %d", number++);
+    } while (!name && wr_layer_named(document, wr_text_get(&text)) >= 0);
+    const bool good = wr_document_group(document, chosen, name ? name : wr_text_get(&text)) >= 0;
+    wr_text_fini(&text);
+    return good || wr_fail(err, "up to %d groups can be nested", WR_DEPTH_MAX);
+}
+
+static bool ungroup_one(WrSession *session, int index, WrError *err)
+{
+    WrDocument *document = session->state.document;
+    const WrLayer *layer = &document->layers[index];
+    if (!wr_session_check_unlocked(session, index, err)) return false;
+    if (!layer->is_group) return wr_fail(err, "layer %d is no group", index + 1);
+    if (document->layer_count == 1)
+        return wr_fail(err, "the last layer stays: a document has at least one");
+    if (layer->mask || layer->opacity < 1.0f)
+        wr_session_note(session, "the group's mask and opacity are gone");
+    wr_document_ungroup(document, index);
+    return true;
+}
+
+static bool layer_ungroup(WrSession *session, WrCall *call, WrError *err)
+{
+    WrLayerList layers;
+    if (!find_all(session, call, "N", &layers, err)) return false;
+    for (int i = layers.count - 1; i >= 0; i--)
+        if (!ungroup_one(session, layers.index[i], err)) return false;
+    return true;
 }
 
 static bool layer_solo(WrSession *session, WrCall *call, WrError *err)
@@ -539,8 +775,11 @@ static bool clear_one(WrSession *session, WrCall *call, int index, WrError *err)
 {
     (void)call;
     WrLayer *layer = &session->state.document->layers[index];
-    if (layer->filter.op)
-        return wr_fail(err, "layer %d is a filter, without heights that could be cleared",
+    if (!wr_layer_holds(layer))
+        return wr_fail(err,
+                       layer->is_group
+                           ? "layer %d is a group, without heights that could be cleared"
+                           : "layer %d is a filter, without heights that could be cleared",
                        index + 1);
     wr_session_put_field(session, &layer->heights, uniform(layer, 0.0f));
     if (layer->cover) wr_session_put_field(session, &layer->cover, uniform(layer, 0.0f));
@@ -586,6 +825,8 @@ enum {
     LAYER_SOLO,
     LAYER_MASK,
     LAYER_PASTE,
+    LAYER_GROUP,
+    LAYER_UNGROUP,
     LAYER_FORMS
 };
 
@@ -605,6 +846,8 @@ static LayerHandler *const handlers[] = {
     [WR_ROW(LAYER_SOLO)] = layer_solo,
     [WR_ROW(LAYER_MASK)] = layer_mask,
     [WR_ROW(LAYER_PASTE)] = layer_paste,
+    [WR_ROW(LAYER_GROUP)] = layer_group,
+    [WR_ROW(LAYER_UNGROUP)] = layer_ungroup,
 };
 WR_ROWS_END(handlers, LAYER_FORMS);
 
@@ -666,8 +909,13 @@ static const WrForm layer_forms[] = {
                                   LAYER_SETTINGS,
                                   { .name = "above",
                                     .type = WR_ARG_LAYER,
-                                    .help = "where it goes; left out, above the active one" } } },
-    [WR_ROW(LAYER_DELETE)] = { .name = "delete", .help = "remove layers", .args = { LAYERS_N } },
+                                    .help = "where it goes; left out, above the active one" },
+                                  { .name = "in",
+                                    .type = WR_ARG_LAYER,
+                                    .help = "or a group: it becomes its topmost layer" } } },
+    [WR_ROW(LAYER_DELETE)] = { .name = "delete",
+                               .help = "remove layers, groups with theirs",
+                               .args = { LAYERS_N } },
     [WR_ROW(LAYER_USE)] = { .name = "use",
                             .help = "edits go to this layer from now on",
                             .args = { LAYER_N,
@@ -678,16 +926,22 @@ static const WrForm layer_forms[] = {
                                             "what of it strokes, fills, generators and `adjust` "
                                             "change; left out, as it was" } } },
     [WR_ROW(LAYER_MOVE)] = { .name = "move",
-                             .help = "bring layers to another place in the stack",
+                             .help = "bring layers, groups with theirs, to another place in the "
+                                     "stack",
                              .args = { LAYERS_N,
                                        { .name = "to",
                                          .type = WR_ARG_NUMBER,
-                                         .required = true,
                                          .whole = true,
                                          .low = 1,
                                          .high = WR_LAYERS_MAX,
                                          .help = "its new number; of several, which then follow "
-                                                 "each other, the lowest one's" } } },
+                                                 "each other, the lowest one's" },
+                                       { .name = "in",
+                                         .type = WR_ARG_LAYER,
+                                         .shape = "N|none",
+                                         .help = "the group that it goes into, or none; without "
+                                                 "to= it becomes the topmost layer there, or comes "
+                                                 "to lie above the group that it leaves" } } },
     [WR_ROW(LAYER_RENAME)] = { .name = "rename",
                                .help = "give a layer another name",
                                .args = { LAYER_N,
@@ -707,13 +961,19 @@ static const WrForm layer_forms[] = {
                                         .type = WR_ARG_CHOICE,
                                         .words = wr_off_on,
                                         .help = "whether it is in the composite" },
+                                      { .name = "collapsed",
+                                        .type = WR_ARG_CHOICE,
+                                        .words = wr_off_on,
+                                        .help = "of a group: whether the list in the window omits "
+                                                "its layers" },
                                       { .name = "lock",
                                         .type = WR_ARG_CHOICE,
                                         .words = wr_off_on,
                                         .help = "whether edits are refused" } } },
     [WR_ROW(LAYER_RASTERIZE)] = { .name = "rasterize",
-                                  .help = "make generator layers plain ones, which can be "
-                                          "painted on",
+                                  .help =
+                                      "make generator layers and groups plain layers, which can be "
+                                      "painted on",
                                   .args = { LAYERS_N } },
     [WR_ROW(
         LAYER_DUPLICATE)] = { .name = "duplicate",
@@ -748,6 +1008,20 @@ static const WrForm layer_forms[] = {
                               .help = "a picture as a new layer above the active one, which covers "
                                       "what lies below; nothing is selected then",
                               .args = { WR_PASTE_ARGS } },
+    [WR_ROW(LAYER_GROUP)] = { .name = "group",
+                              .help = "a group of layers, active, which are joined by themselves "
+                                      "first; its blend is that of the lowest",
+                              .args = { { .name = "NAME",
+                                          .type = WR_ARG_NAME,
+                                          .positional = true,
+                                          .help = "left out, \"group 1\" and so on" },
+                                        { .name = "of",
+                                          .type = WR_ARG_LAYER,
+                                          .several = true,
+                                          .help = "the layers; left out, the active one" } } },
+    [WR_ROW(LAYER_UNGROUP)] = { .name = "ungroup",
+                                .help = "remove groups, but not their layers",
+                                .args = { LAYERS_N } },
 };
 WR_ROWS_END(layer_forms, LAYER_FORMS);
 
@@ -764,7 +1038,8 @@ const WrCommand wr_command_layer = {
     .help = "add, order, join and set layers",
     .details =
         "Layers are named by their numbers, from 1 at the bottom, or by their names where only "
-        "one has it; \"the layer, or several\" takes a list, such as 2,4,5. Edits go to the active "
+        "one has it; \"the layer, or several\" takes a list, such as 2,4..6. Edits go to the "
+        "active "
         "layer; where it is locked or not shown they are refused. A "
         "generator layer keeps the command line of from=, a generator's, and is made again when "
         "change= gives that line other values, or when the layers below change that it reads; "

@@ -144,7 +144,8 @@ void wr_arg_expectation(const WrArgSpec *spec, WrText *text)
     case WR_ARG_LAYER:
         if (spec->several)
             wr_message_addf(text,
-                            "layers' numbers, from 1 at the bottom, or names, separated by commas");
+                            "layers' numbers, from 1 at the bottom, or names, separated by commas, "
+                            "or ranges of them, such as 2..5");
         else wr_message_addf(text, "a layer's number, from 1 at the bottom, or name");
         return;
     case WR_ARG_PRESET:

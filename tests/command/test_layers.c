@@ -283,6 +283,113 @@ static void several_generator_layers_become_plain(void **state)
     wr_session_free(s);
 }
 
+/* ---- several layers and groups ---- */
+
+/* Rows from the top, members of a group in parentheses behind it: "e G(c b) a". */
+static void print_tree(const WrDocument *document, WrText *text)
+{
+    int depth = 0;
+    for (int i = document->layer_count - 1; i >= 0; i--) {
+        const WrLayer *layer = &document->layers[i];
+        for (; depth > layer->depth; depth--) wr_text_add(text, ")");
+        const bool first = i == document->layer_count - 1 || layer->depth > depth;
+        wr_text_add(text, first ? layer->depth > depth ? "(" : "" : " ");
+        depth = layer->depth;
+        wr_text_add(text, layer->name);
+    }
+    for (; depth > 0; depth--) wr_text_add(text, ")");
+}
+
+static void check_tree(const WrSession *session, const char *tree)
+{
+    WrText text = { 0 };
+    WrError err;
+    print_tree(doc(session), &text);
+    assert_string_equal(wr_text_get(&text), tree);
+    if (!wr_document_check_groups(doc(session), &err)) fail_msg("%s", err.text);
+    wr_text_fini(&text);
+}
+
+/* Numbers: 8 h, 7 G, 6 e, 5 H, 4 d, 3 c, 2 b, 1 base. */
+static WrSession *tree(void)
+{
+    WrSession *s = session_of((const char *[]){
+        "table 21x16", "layer add b", "layer add c", "dab 0.3,0.4 radius=5 strength=0.7",
+        "layer add d", "dab 0.6,0.6 radius=4 strength=-0.3", "layer group H of=c,d", "layer add e",
+        "dab 0.8,0.3 radius=6", "layer group G of=H,e", "layer add h above=G", "layer use b",
+        NULL });
+    check_tree(s, "h G(e H(d c)) b base");
+    return s;
+}
+
+static void check_tree_step(const char *line, const char *right)
+{
+    WrSession *s = tree();
+    const WrHash hash = wr_session_hash(s);
+    must_run(s, line);
+    check_tree(s, right);
+    must_run(s, "undo");
+    check_tree(s, "h G(e H(d c)) b base");
+    assert_true(wr_hash_equal(wr_session_hash(s), hash));
+    wr_session_free(s);
+}
+
+static void groups_change_with_their_layers(void **state)
+{
+    (void)state;
+    check_tree_step("layer delete c,H", "h G(e) b base"); /* c is in H */
+    check_tree_step("layer delete e,c,b", "h G(H(d)) base");
+    check_tree_step("layer delete 2..7", "h base");
+    check_tree_step("layer duplicate b,H", "h G(e H copy(d c) b copy H(d c)) b base");
+    check_tree_step("layer duplicate h,c", "h copy c copy h G(e H(d c)) b base");
+    check_tree_step("layer move b,e to=2", "h G(H(d c) e) b base"); /* e stays in G */
+}
+
+static void several_layers_move_into_groups(void **state)
+{
+    (void)state;
+    check_tree_step("layer move b,h in=G", "G(h b e H(d c)) base");
+    check_tree_step("layer move base,b in=H", "h G(e H(b base d c))");
+    check_tree_step("layer move b,h in=H to=3", "G(e H(d h b c)) base");
+    check_tree_step("layer move H,h in=none", "h H(d c) G(e) b base");
+    check_tree_step("layer move c,e in=none to=1", "h G(H(d)) b base e c");
+    check_tree_step("layer move H,b to=2 in=none", "h G(e) H(d c) b base");
+    WrSession *s = tree();
+    must_fail(s, "layer move b,G in=H", "cannot go into itself");
+    must_fail(s, "layer move b,h in=e", "is no group");
+    must_fail(s, "layer move b,h in=G to=1", "is not in that group");
+    must_fail(s, "layer move G,h to=4", "to=4: must be 6..7");
+    wr_session_free(s);
+}
+
+static void several_groups_are_joined_and_removed(void **state)
+{
+    (void)state;
+    check_tree_step("layer ungroup G,H", "h e d c b base");
+    check_tree_step("layer rasterize G,H", "h G b base");
+    check_tree_step("layer merge b,G", "h b base");
+    check_tree_step("layer merge c..e", "h G(H) b base"); /* with H between them */
+    check_tree_step("layer group all of=base,h,c", "all(h c base) G(e H(d)) b");
+    WrSession *s = tree();
+    WrField *before = wr_field_share(wr_document_field(doc(s)));
+    must_fail(s, "layer merge c,e", "layers 3 and 6 are not neighbours");
+    must_fail(s, "layer merge b,c", "layers 2 and 3 are not neighbours");
+    must_run(s, "layer set c lock=on");
+    must_fail(s, "layer merge b,G", "layer 3 \"c\" is locked");
+    must_fail(s, "layer delete h,H", "layer 3 \"c\" is locked");
+    must_fail(s, "layer set b,h collapsed=on", "layer 2 is no group");
+    must_run(s, "layer set G,H collapsed=on");
+    assert_true(doc(s)->layers[4].collapsed && doc(s)->layers[6].collapsed);
+    must_run(s, "layer set c lock=off");
+    must_run(s, "layer merge 1,2,7");
+    check_tree(s, "h base");
+    for (int j = 0; j < 16; j++)
+        for (int i = 0; i < 21; i++)
+            assert_near(f_at(s, i, j), wr_field_get(before, i, j), 0x1p-20);
+    wr_field_free(before);
+    wr_session_free(s);
+}
+
 /* ---- joining ---- */
 
 static WrSession *stack(const char *lower, const char *upper, bool floor)
@@ -399,6 +506,9 @@ int main(void)
         cmocka_unit_test(several_layers_take_the_same_settings),
         cmocka_unit_test(a_name_may_contain_commas),
         cmocka_unit_test(several_generator_layers_become_plain),
+        cmocka_unit_test(groups_change_with_their_layers),
+        cmocka_unit_test(several_layers_move_into_groups),
+        cmocka_unit_test(several_groups_are_joined_and_removed),
         cmocka_unit_test(merging_several_keeps_the_composite),
         cmocka_unit_test(merging_any_two_layers_keeps_the_composite),
         cmocka_unit_test(merging_onto_the_bottom_and_flattening_keep_every_bit),
