@@ -186,7 +186,8 @@ static void dropped_layers_land_at_the_line(void **state)
             drop_in_list(before, moved, gap, right);
             const WrDocument *document = wr_session_document(session);
             const WrLayerRows rows = wr_layer_rows(document);
-            const WrLayerDrop drop = wr_layer_drop(document, &rows, moved, y);
+            const WrLayerBlock block = wr_layer_block(document, moved);
+            const WrLayerDrop drop = wr_layer_drop(document, &rows, &block, y);
             assert_true(drop.line == gap);
             assert_int_equal(drop.to == 0, strcmp(before, right) == 0);
             if (!drop.to) continue;
@@ -199,6 +200,210 @@ static void dropped_layers_land_at_the_line(void **state)
             wr_text_fini(&layers);
         }
     wr_session_free(session);
+}
+
+/* ---- groups ---- */
+
+/* A document as an outline: rows from the top with their depths. */
+typedef struct Outline {
+    char name[40];
+    int depth[40];
+    bool closed[40]; /* a collapsed group */
+    bool group[40];
+    int count;
+} Outline;
+
+static Outline outline_of(const WrSession *session)
+{
+    const WrDocument *document = wr_session_document(session);
+    Outline o = { .count = 0 };
+    for (int i = document->layer_count - 1; i >= 0; i--) {
+        const WrLayer *layer = &document->layers[i];
+        o.name[o.count] = layer->name[0];
+        o.group[o.count] = layer->is_group;
+        o.closed[o.count] = layer->collapsed;
+        o.depth[o.count++] = layer->depth;
+    }
+    return o;
+}
+
+static void add_rows(Outline *to, const Outline *from, int row, int end, int deeper)
+{
+    for (; row < end; row++) {
+        to->name[to->count] = from->name[row];
+        to->group[to->count] = from->group[row];
+        to->closed[to->count] = from->closed[row];
+        to->depth[to->count++] = from->depth[row] + deeper;
+    }
+}
+
+/* End of a row with its members. */
+static int end_of(const Outline *o, int row)
+{
+    int end = row + 1;
+    while (end < o->count && o->depth[end] > o->depth[row]) end++;
+    return end;
+}
+
+/* Which rows move, members of moved groups too; roots: those that are in no moved group. */
+static void spread(const Outline *o, const bool *set, bool *moves, bool *roots)
+{
+    for (int r = 0; r < o->count; r++) moves[r] = roots[r] = false;
+    for (int r = 0; r < o->count; r++) {
+        if (!set[r] || moves[r]) continue;
+        roots[r] = true;
+        for (int k = r; k < end_of(o, r); k++) moves[k] = true;
+    }
+}
+
+/* The outline with the set moved before row `at` (o->count: the end), in depth `depth`. */
+static Outline with_moved(const Outline *o, const bool *set, int at, int depth)
+{
+    Outline out = { .count = 0 };
+    bool moves[40], roots[40];
+    spread(o, set, moves, roots);
+    for (int r = 0; r <= o->count; r++) {
+        for (int k = 0; r == at && k < o->count; k++)
+            if (roots[k]) add_rows(&out, o, k, end_of(o, k), depth - o->depth[k]);
+        if (r < o->count && !moves[r]) add_rows(&out, o, r, r + 1, 0);
+    }
+    return out;
+}
+
+/* What a drop of the set at y does, with the rows that are shown. False: it must not be there. */
+static bool expect_drop(const Outline *o, const bool *set, double y, Outline *out)
+{
+    int shown[40], count = 0;
+    bool moves[40], roots[40];
+    spread(o, set, moves, roots);
+    for (int r = 0; r < o->count; r = o->closed[r] ? end_of(o, r) : r + 1) shown[count++] = r;
+    if (y >= count) return *out = with_moved(o, set, o->count, 0), true;
+    const int row = shown[y < 0 ? 0 : (int)y];
+    const double part = y < 0 ? 0 : y - (int)y;
+    const bool above = part < (o->group[row] ? 0.25 : 0.5);
+    const bool into = !above && o->group[row] && (part < 0.75 || !o->closed[row]);
+    if (into ? moves[row] : moves[row] && !roots[row]) return false;
+    *out = with_moved(o, set, above ? row : into ? row + 1 : end_of(o, row), o->depth[row] + into);
+    return true;
+}
+
+static bool same_outline(const Outline *a, const Outline *b)
+{
+    return a->count == b->count && memcmp(a->name, b->name, (size_t)a->count) == 0 &&
+           memcmp(a->depth, b->depth, (size_t)a->count * sizeof *a->depth) == 0;
+}
+
+/* Groups at random, some of them collapsed, one without layers. */
+static WrSession *random_tree(TestRandom *random)
+{
+    WrSession *session = wr_session_new(&(WrSessionOptions){ .outputs = false });
+    char line[64];
+    letters(session, 7);
+    for (int g = 0; g < 4; g++) {
+        const int count = wr_session_document(session)->layer_count;
+        const int low = 1 + (int)(test_random(random) * count);
+        const int high = low + (int)(test_random(random) * 3);
+        snprintf(line, sizeof line, "layer group %c of=%d..%d", 'G' + g, low,
+                 high > count ? count : high);
+        run(session, line);
+        if (test_random(random) < 0.3) {
+            snprintf(line, sizeof line, "layer set %c collapsed=on", 'G' + g);
+            run(session, line);
+        }
+    }
+    run(session, "layer add y above=g");
+    run(session, "layer group Y of=y");
+    run(session, "layer delete y");
+    return session;
+}
+
+static void run_drop(WrSession *session, const bool *moved, const WrLayerDrop *drop)
+{
+    char group[16] = "none";
+    WrText line = { 0 };
+    if (drop->in >= 0) snprintf(group, sizeof group, "%d", drop->in + 1);
+    wr_text_add(&line, "layer move ");
+    wr_layers_print(moved, &line);
+    wr_text_addf(&line, " to=%d in=%s", drop->to, group);
+    run(session, wr_text_get(&line));
+    wr_text_fini(&line);
+}
+
+static void drops_into_and_out_of_groups(void **state)
+{
+    (void)state;
+    TestRandom random = { 71 };
+    int moves = 0, refused = 0;
+    for (int t = 0; t < 60; t++) {
+        WrSession *session = random_tree(&random);
+        for (int n = 0; n < 60; n++) {
+            const Outline before = outline_of(session);
+            bool moved[WR_LAYERS_MAX] = { false }, set[40] = { false };
+            for (int k = 0; k < 1 + n % 3; k++)
+                set[(int)(test_random(&random) * before.count)] = true;
+            for (int r = 0; r < before.count; r++) moved[before.count - 1 - r] = set[r];
+            const double y = test_random(&random) * (before.count + 3) - 1;
+            Outline right = before;
+            const bool allowed = expect_drop(&before, set, y, &right);
+            const WrDocument *document = wr_session_document(session);
+            const WrLayerRows rows = wr_layer_rows(document);
+            const WrLayerBlock block = wr_layer_block(document, moved);
+            const WrLayerDrop drop = wr_layer_drop(document, &rows, &block, y);
+            assert_int_equal(drop.to != 0, allowed && !same_outline(&before, &right));
+            refused += !allowed;
+            if (!drop.to) continue;
+            moves++;
+            run_drop(session, moved, &drop);
+            const Outline after = outline_of(session);
+            assert_true(same_outline(&after, &right));
+            if (n % 4) run(session, "undo");
+        }
+        wr_session_free(session);
+    }
+    assert_true(moves > 1000 && refused > 100);
+}
+
+static bool step(WrSession *session, char name, int way)
+{
+    const WrDocument *document = wr_session_document(session);
+    bool moved[WR_LAYERS_MAX] = { false };
+    for (int i = 0; i < document->layer_count; i++) moved[i] = document->layers[i].name[0] == name;
+    const WrLayerRows rows = wr_layer_rows(document);
+    const WrLayerBlock block = wr_layer_block(document, moved);
+    const WrLayerDrop drop = wr_layer_step(document, &rows, &block, way);
+    if (drop.to) run_drop(session, moved, &drop);
+    return drop.to != 0;
+}
+
+/* From the top to the bottom, through all groups that are shown, and back the same way. */
+static void steps_lead_through_groups_and_back(void **state)
+{
+    (void)state;
+    TestRandom random = { 9 };
+    int steps = 0;
+    for (int t = 0; t < 40; t++) {
+        WrSession *session = random_tree(&random);
+        Outline way[60];
+        int count = 0;
+        run(session, "layer add x");
+        run(session, "layer move x to=13 in=none");
+        assert_false(step(session, 'x', 1));
+        do way[count++] = outline_of(session);
+        while (count < 60 && step(session, 'x', -1));
+        assert_in_range(count, 2, 40);
+        const Outline *end = &way[count - 1];
+        assert_true(end->name[end->count - 1] == 'x' && end->depth[end->count - 1] == 0);
+        for (int i = count - 2; i >= 0; i--) {
+            const WrDocument *document = wr_session_document(session);
+            assert_int_equal(document->layer_count, way[i].count);
+            assert_true(step(session, 'x', 1));
+            const Outline now = outline_of(session);
+            assert_true(same_outline(&now, &way[i]));
+            steps++;
+        }
+        wr_session_free(session);
+    }
+    assert_true(steps > 200);
 }
 
 /* ---- the list in a window ---- */
@@ -499,6 +704,42 @@ static void rows_are_dragged_together(void **state)
     finish(&bench);
 }
 
+static void groups_in_the_list(void **state)
+{
+    (void)state;
+    Bench bench;
+    open_list(&bench, 5);
+    click(&bench, 1, PLAIN);
+    click(&bench, 3, SHIFT);
+    tap(&bench, SDL_SCANCODE_G, KMOD_LCTRL);
+    assert_last(&bench, "layer group of=2,3,4"); /* d, c and b in "group 1" */
+    assert_list(&bench, "egdcba", "G");
+    drag(&bench, drag_x(&bench), 0, middle(&bench, 1));
+    assert_int_equal(bench.app->layers->drop.row, 1);
+    let_go(&bench, drag_x(&bench), middle(&bench, 1));
+    assert_last(&bench, "layer move 6 to=5 in=5");
+    assert_list(&bench, "gedcba", "G");
+    drag(&bench, drag_x(&bench), 3, edge_below(&bench, 5, 8)); /* below the list */
+    let_go(&bench, drag_x(&bench), edge_below(&bench, 5, 8));
+    assert_last(&bench, "layer move 3 to=1 in=none");
+    assert_list(&bench, "gedbac", "G");
+    run(bench.session, "layer set 6 collapsed=on");
+    settle(&bench);
+    click(&bench, 0, PLAIN);
+    click(&bench, 2, SHIFT); /* not what is in the group */
+    assert_list(&bench, "gedbac", "Cag");
+    click(&bench, 0, PLAIN);
+    tap(&bench, SDL_SCANCODE_PAGEDOWN, KMOD_NONE);
+    assert_list(&bench, "gedbac", "A");
+    tap(&bench, SDL_SCANCODE_PAGEUP, KMOD_NONE);
+    tap(&bench, SDL_SCANCODE_PAGEDOWN, KMOD_LCTRL);
+    assert_last(&bench, "layer move 6 to=5 in=none");
+    assert_list(&bench, "agedbc", "G");
+    tap(&bench, SDL_SCANCODE_G, (SDL_Keymod)(KMOD_LCTRL | KMOD_LSHIFT));
+    assert_last(&bench, "layer ungroup 5");
+    finish(&bench);
+}
+
 static void a_drag_scrolls_at_the_edge(void **state)
 {
     (void)state;
@@ -508,9 +749,15 @@ static void a_drag_scrolls_at_the_edge(void **state)
     click(&bench, 0, PLAIN);
     assert_true(wr_gui_focus_on(bench.app->gui, row(&bench, 0).id));
     settle(&bench);
-    const int bottom = 700 - wr_gui_px(70); /* the list's lower edge, above its buttons */
-    drag(&bench, drag_x(&bench), 0, bottom);
-    for (int i = 0; i < 400 && row(&bench, 25).y1 > (float)bottom; i++) draw_again(bench.app);
+    const int bottom = 700 - wr_gui_px(40); /* below the list, on its buttons */
+    drag(&bench, name_x(&bench), 0, bottom);
+    float before = 0; /* until it is at its end */
+    for (int i = 0, same = 0; i < 4000 && same < 100; i++) {
+        const float now = row(&bench, 0).y0;
+        same = now == before ? same + 1 : 0;
+        before = now;
+        draw_again(bench.app);
+    }
     assert_true(row(&bench, 0).y0 < first.y0 - 300);
     let_go(&bench, drag_x(&bench), bottom);
     assert_last(&bench, "layer move 26 to=1");
@@ -523,11 +770,14 @@ int main(void)
         cmocka_unit_test(clicks_choose_as_in_other_programs),
         cmocka_unit_test(chosen_layers_stay_chosen_while_others_change),
         cmocka_unit_test(dropped_layers_land_at_the_line),
+        cmocka_unit_test(drops_into_and_out_of_groups),
+        cmocka_unit_test(steps_lead_through_groups_and_back),
         cmocka_unit_test(rows_are_chosen_by_clicks_and_keys),
         cmocka_unit_test(actions_change_all_chosen_layers_in_one_step),
         cmocka_unit_test(copies_are_chosen_and_merged),
         cmocka_unit_test(eyes_of_several_layers),
         cmocka_unit_test(rows_are_dragged_together),
+        cmocka_unit_test(groups_in_the_list),
         cmocka_unit_test(a_drag_scrolls_at_the_edge),
     };
     return cmocka_run_group_tests(tests, enter_window, remove_folder);

@@ -101,7 +101,9 @@ const char *const wr_action_helps[] = {
     ROW(layer_rename, "Give the active layer another name"),
     ROW(filter_edit, "Change the values of the active filter or generator layer"),
     ROW(layer_rasterize,
-        "Make plain heights of the chosen generator layers, which can be painted on"),
+        "Make plain heights of the chosen generator layers and groups, which can be painted on"),
+    ROW(layer_group, "Put the chosen layers into a new group, which blends and hides them as one"),
+    ROW(layer_ungroup, "Remove the chosen groups, but not their layers"),
     ROW(layer_merge, "Join the active layer with the one below it, or the chosen layers, if they "
                      "are neighbours"),
     ROW(layer_project,

@@ -66,7 +66,9 @@ void wr_act_layer_rename(WrApp *app);
 void wr_act_layer_merge(WrApp *app);
 void wr_act_filter_edit(WrApp *app);
 void wr_act_layer_rasterize(WrApp *app);
-bool wr_has_values(const WrApp *app);   /* it is a filter or a generator layer */
+void wr_act_layer_group(WrApp *app);
+void wr_act_layer_ungroup(WrApp *app);
+bool wr_has_values(const WrApp *app); /* it is a filter or a generator layer */
 void wr_act_layer_flatten(WrApp *app);
 void wr_act_layer_clear(WrApp *app);
 void wr_act_layer_solo(WrApp *app);
@@ -95,6 +97,7 @@ bool wr_can_several_layers(const WrApp *app);
 bool wr_can_delete(const WrApp *app);
 bool wr_can_rasterize(const WrApp *app);
 bool wr_can_clear(const WrApp *app);
+bool wr_can_ungroup(const WrApp *app);
 bool wr_has_above(const WrApp *app); /* there is a layer above the active one */
 bool wr_has_below(const WrApp *app);
 bool wr_can_lower(const WrApp *app); /* there is a layer below the chosen ones */

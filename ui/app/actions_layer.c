@@ -48,9 +48,14 @@ static bool generated(const WrLayer *layer)
     return layer->line != NULL;
 }
 
-static bool with_heights(const WrLayer *layer)
+static bool grouping(const WrLayer *layer)
 {
-    return !layer->filter.op;
+    return layer->is_group;
+}
+
+static bool can_rasterize(const WrLayer *layer)
+{
+    return generated(layer) || grouping(layer);
 }
 
 /* The chosen layers that the action fits; returns their number. */
@@ -113,7 +118,7 @@ void wr_act_layer_flatten(WrApp *app)
 
 void wr_act_layer_clear(WrApp *app)
 {
-    run_chosen(app, "clear", with_heights, "");
+    run_chosen(app, "clear", wr_layer_holds, "");
 }
 
 void wr_act_layer_solo(WrApp *app)
@@ -124,24 +129,22 @@ void wr_act_layer_solo(WrApp *app)
 
 void wr_act_layer_raise(WrApp *app)
 {
-    const WrChosenLayers *chosen = wr_app_chosen(app);
-    wr_layers_move(app, chosen->chosen, wr_chosen_highest(chosen) - chosen_count(app) + 3);
+    wr_layers_step(app, 1);
 }
 
 void wr_act_layer_lower(WrApp *app)
 {
-    const WrChosenLayers *chosen = wr_app_chosen(app);
-    wr_layers_move(app, chosen->chosen, wr_chosen_lowest(chosen));
+    wr_layers_step(app, -1);
 }
 
 void wr_act_layer_above(WrApp *app)
 {
-    if (number(app) < count(app)) wr_layer_pick(app, number(app), WR_CHOOSE_ONLY);
+    wr_layer_pick_next(app, 1);
 }
 
 void wr_act_layer_below(WrApp *app)
 {
-    if (number(app) > 1) wr_layer_pick(app, number(app) - 2, WR_CHOOSE_ONLY);
+    wr_layer_pick_next(app, -1);
 }
 
 void wr_act_layer_show(WrApp *app)
@@ -249,13 +252,33 @@ void wr_act_filter_edit(WrApp *app)
 
 void wr_act_layer_rasterize(WrApp *app)
 {
-    run_chosen(app, "rasterize", generated, "");
+    run_chosen(app, "rasterize", can_rasterize, "");
 }
 
 bool wr_can_rasterize(const WrApp *app)
 {
     bool layers[WR_LAYERS_MAX];
-    return chosen_of(app, generated, layers) > 0;
+    return chosen_of(app, can_rasterize, layers) > 0;
+}
+
+void wr_act_layer_group(WrApp *app)
+{
+    WrText line = { 0 };
+    wr_text_add(&line, "layer group of=");
+    wr_layers_print(wr_app_chosen(app)->chosen, &line);
+    wr_app_run_line(app, wr_text_get(&line));
+    wr_text_fini(&line);
+}
+
+void wr_act_layer_ungroup(WrApp *app)
+{
+    run_chosen(app, "ungroup", grouping, "");
+}
+
+bool wr_can_ungroup(const WrApp *app)
+{
+    bool layers[WR_LAYERS_MAX];
+    return chosen_of(app, grouping, layers) > 0;
 }
 
 bool wr_has_values(const WrApp *app)
@@ -270,12 +293,14 @@ bool wr_can_several_layers(const WrApp *app)
 
 bool wr_can_delete(const WrApp *app)
 {
-    return count(app) > chosen_count(app);
+    const WrLayerBlock block = wr_layer_block(wr_app_document(app), wr_app_chosen(app)->chosen);
+    return count(app) > block.rows;
 }
 
 bool wr_can_lower(const WrApp *app)
 {
-    return wr_chosen_lowest(wr_app_chosen(app)) > 0;
+    const WrLayerBlock block = wr_layer_block(wr_app_document(app), wr_app_chosen(app)->chosen);
+    return block.lowest > 0;
 }
 
 bool wr_has_below(const WrApp *app)
@@ -283,12 +308,15 @@ bool wr_has_below(const WrApp *app)
     return number(app) > 1;
 }
 
-/* One layer: it and the one below are visible, and that one is unlocked. Of several the command says why they cannot. */
+/* One layer: it and the one below in its group are visible, and that one is unlocked. Of several the command says why they cannot. */
 bool wr_can_merge(const WrApp *app)
 {
     const WrLayer *layer = active(app);
-    if (chosen_count(app) > 1) return true;
-    return wr_has_below(app) && layer->visible && layer[-1].visible && !layer[-1].locked;
+    const WrDocument *document = wr_app_document(app);
+    if (chosen_count(app) > 1 || layer->is_group) return true;
+    if (wr_layers_first_sibling(document->layers, document->active) == document->active)
+        return false;
+    return layer->visible && layer[-1].visible && !layer[-1].locked;
 }
 
 bool wr_can_change_all(const WrApp *app)
@@ -305,13 +333,13 @@ bool wr_can_flatten(const WrApp *app)
 
 bool wr_has_heights(const WrApp *app)
 {
-    return !is_filter(app);
+    return wr_layer_holds(active(app));
 }
 
 bool wr_can_clear(const WrApp *app)
 {
     bool layers[WR_LAYERS_MAX];
-    return chosen_of(app, with_heights, layers) > 0;
+    return chosen_of(app, wr_layer_holds, layers) > 0;
 }
 
 bool wr_can_raise(const WrApp *app)

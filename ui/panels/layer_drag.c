@@ -16,28 +16,51 @@ static double pointer_row(const WrLayerRow *row)
 
 /* ---- rows ---- */
 
+double wr_layer_indent(int depth)
+{
+    return wr_gui_px(12) * depth;
+}
+
+/* Update and show the place where the dragged rows would land. */
+static void follow_drag(WrApp *app, const WrLayerRow *row)
+{
+    bool moved[WR_LAYERS_MAX];
+    const WrDocument *document = wr_app_document(app);
+    const WrLayerBlock block = wr_layer_block(document, wr_layers_of_row(app, row->layer, moved));
+    const WrLayerDrop drop = wr_layer_drop(document, row->rows, &block, pointer_row(row));
+    const double height = row->row.height, list = row->row.top - height * row->at;
+    const int depth = drop.in < 0 ? 0 : document->layers[drop.in].depth + 1;
+    app->layers->drop = drop;
+    if (drop.to && drop.row >= 0) wr_gui_drop_frame(list + height * drop.row, height);
+    if (drop.row < 0) /* also where they are */
+        wr_gui_drop_line(wr_layer_indent(depth), list + height * drop.line);
+}
+
 bool wr_layer_drag(WrApp *app, const WrLayerRow *row)
 {
     WrLayersState *hand = app->layers;
     bool moved[WR_LAYERS_MAX];
     if (row->row.dragging && row->rows->count > 1 && !wr_busy_greys(app)) {
         hand->dragged = row->layer;
-        hand->drop = wr_layer_drop(wr_app_document(app), row->rows,
-                                   wr_layers_of_row(app, row->layer, moved), pointer_row(row));
-        wr_gui_drop_line(0, row->row.top + row->row.height * (hand->drop.line - row->at));
+        follow_drag(app, row);
         return false;
     }
     if (hand->dragged != row->layer) return false;
     hand->dragged = -1;
-    if (!row->row.dropped) return false; /* cancelled */
-    if (hand->drop.to) wr_layers_move(app, wr_layers_of_row(app, row->layer, moved), hand->drop.to);
+    if (!row->row.dropped || !hand->drop.to) return false; /* cancelled, or at its own place */
+    wr_layers_move(app, wr_layers_of_row(app, row->layer, moved), &hand->drop);
     return true;
 }
 
 bool wr_layer_is_dragged(const WrApp *app, int layer)
 {
     bool moved[WR_LAYERS_MAX];
-    return app->layers->dragged >= 0 && wr_layers_of_row(app, app->layers->dragged, moved)[layer];
+    if (app->layers->dragged < 0) return false;
+    wr_layers_of_row(app, app->layers->dragged, moved);
+    const WrDocument *document = wr_app_document(app);
+    for (; layer >= 0; layer = wr_document_parent(document, layer))
+        if (moved[layer]) return true;
+    return false;
 }
 
 /* ---- eyes ---- */

@@ -18,6 +18,8 @@ typedef struct WrLayerRow {
    run. */
 bool wr_layer_drag(WrApp *app, const WrLayerRow *row);
 bool wr_layer_is_dragged(const WrApp *app, int layer);
+/* Pixels by which a layer in that many groups is indented. */
+double wr_layer_indent(int depth);
 /* Handles its eye, the previous widget, which returned `pressed`: a click shows or hides the layer, or all chosen ones; a drag
    does the same to all rows that it passes. True if a command was run. */
 bool wr_layer_eye(WrApp *app, const WrLayerRow *row, bool pressed);

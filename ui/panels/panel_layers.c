@@ -239,12 +239,36 @@ static void row_generator(WrApp *app, int i, double *x)
     wr_gui_row_set_cursor(*x, wr_gui_px(THUMB_UNITS));
 }
 
+/* True if the list of layers has changed. */
+static bool row_group(WrApp *app, int i, double *x)
+{
+    const WrLayer *group = &wr_app_document(app)->layers[i];
+    const double side = wr_gui_px(16), folder = wr_gui_px(22);
+    wr_gui_row_set_cursor(*x, side);
+    bool pressed = wr_gui_glyph("fold", group->collapsed ? WR_ICON_CLOSED : WR_ICON_OPENED, 16,
+                                WR_COLOUR_TEXT);
+    wr_gui_tip(group->collapsed ? "Show the layers of this group here"
+                                : "Leave the layers of this group out of the list");
+    wr_gui_row_set_cursor(*x + side, folder);
+    pressed |= wr_gui_glyph("group", WR_ICON_FOLDER, 22, WR_COLOUR_CELL);
+    wr_gui_tip("A group: its layers are joined by themselves first");
+    *x += side + folder + wr_gui_px(6);
+    return pressed && wr_app_run_linef(app, "layer set %d collapsed=%s", i + 1,
+                                       group->collapsed ? "off" : "on");
+}
+
 /* Pictures of heights and mask, with a frame around the target of edits. True if a command was run. */
 static bool row_pictures(WrApp *app, int i, bool active, double *x)
 {
     const WrLayer *layer = &wr_app_document(app)->layers[i];
     double side = wr_gui_px(THUMB_UNITS), gap = wr_gui_px(8);
     wr_gui_row_set_cursor(*x, side);
+    if (layer->is_group) {
+        if (row_group(app, i, x)) return true;
+        if (!layer->mask) return false;
+        wr_gui_row_set_cursor(*x, side);
+        return row_mask(app, i, active, x);
+    }
     if (layer->filter.op) {
         if (wr_gui_glyph("filter", WR_ICON_TUNE, THUMB_UNITS, WR_COLOUR_CELL)) edit_values(app, i);
         wr_gui_tip("A filter over the layers below. Click to change its values");
@@ -273,7 +297,8 @@ static bool row_eye(WrApp *app, const WrLayerRow *row)
 {
     const WrDocument *document = wr_app_document(app);
     const bool visible = wr_layer_eye_shows(app, row), alone = document->solo == row->layer;
-    const bool shown = document->solo < 0 ? visible : alone;
+    const bool same = visible == document->layers[row->layer].visible;
+    const bool shown = same ? wr_document_shows(document, row->layer) : visible;
     const bool pressed = wr_gui_glyph("eye", visible ? WR_ICON_EYE : WR_ICON_EYE_OFF, 24,
                                       shown ? WR_COLOUR_TEXT : WR_COLOUR_OFF);
     if (wr_layer_eye(app, row, pressed)) return true;
@@ -307,7 +332,7 @@ static bool row_parts(WrApp *app, const WrLayerRow *row, bool active)
     double right = wr_gui_row_width() - wr_gui_px(34);
     wr_gui_row_set_cursor(x, wr_gui_px(24));
     if (row_eye(app, row)) return true;
-    x += wr_gui_px(24) + gap;
+    x += wr_gui_px(24) + gap + wr_layer_indent(layer->depth);
     if (row_pictures(app, i, active, &x)) return true;
     wr_gui_row_set_cursor(right, wr_gui_px(24));
     if (row_lock(app, i)) return true;

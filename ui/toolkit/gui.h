@@ -77,6 +77,8 @@ int wr_gui_px(double units); /* units rounded to whole pixels */
 #define WR_ICON_HELP "\xef\x8b\x97"      /* f2d7 */
 #define WR_ICON_ALERT "\xef\x80\xa6"     /* f026 */
 #define WR_ICON_FOLDER "\xef\x89\x8b"    /* f24b */
+#define WR_ICON_OPENED "\xef\x85\x80"    /* f140 chevron-down */
+#define WR_ICON_CLOSED "\xef\x85\x82"    /* f142 chevron-right */
 #define WR_ICON_FILE "\xef\x88\xa4"      /* f224 */
 #define WR_ICON_UP "\xef\x81\x9d"        /* f05d */
 #define WR_ICON_CHECK "\xef\x84\xac"     /* f12c */
@@ -273,6 +275,8 @@ void wr_gui_row_end(void);
 /* A line across the area at y pixels of the window, from x pixels right of its left edge, as the drop position of a
    drag. */
 void wr_gui_drop_line(double x, double y);
+/* A frame around a row at y, into which a drag drops. */
+void wr_gui_drop_frame(double y, double height);
 /* The pointer holds the previous widget. */
 bool wr_gui_held(void);
 /* Ends the pointer's hold of a widget without effect. */

@@ -121,6 +121,7 @@ struct WrGui {
     float row_left, row_right, row_top, row_height;
     ImGuiID row_drag;
     bool drag_scrolls;                 /* its area scrolls in this frame */
+    float scroll_rest;                 /* part of a pixel that it has not scrolled yet */
     ImDrawList *pad;                   /* target of drawing; NULL: the views */
     bool as_it_is;                     /* texts are user-defined and not translated */
     const char *next_id;               /* of wr_gui_next_id; NULL: none */

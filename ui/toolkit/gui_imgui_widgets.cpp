@@ -517,11 +517,16 @@ static void scroll_at_edges()
     if (y < window->InnerRect.Min.y + margin) beyond = y - window->InnerRect.Min.y - margin;
     if (y > window->InnerRect.Max.y - margin) beyond = y - window->InnerRect.Max.y + margin;
     if (beyond == 0 || window->ScrollMax.y <= 0) return;
+    const bool at_end =
+        beyond < 0 ? window->Scroll.y <= 0 : window->Scroll.y >= window->ScrollMax.y;
+    if (at_end) return;
+    WrGui *gui = wr_gui_current();
     const float pace = fminf(fmaxf(beyond / margin, -2), 2) * px(300); /* pixels in a second */
-    const float to = fminf(fmaxf(window->Scroll.y + pace * io.DeltaTime, 0), window->ScrollMax.y);
-    if (to == window->Scroll.y) return;
-    ImGui::SetScrollY(to);
-    wr_gui_current()->drag_scrolls = true;
+    gui->scroll_rest += pace * io.DeltaTime;
+    const float step = truncf(gui->scroll_rest); /* fractions would be lost */
+    gui->scroll_rest -= step;
+    ImGui::SetScrollY(fminf(fmaxf(window->Scroll.y + step, 0), window->ScrollMax.y));
+    gui->drag_scrolls = true;
 }
 
 static WrColour ground_of(WrRowLook look, bool hovered)
@@ -625,6 +630,22 @@ extern "C" void wr_gui_drop_line(double x, double y)
     at = fminf(fmaxf(at, inner.Min.y + px(1)), inner.Max.y - px(1));
     ImGui::GetForegroundDrawList()->AddRectFilled(
         ImVec2(left, at - px(1)), ImVec2(right, at + px(1)), wr_gui_colour_u32(WR_COLOUR_ACCENT));
+}
+
+extern "C" void wr_gui_drop_frame(double y, double height)
+{
+    float left, right;
+    const ImGuiWindow *window = ImGui::GetCurrentWindow();
+    full_width(&left, &right);
+    ImDrawList *list = ImGui::GetForegroundDrawList();
+    list->PushClipRect(window->InnerRect.Min, window->InnerRect.Max, true);
+    const float w = px(2), top = roundf((float)y), low = roundf((float)(y + height)) - 1;
+    const ImU32 ink = wr_gui_colour_u32(WR_COLOUR_ACCENT);
+    list->AddRectFilled(ImVec2(left, top), ImVec2(right, top + w), ink);
+    list->AddRectFilled(ImVec2(left, low - w), ImVec2(right, low), ink);
+    list->AddRectFilled(ImVec2(left, top + w), ImVec2(left + w, low - w), ink);
+    list->AddRectFilled(ImVec2(right - w, top + w), ImVec2(right, low - w), ink);
+    list->PopClipRect();
 }
 
 extern "C" bool wr_gui_held(void)
