@@ -481,11 +481,9 @@ static bool add_below(const WrSession *session, WrLayerList *layers, WrError *er
 {
     const WrDocument *document = session->state.document;
     const int index = layers->index[0];
+    if (index == 0) return wr_fail(err, "layer 1 has none below that it could be merged into");
     if (index == wr_layers_first_sibling(document->layers, index))
-        return wr_fail(err,
-                       document->layers[index].depth
-                           ? "layer %d has none below in its group that it could be merged into"
-                           : "layer %d has none below that it could be merged into",
+        return wr_fail(err, "layer %d has none below in its group that it could be merged into",
                        index + 1);
     *layers = (WrLayerList){ .index = { index - 1, index }, .count = 2 };
     return check_all_unlocked(session, index - 1, err);
@@ -582,7 +580,8 @@ static bool move_layer(WrDocument *document, int from, int to, bool in, const ch
     const int into = wr_document_parent(document, to);
     if (depth == possible && (!in || (into < 0 ? NULL : document->layers[into].name) == name))
         return true;
-    return wr_fail(err, name ? "to=%d is not in that group" : "to=%d is in a group", number);
+    if (!name) return wr_fail(err, "to=%d is in a group", number);
+    return wr_fail(err, "to=%d is not in that group", number);
 }
 
 /* Moves the layers, in their order, so that their lowest row becomes `place`: to the top first, then each to its
@@ -775,11 +774,11 @@ static bool clear_one(WrSession *session, WrCall *call, int index, WrError *err)
 {
     (void)call;
     WrLayer *layer = &session->state.document->layers[index];
-    if (!wr_layer_holds(layer))
-        return wr_fail(err,
-                       layer->is_group
-                           ? "layer %d is a group, without heights that could be cleared"
-                           : "layer %d is a filter, without heights that could be cleared",
+    if (layer->filter.op)
+        return wr_fail(err, "layer %d is a filter, without heights that could be cleared",
+                       index + 1);
+    if (layer->is_group)
+        return wr_fail(err, "layer %d is a group, without heights that could be cleared",
                        index + 1);
     wr_session_put_field(session, &layer->heights, uniform(layer, 0.0f));
     if (layer->cover) wr_session_put_field(session, &layer->cover, uniform(layer, 0.0f));

@@ -1,4 +1,4 @@
-/* Groups of layers as commands: edits, order, transforms, what reads the layers below, and documents. */
+/* Groups of layers as commands: edits, order, transforms, live masks, and documents. */
 #include "test.h"
 #include "session_help.h"
 #include "test_folder.h"
@@ -49,7 +49,7 @@ static void groups_are_made_of_numbers_ranges_and_names(void **state)
     must_run(s, "undo 2");
     assert_rows(s, "b1 c1 G0 a1 d1 group 10");
     must_fail(s, "layer group x of=2..9", "must be 1..6");
-    must_fail(s, "layer group x of=1,,2", "must be layers");
+    must_fail(s, "layer group x of=1,,2", "a layer is missing beside a comma");
     must_fail(s, "layer ungroup a", "is no group");
     wr_session_free(s);
 }
