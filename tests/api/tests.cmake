@@ -1,0 +1,1 @@
+wr_script(c_library guide_programs.sh repository ${CMAKE_BINARY_DIR} ${PROJECT_SOURCE_DIR})
