@@ -13,9 +13,7 @@
    Threads. A document belongs to one thread at a time. Different documents may be used by different threads at once. A
    snapshot is a document of its own. wr_doc_cancel may be called by any thread. Callbacks run on the thread that called the
    function and must not call the library with the same document, except wr_doc_cancel. */
-#ifndef WRINKLE_H
-#define WRINKLE_H
-
+#pragma once
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -202,5 +200,4 @@ WR_PUBLIC void wr_doc_free_text(char *text); /* NULL is fine */
 
 #ifdef __cplusplus
 }
-#endif
 #endif

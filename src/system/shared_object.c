@@ -1,8 +1,6 @@
 #include "system/shared_object.h"
 
 #include <dlfcn.h>
-#include <stdio.h>
-#include <stdint.h>
 
 void *wr_object_open(const char *path)
 {
@@ -22,11 +20,4 @@ void wr_object_close(void *library)
 const char *wr_object_why(void)
 {
     return dlerror();
-}
-
-bool wr_object_path(const void *symbol, char *path, size_t size)
-{
-    Dl_info info;
-    if (!dladdr(symbol, &info) || !info.dli_fname) return false;
-    return (size_t)snprintf(path, size, "%s", info.dli_fname) < size;
 }
