@@ -57,12 +57,13 @@ struct WrCli {
     double fps;         /* --fps; 0: not given */
     bool looped;        /* --loop was given */
     int loop;
-    bool missing;    /* --missing */
-    double memory;   /* --memory, MB; 0: not given */
-    bool turned;     /* --turn was given */
-    double turn_deg; /* degrees per frame */
-    int face;        /* --face */
-    bool full;       /* --full */
+    bool missing;           /* --missing */
+    double memory;          /* --memory, MB; 0: not given */
+    bool turned;            /* --turn was given */
+    double turn_deg;        /* degrees per frame */
+    int face;               /* --face */
+    bool full;              /* --full */
+    const char *completion; /* --completion; NULL: none */
     bool json;
     const char *sheet;      /* --sheet */
     const char *thumbnails; /* --thumbnails */
@@ -171,6 +172,7 @@ int wr_cli_inspect(const WrCli *cli);
 int wr_cli_explain(const WrCli *cli);
 int wr_cli_accuracy(const WrCli *cli);
 int wr_cli_recover(const WrCli *cli);
+int wr_cli_print_completion(const WrCli *cli); /* of help --completion */
 int wr_cli_brushes(const WrCli *cli);
 /* The measurements of `bench`, which parses its own options from words, and of `accuracy --tolerance`: in wrinkle both
  * start the program wrinkle-bench, which has them (tests/bench/). */
