@@ -19,7 +19,7 @@ wr_test_packages=(
     dbus-daemon xvfb xauth xdotool xclip x11-utils openbox valgrind
     xserver-xorg-core xserver-xorg-dev xserver-xorg-video-dummy xinput
     imagemagick openimageio-tools
-    desktop-file-utils groff-base jq librsvg2-bin parallel shellcheck
+    desktop-file-utils groff-base jq librsvg2-bin parallel python3-cffi python3-numpy shellcheck
 )
 
 wr_say() {

@@ -192,9 +192,17 @@ char *wr_config_path(const char *name)
 #define WR_SOURCE_FOLDER ""
 #endif
 
+static char chosen_folder[4096]; /* as set; "": none */
+
+void wr_program_folder_set(const char *folder)
+{
+    snprintf(chosen_folder, sizeof chosen_folder, "%s", folder ? folder : "");
+}
+
 char *wr_program_folder(void)
 {
     char exe[4096];
+    if (*chosen_folder) return wr_strdup(chosen_folder);
     if (wr_process_program(exe, sizeof exe)) return wr_path_folder(exe);
     return wr_strdup(*WR_BUILD_FOLDER ? WR_BUILD_FOLDER : "."); /* the system does not report the
                                                                    path */

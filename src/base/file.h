@@ -129,6 +129,8 @@ char *wr_config_path(const char *name);
 bool wr_data_find(const char *name, WrText *path);
 /* Folder of the running program. Caller frees with wr_free. */
 char *wr_program_folder(void);
+/* Sets it, for libraries in other programs; NULL: as above. Call it before other functions use the folder. */
+void wr_program_folder_set(const char *folder);
 
 /* ---- identity ---- */
 

@@ -6,6 +6,7 @@
 #pragma once
 #include <stdbool.h>
 
+typedef struct WrDoc WrDoc;
 typedef struct WrError WrError;
 typedef struct WrPool WrPool;
 typedef struct WrProgress WrProgress;
@@ -56,12 +57,13 @@ struct WrCli {
     double fps;         /* --fps; 0: not given */
     bool looped;        /* --loop was given */
     int loop;
-    bool missing;    /* --missing */
-    double memory;   /* --memory, MB; 0: not given */
-    bool turned;     /* --turn was given */
-    double turn_deg; /* degrees per frame */
-    int face;        /* --face */
-    bool full;       /* --full */
+    bool missing;           /* --missing */
+    double memory;          /* --memory, MB; 0: not given */
+    bool turned;            /* --turn was given */
+    double turn_deg;        /* degrees per frame */
+    int face;               /* --face */
+    bool full;              /* --full */
+    const char *completion; /* --completion; NULL: none */
     bool json;
     const char *sheet;      /* --sheet */
     const char *thumbnails; /* --thumbnails */
@@ -137,14 +139,15 @@ WrSession *wr_cli_load(const WrCli *cli, bool outputs, WrError *err);
 const char *wr_cli_file_name(const WrCli *cli); /* FILE without its folder; "" if none is named */
 /* Load FILE, if one is named. */
 bool wr_cli_open(const WrCli *cli, WrSession *session, WrError *err);
+/* The subcommand's document with the options of the line; the caller frees it. NULL and an error: an --isa that does not
+   exist or that this processor lacks. outputs: as in WrSessionOptions */
+WrDoc *wr_cli_doc(const WrCli *cli, bool outputs, WrError *err);
 /* An empty session with notes to standard error. */
 WrSession *wr_cli_session(const WrCli *cli, bool outputs, WrError *err);
 /* Index of a word in a list. False with an error that names the option and suggests a word: "--as hieght: ..." */
 bool wr_cli_find_word(const char *option, const char *word,
                       const char *(*list)(const void *ctx, int i), const void *ctx, int *place,
                       WrError *err);
-/* Refuse an --isa that does not exist or that this processor lacks, before any work. */
-bool wr_cli_check_isa(const WrCli *cli, WrError *err);
 bool wr_cli_run_dos(const WrCli *cli, WrSession *session, WrError *err);
 
 /* Print "wrinkle: MESSAGE" to standard error. Returns status, or 130 after an interrupt. */
@@ -169,6 +172,7 @@ int wr_cli_inspect(const WrCli *cli);
 int wr_cli_explain(const WrCli *cli);
 int wr_cli_accuracy(const WrCli *cli);
 int wr_cli_recover(const WrCli *cli);
+int wr_cli_print_completion(const WrCli *cli); /* of help --completion */
 int wr_cli_brushes(const WrCli *cli);
 /* The measurements of `bench`, which parses its own options from words, and of `accuracy --tolerance`: in wrinkle both
  * start the program wrinkle-bench, which has them (tests/bench/). */

@@ -15,26 +15,6 @@
 #include <errno.h>
 #include <string.h>
 
-static bool read_options(const WrCli *cli, const WrExportKind *kind, WrExportOptions *options,
-                         WrError *err)
-{
-    for (int i = 0; i < cli->word_count; i++) {
-        const char *word = cli->words[i], *value = strchr(word, '=') + 1;
-        WrText name = { 0 };
-        wr_text_add_n(&name, word, (size_t)(value - 1 - word));
-        for (int k = 0; k < i; k++)
-            if (strncmp(cli->words[k], word, name.length + 1) == 0) {
-                wr_fail(err, "%s= is given twice", wr_text_get(&name));
-                wr_text_fini(&name);
-                return false;
-            }
-        bool good = wr_export_option(kind, options, wr_text_get(&name), value, err);
-        wr_text_fini(&name);
-        if (!good) return false;
-    }
-    return true;
-}
-
 /* Names of kinds, then of sets. */
 static const char *kind_or_set(const void *ctx, int i)
 {
@@ -105,7 +85,7 @@ static bool export_file(const WrCli *cli, const WrExportKind *kind, Last *last, 
 {
     WrExportOptions options = wr_export_default();
     WrExportReport written;
-    if (!read_options(cli, kind, &options, err)) return false;
+    if (!wr_export_words(kind, cli->words, cli->word_count, &options, err)) return false;
     WrSession *session = load(cli, last, err);
     if (!session) return false;
     const bool same = is_last(session, last);

@@ -181,9 +181,28 @@ static bool add_verb(const WrCli *cli, int *i, WrText *text, WrError *err)
     return true;
 }
 
+/* Print the table, or the commands named, a line each. */
+static int print_json(const WrCli *cli)
+{
+    WrText text = { 0 };
+    WrError err;
+    bool good = true;
+    if (cli->word_count == 0) wr_help_json(&text);
+    for (int i = 0; i < cli->word_count && good; i++) {
+        const WrCommand *command = wr_command_find(cli->words[i]);
+        good = command || wr_help_command(cli->words[i], &text, &err);
+        if (good) wr_help_json_command(command, &text);
+    }
+    const int status = good ? wr_cli_print(cli, &text) : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+    wr_text_fini(&text);
+    return status;
+}
+
 int wr_cli_help_command(const WrCli *cli)
 {
+    if (cli->completion) return wr_cli_print_completion(cli);
     if (cli->markdown) return print_markdown(cli);
+    if (cli->json) return print_json(cli);
     WrError err;
     WrText text = { 0 };
     int status = WR_EXIT_DONE;
@@ -194,13 +213,7 @@ int wr_cli_help_command(const WrCli *cli)
             wr_cli_help(wr_subcommand_find(word), &text);
         else if (!add_verb(cli, &i, &text, &err)) status = WR_EXIT_FAILED;
     }
-    if (status == WR_EXIT_DONE && cli->json) { /* the words were only checked; the output is the
-                                                  whole table */
-        wr_text_clear(&text);
-        wr_help_json(&text);
-    } else if (status == WR_EXIT_DONE && cli->word_count == 0) {
-        wr_help_overview(&text);
-    }
+    if (status == WR_EXIT_DONE && cli->word_count == 0) wr_help_overview(&text);
     status = status == WR_EXIT_DONE ? wr_cli_print(cli, &text) : wr_cli_fail(cli, status, &err);
     wr_text_fini(&text);
     return status;

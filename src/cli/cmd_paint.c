@@ -1,5 +1,6 @@
 #include "cli/cli.h"
 
+#include "api/doc.h"
 #include "base/error.h"
 #include "base/text.h"
 
@@ -42,7 +43,7 @@ int wr_cli_paint(const WrCli *cli)
     const bool given = cli->file || cli->do_count > 0;
     int status = WR_EXIT_FAILED;
     if (!given) wr_session_set_journal(session, true);
-    if (wr_cli_check_isa(cli, &err)) {
+    if (wr_api_check_instruction_set(cli->isa, &err)) {
         WrAppOptions app = { .session = session,
                              .open = given ? open_asked : NULL,
                              .open_ctx = (void *)cli,

@@ -36,7 +36,7 @@ static void add_json(WrText *text, const WrRecoverable *r)
         wr_text_add(text, ",\"error\":");
         wr_text_add_json_string(text, r->error);
     }
-    wr_text_add(text, "}\n");
+    wr_text_add(text, "}");
 }
 
 static void add_line(WrText *text, int number, const WrRecoverable *r)
@@ -61,11 +61,14 @@ static void add_line(WrText *text, int number, const WrRecoverable *r)
 static int list(const WrCli *cli, const WrRecoverable *found, int count)
 {
     WrText text = { 0 };
+    if (cli->json) wr_text_add(&text, "[");
     for (int i = 0; i < count; i++) {
+        if (cli->json) wr_text_add(&text, i ? ",\n" : "");
         if (cli->json) add_json(&text, &found[i]);
         else add_line(&text, i + 1, &found[i]);
     }
-    if (count == 0 && !cli->json) wr_text_add(&text, "nothing to recover\n");
+    if (cli->json) wr_text_add(&text, "]\n");
+    else if (count == 0) wr_text_add(&text, "nothing to recover\n");
     int status = wr_cli_print(cli, &text);
     wr_text_fini(&text);
     return status;

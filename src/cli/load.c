@@ -1,9 +1,9 @@
 #include "cli/cli.h"
 
+#include "api/doc.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "command/session.h"
-#include "render/frame/frame.h"
 #include "system/path.h"
 #include "system/process.h"
 
@@ -29,27 +29,28 @@ bool wr_cli_find_word(const char *option, const char *word, WrWordList list, con
     return wr_fail_word(err, what, word, list, ctx);
 }
 
-bool wr_cli_check_isa(const WrCli *cli, WrError *err)
+static WrSessionOptions session_options(const WrCli *cli, bool outputs)
 {
-    if (!cli->isa) return true;
-    WrRenderer *renderer = wr_renderer_new(cli->pool, cli->isa, err);
-    if (!renderer) return false;
-    wr_renderer_free(renderer);
-    return true;
+    return (WrSessionOptions){ .pool = cli->pool,
+                               .note = print_note,
+                               .foretell = wr_process_has_terminal(),
+                               .outputs = outputs,
+                               .full = cli->full,
+                               .isa = cli->isa,
+                               .picture_bytes = (size_t)(cli->memory * (1 << 20)),
+                               .smooth = true };
+}
+
+WrDoc *wr_cli_doc(const WrCli *cli, bool outputs, WrError *err)
+{
+    const WrSessionOptions options = session_options(cli, outputs);
+    return wr_api_new(&options, err);
 }
 
 WrSession *wr_cli_session(const WrCli *cli, bool outputs, WrError *err)
 {
-    if (!wr_cli_check_isa(cli, err)) return NULL;
-    WrSessionOptions options = { .pool = cli->pool,
-                                 .note = print_note,
-                                 .foretell = wr_process_has_terminal(),
-                                 .outputs = outputs,
-                                 .full = cli->full,
-                                 .isa = cli->isa,
-                                 .picture_bytes = (size_t)(cli->memory * (1 << 20)),
-                                 .smooth = true };
-    return wr_session_new(&options);
+    const WrSessionOptions options = session_options(cli, outputs);
+    return wr_api_check_instruction_set(cli->isa, err) ? wr_session_new(&options) : NULL;
 }
 
 bool wr_cli_run_dos(const WrCli *cli, WrSession *session, WrError *err)

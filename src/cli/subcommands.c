@@ -108,8 +108,8 @@ const WrSubcommand wr_subcommands[] = {
       "a\n"
       "measurement, for programs; --json: all parts and these lines, or what is named.",
       wr_cli_bench },
-    { "help", "help [VERB...] [--json|--markdown]", "the commands of scripts and --do",
-      BIT(JSON) | BIT(MARKDOWN) | BIT(ALL_WORDS),
+    { "help", "help [VERB...] [--json|--markdown|--completion SHELL]",
+      "the commands of scripts and --do", BIT(JSON) | BIT(MARKDOWN) | BIT(ALL_WORDS),
       "--markdown prints tables of the guide: of a VERB its arguments; `verbs` all verbs, "
       "`subcommands`\nthese with their options, `effects` the effects that a plan leaves out, and "
       "when.",

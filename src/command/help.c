@@ -599,6 +599,12 @@ static void add_command(WrText *text, const WrCommand *command)
     wr_text_fini(&usage);
 }
 
+void wr_help_json_command(const WrCommand *command, WrText *text)
+{
+    add_command(text, command);
+    wr_text_add(text, "\n");
+}
+
 void wr_help_json(WrText *text)
 {
     wr_text_add(text, "{\"commands\":[");

@@ -31,6 +31,8 @@ void wr_help_markdown_cell(WrText *text, const char *words);
  * list of lists for a list) or a string; null without one. "keeps": an omitted argument leaves the scene's value
  * unchanged, and "default" is the value in a new document. Members that do not apply are left out. */
 void wr_help_json(WrText *text);
+/* One command, an element of "commands", on a line of its own. */
+void wr_help_json_command(const WrCommand *command, WrText *text);
 
 /* Value in a new document's scene of an argument whose row has no default: "blinn", "0.1"; "" if there is none. */
 void wr_help_initial(const WrCommand *command, int form, const char *name, WrText *text);

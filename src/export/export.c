@@ -279,6 +279,7 @@ static bool write_one(WrExportJob *job, const char *path, WrError *err)
                  job->scene->name ? job->scene->name : "");
     }
     job->report.seam = wr_export_certify_seam(job);
+    if (job->values) return job->sizes_only || wr_export_fill_values(job, err);
     return job->picture       ? wr_export_fill_preview(job, err)
            : job->kind->write ? job->kind->write(job, path, err)
                               : wr_export_write(job, path, err);
@@ -347,9 +348,9 @@ static bool run_job(WrExportJob *job, const char *path, WrError *err)
     job->cell = job->field;
     WrField *sheet = wr_export_build_table(job, &good, err);
     if (sheet) job->field = sheet, job->analytic = false;
-    good =
-        good && (!job->picture && (job->sidecar || job->options.mips) ? write_files(job, path, err)
-                                                                      : write_one(job, path, err));
+    good = good && (!job->picture && !job->values && (job->sidecar || job->options.mips)
+                        ? write_files(job, path, err)
+                        : write_one(job, path, err));
     for (int i = 0; i < job->attribute_count; i++) wr_text_fini(&job->attribute_texts[i]);
     wr_field_free(sheet);
     wr_free(job->u);
@@ -424,6 +425,29 @@ bool wr_export_preview(const WrExportKind *kind, const WrDocument *document,
     bool ok = run_on(&job, document, picture_path(&job), err);
     picture->report = job.report;
     return ok;
+}
+
+bool wr_export_values(const WrExportKind *kind, const WrDocument *document,
+                      const WrExportOptions *options, bool sizes_only, WrPool *pool,
+                      WrExportValues *values, WrError *err)
+{
+    *values = (WrExportValues){ 0 };
+    if (kind->write) return wr_fail(err, "%s: no picture of the table", kind->label);
+    WrExportJob job = {
+        .kind = kind, .options = *options, .pool = pool, .values = values, .sizes_only = sizes_only
+    };
+    const bool floats = kind->floats || options->depth == 0 || options->depth == 32;
+    if (options->depth == 0) job.options.depth = 32;
+    if (!run_on(&job, document, floats ? "memory.exr" : "memory.png", err)) return false;
+    values->width = job.report.width;
+    values->height = job.report.height;
+    values->channels = job.channels;
+    values->depth = job.options.depth;
+    values->report = job.report;
+    for (int i = 0; i < job.channels; i++)
+        snprintf(values->names[i], WR_EXPORT_NAME, "%s",
+                 kind->channel_names ? kind->channel_names[i] : job.channel_names[i]);
+    return true;
 }
 
 bool wr_export_preview_like(const WrExportJob *like, const WrExportKind *kind,

@@ -298,6 +298,9 @@ WrExportOptions wr_export_default(void);
    allowed values; an option that the kind does not have is an error too. */
 bool wr_export_option(const WrExportKind *kind, WrExportOptions *options, const char *name,
                       const char *value, WrError *err);
+/* Sets options from words such as "depth=16"; an option given twice is an error. The options keep pointers into the words. */
+bool wr_export_words(const WrExportKind *kind, const char *const *words, int count,
+                     WrExportOptions *options, WrError *err);
 
 /* Exports a file. Before the file is renamed to `path` the reader process reads it back, and its contents are
    compared with the table itself (report: seen, worst). Codes may be off by half a code, dithered ones by a

@@ -29,6 +29,8 @@ struct WrExportJob {
     char channel_names[WR_EXPORT_CHANNELS][WR_EXPORT_NAME]; /* for kinds that compute them */
     float *map; /* [height][width][channels] for kinds that compute it as a whole */
     struct WrExportPreview *picture; /* output if no file is written; NULL: a file */
+    struct WrExportValues *values;   /* output if neither file nor picture is written */
+    bool sizes_only;                 /* without the values' data */
     bool numbers;                    /* a raw file (write.c) */
     bool sidecar;                    /* a sidecar is written beside the file */
     bool analytic;                   /* F is the scene's formula, not the table */
@@ -62,8 +64,9 @@ void wr_export_run(WrExportJob *job, int y, int rows, WrExportPiece piece, void 
 bool wr_export_write(WrExportJob *job, const char *path, WrError *err);
 WrPixelType wr_export_pixels(int depth);
 
-/* preview.c: fills a picture instead of writing a file. */
+/* preview.c: fills a picture, or values, instead of writing a file. */
 bool wr_export_fill_preview(WrExportJob *job, WrError *err);
+bool wr_export_fill_values(WrExportJob *job, WrError *err);
 /* As wr_export_preview, for another kind, with that job's document and options. */
 struct WrExportPreview;
 bool wr_export_preview_like(const WrExportJob *job, const WrExportKind *kind,

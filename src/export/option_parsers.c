@@ -431,3 +431,26 @@ bool wr_export_set_strength(WrExportOptions *options, const char *value, WrError
     options->strength = strength;
     return true;
 }
+
+bool wr_export_words(const WrExportKind *kind, const char *const *words, int count,
+                     WrExportOptions *options, WrError *err)
+{
+    WrText name = { 0 };
+    bool good = true;
+    for (int i = 0; i < count && good; i++) {
+        const char *equals = strchr(words[i], '=');
+        if (!equals) {
+            good = wr_fail(err, "%s: expected an option such as depth=16", words[i]);
+            continue;
+        }
+        const size_t length = (size_t)(equals - words[i]);
+        wr_text_clear(&name);
+        wr_text_add_n(&name, words[i], length);
+        for (int k = 0; k < i; k++)
+            if (strncmp(words[k], words[i], length + 1) == 0)
+                good = wr_fail(err, "%.40s= is given twice", wr_text_get(&name));
+        good = good && wr_export_option(kind, options, wr_text_get(&name), equals + 1, err);
+    }
+    wr_text_fini(&name);
+    return good;
+}

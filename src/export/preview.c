@@ -43,22 +43,41 @@ static void put_floats(const float *from, int channels, size_t count, uint8_t *r
         }
 }
 
+static size_t value_bytes(const WrExportJob *job)
+{
+    return job->options.depth == 32 ? sizeof(float) : (size_t)job->options.depth / 8;
+}
+
+/* Computes the map's values, [height][width][channels] of the options' depth. */
+static bool compute(WrExportJob *job, void *values, WrError *err)
+{
+    if (job->kind->make && !job->kind->make(job, err)) return false;
+    if (job->kind->prepare) job->kind->prepare(job);
+    job->kind->rows(job, 0, job->height, values);
+    return true;
+}
+
+bool wr_export_fill_values(WrExportJob *job, WrError *err)
+{
+    const size_t count = (size_t)job->width * (size_t)job->height * (size_t)job->channels;
+    job->values->data = wr_try_alloc_unset(count, value_bytes(job), "a map in memory", err);
+    return job->values->data && compute(job, job->values->data, err);
+}
+
 bool wr_export_fill_preview(WrExportJob *job, WrError *err)
 {
     WrExportPreview *picture = job->picture;
     const size_t count = (size_t)job->width * (size_t)job->height;
     const int channels = job->channels;
-    const size_t each = job->options.depth == 32 ? sizeof(float) : 1;
+    const size_t each = value_bytes(job);
     const bool as_they_are = each == 1 && channels == 3;
     picture->rgb = wr_try_alloc_unset(count, 3, "a picture of a map", err);
     char *values = as_they_are    ? (char *)picture->rgb
                    : picture->rgb ? wr_try_alloc_unset(count * (size_t)channels, each,
                                                        "a picture of a map", err)
                                   : NULL;
-    const bool made = values && (!job->kind->make || job->kind->make(job, err));
+    const bool made = values && compute(job, values, err);
     if (made) {
-        if (job->kind->prepare) job->kind->prepare(job);
-        job->kind->rows(job, 0, job->height, values);
         if (each == 1 && !as_they_are)
             wr_export_run(job, 0, job->height, put_codes,
                           &(Codes){ (const uint8_t *)values, picture->rgb });

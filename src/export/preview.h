@@ -18,6 +18,22 @@ bool wr_export_preview(const WrExportKind *kind, const WrDocument *document,
                        WrError *err);
 void wr_export_preview_fini(WrExportPreview *picture);
 
+/* A map in memory, as a file would hold it. */
+typedef struct WrExportValues {
+    int width, height, channels, depth; /* bits per channel: 8, 16, or 32 for floats */
+    char names[WR_EXPORT_CHANNELS]
+              [WR_EXPORT_NAME]; /* of the channels; "" for those of Y, RGB and RGBA */
+    void *data;                 /* [height][width][channels]; owned */
+    WrExportReport report;
+} WrExportValues;
+
+/* Computes the map that the kind would export with these options, of options->depth bits; 0: floats. sizes_only: without the
+   data, which remains NULL. Free the data with wr_free, also after a failure.
+   Errors: options out of range; a drawing or a body, which is not a picture of the table. */
+bool wr_export_values(const WrExportKind *kind, const WrDocument *document,
+                      const WrExportOptions *options, bool sizes_only, WrPool *pool,
+                      WrExportValues *values, WrError *err);
+
 /* Histogram of heights: bar i counts those from low + i/64 (high - low) on; outside: those below from or above
    to. */
 typedef struct WrHistogram {

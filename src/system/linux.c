@@ -6,9 +6,11 @@
 #include "system/large_pages.h"
 #include "system/path.h"
 #include "system/process.h"
+#include "system/shared_object.h"
 #include "system/thread.h"
 
 #include <endian.h>
+#include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -507,4 +509,13 @@ uint64_t wr_pages_free_bytes(void)
         if (sscanf(line, "MemAvailable: %llu", &kilobytes) == 1) break;
     fclose(file);
     return (uint64_t)kilobytes * 1024;
+}
+
+/* ---- shared libraries ---- */
+
+bool wr_object_path(const void *symbol, char *path, size_t size)
+{
+    Dl_info info;
+    if (!dladdr(symbol, &info) || !info.dli_fname) return false;
+    return (size_t)snprintf(path, size, "%s", info.dli_fname) < size;
 }

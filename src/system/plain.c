@@ -5,6 +5,7 @@
 #include "system/large_pages.h"
 #include "system/path.h"
 #include "system/process.h"
+#include "system/shared_object.h"
 #include "system/thread.h"
 
 #include <errno.h>
@@ -342,4 +343,12 @@ void wr_pages_large(void *block, size_t bytes)
 uint64_t wr_pages_free_bytes(void)
 {
     return 0;
+}
+
+/* ---- shared libraries ---- */
+
+bool wr_object_path(const void *symbol, char *path, size_t size)
+{
+    (void)symbol, (void)path, (void)size;
+    return false;
 }

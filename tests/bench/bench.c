@@ -1,4 +1,5 @@
 /* The words of `wrinkle bench`, and the measurements behind each. */
+#include "api/doc.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "bench/bench.h"
@@ -73,7 +74,7 @@ static bool read_options(const WrCli *cli, Options *options, WrError *err)
     if ((cli->sized && !options->sections) || (options->sections && options->lines && !cli->json))
         return wr_fail(err, cli->sized ? "bench: --size is of the parts: name one, or all"
                                        : "bench: --lines beside parts needs --json");
-    return wr_cli_check_isa(cli, err);
+    return wr_api_check_instruction_set(cli->isa, err);
 }
 
 static bool bench_sections(const WrCli *cli, const Options *options, WrText *text, WrError *err)

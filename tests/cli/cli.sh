@@ -438,6 +438,10 @@ expect 0 help render
 has out 'size=WxH'
 expect 0 help --json
 has out '"name":"stroke","class":"edit"'
+expect 0 help stroke fill --json
+is 'the commands named, a line each' "$(jq -r .name out | paste -sd ' ')" 'stroke fill'
+expect 2 help --completion csh
+has err 'bash'
 expect 0 help --markdown stroke effects
 has out '## stroke'
 has out '| E25 | back faces | '
@@ -471,6 +475,8 @@ empty 'everything'
 export WRINKLE_STATE=$folder/state
 expect 0 recover
 has out 'nothing to recover'
+expect 0 recover --json
+is 'no journals' "$(cat out)" '[]'
 mkfifo pipe
 "$program" run - <pipe >out 2>err &
 job=$!

@@ -1,6 +1,7 @@
 # The program as a user starts it.
 if(TARGET wrinkle)
     wr_script(cli cli.sh heavy $<TARGET_FILE:wrinkle>)
+    wr_script(completion completion.sh quick $<TARGET_FILE:wrinkle>)
     wr_script(export_watch export_watch.sh quick $<TARGET_FILE:wrinkle>)
     if(TARGET wrinkle-bench)
         wr_script(bench bench.sh heavy $<TARGET_FILE:wrinkle>)

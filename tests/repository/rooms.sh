@@ -24,7 +24,8 @@ BEGIN {
     may["hardcases"] = may["document"] "noise surface shade generate brush render accuracy document "
     may["export"] = base "field noise image surface shade scene render document "
     may["command"] = may["export"] "generate brush accuracy export "
-    may["cli"] = may["command"] "command hardcases "
+    may["api"] = may["command"] "command "
+    may["cli"] = may["api"] "hardcases api "
     # The rooms of the window, from the ground up: each knows those before it.
     ui = may["command"] "command hardcases "
     count = split("toolkit input app/jobs canvas patch/preview app/state canvas/overlays canvas/tools patch panels/generate panels/accuracy panels/help panels app", floor)

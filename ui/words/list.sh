@@ -22,7 +22,7 @@ else
 fi
 # Lists of X11's names have bytes that are no UTF-8.
 mapfile -t files < <(find "${folders[@]}" \( -name '*.c' -o -name '*.cpp' -o -name '*.h' \) ! -name clip_x11.c \
-    ! -path 'src/cli/*' ! -path 'src/hardcases/*' | LC_ALL=C sort)
+    ! -path 'src/cli/*' ! -path 'src/api/*' ! -path 'src/hardcases/*' | LC_ALL=C sort)
 # xgettext takes one text of an argument: `shown ? "Hide" : "Show"` has two. They get a call of their own.
 choices=$(mktemp --suffix=.c)
 trap 'rm -f "$choices"' EXIT
