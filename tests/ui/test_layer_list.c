@@ -750,7 +750,7 @@ static void a_drag_scrolls_at_the_edge(void **state)
     assert_true(wr_gui_focus_on(bench.app->gui, row(&bench, 0).id));
     settle(&bench);
     const int bottom = 700 - wr_gui_px(40); /* below the list, on its buttons */
-    drag(&bench, name_x(&bench), 0, bottom);
+    drag(&bench, drag_x(&bench), 0, bottom);
     float before = 0; /* until it is at its end */
     for (int i = 0, same = 0; i < 4000 && same < 100; i++) {
         const float now = row(&bench, 0).y0;

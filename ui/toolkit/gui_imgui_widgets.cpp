@@ -553,7 +553,6 @@ try {
     ImGui::SetCursorScreenPos(ImVec2(left, at.y));
     bool released = ImGui::InvisibleButton("row", ImVec2(right - left, height));
     bool hovered = ImGui::IsItemHovered(), held = ImGui::IsItemActive();
-    bool doubled = hovered && ImGui::IsMouseDoubleClicked(0);
     wr_gui_stop(WR_STOP_ROW, false);
     bool menu = (hovered && ImGui::IsMouseClicked(1)) || wr_gui_focus_menu(ImGui::GetItemID());
     bool moved = ImGui::IsMouseDragPastThreshold(0, px(5));
@@ -565,6 +564,8 @@ try {
                             wr_gui_colour_u32(ground));
     list->AddRectFilled(ImVec2(left, at.y + height - 1), ImVec2(right, at.y + height),
                         wr_gui_colour_u32(WR_COLOUR_POPUP));
+    if (hovered && ImGui::IsMouseClicked(0))
+        gui->row_double = ImGui::IsMouseDoubleClicked(0) ? own : 0; /* a drag may follow */
     const bool was = gui->row_drag == own;
     if (held && moved) gui->row_drag = own;
     bool dragging = held && gui->row_drag == own, dropped = was && !held;
@@ -580,7 +581,7 @@ try {
     row.height = (double)height;
     row.pointer_y = (double)ImGui::GetIO().MousePos.y;
     row.clicked = released && !was;
-    row.doubled = doubled;
+    row.doubled = released && !was && gui->row_double == own;
     row.menu = menu;
     row.dragging = dragging;
     row.dropped = dropped;
