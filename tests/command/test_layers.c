@@ -358,7 +358,7 @@ static void several_layers_move_into_groups(void **state)
     must_fail(s, "layer move b,G in=H", "cannot go into itself");
     must_fail(s, "layer move b,h in=e", "is no group");
     must_fail(s, "layer move b,h in=G to=1", "is not in that group");
-    must_fail(s, "layer move G,h to=4", "to=4: must be 6..7");
+    must_fail(s, "layer move G,h to=4", "to=4: must be 5..7");
     wr_session_free(s);
 }
 

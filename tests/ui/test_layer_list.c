@@ -270,7 +270,7 @@ static Outline with_moved(const Outline *o, const bool *set, int at, int depth)
     return out;
 }
 
-/* What a drop of the set at y does, with the rows that are shown. False: it must not be there. */
+/* The outline after a drop of the set at y, with the rows that are shown. False: it must not be there. */
 static bool expect_drop(const Outline *o, const bool *set, double y, Outline *out)
 {
     int shown[40], count = 0;
@@ -726,7 +726,7 @@ static void groups_in_the_list(void **state)
     run(bench.session, "layer set 6 collapsed=on");
     settle(&bench);
     click(&bench, 0, PLAIN);
-    click(&bench, 2, SHIFT); /* not what is in the group */
+    click(&bench, 2, SHIFT); /* without the group's layers */
     assert_list(&bench, "gedbac", "Cag");
     click(&bench, 0, PLAIN);
     tap(&bench, SDL_SCANCODE_PAGEDOWN, KMOD_NONE);

@@ -104,13 +104,6 @@ int wr_chosen_count(const WrChosenLayers *chosen)
     return count;
 }
 
-int wr_chosen_lowest(const WrChosenLayers *chosen)
-{
-    for (int i = 0; i < chosen->count; i++)
-        if (chosen->chosen[i]) return i;
-    return -1;
-}
-
 int wr_chosen_highest(const WrChosenLayers *chosen)
 {
     for (int i = chosen->count - 1; i >= 0; i--)

@@ -35,7 +35,6 @@ void wr_chosen_range(WrChosenLayers *chosen, int first, int last);
 void wr_chosen_expect(WrChosenLayers *chosen, const char *line, const bool next[WR_LAYERS_MAX]);
 
 int wr_chosen_count(const WrChosenLayers *chosen);
-int wr_chosen_lowest(const WrChosenLayers *chosen); /* index; -1: none */
-int wr_chosen_highest(const WrChosenLayers *chosen);
+int wr_chosen_highest(const WrChosenLayers *chosen); /* index; -1: none */
 /* "2,4,5": these layers in a command line. */
 void wr_layers_print(const bool layers[WR_LAYERS_MAX], WrText *text);
