@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
+#include "command/linked_copies.h"
 #include "command/live_masks.h"
 #include "command/session_internal.h"
 #include "document/blend.h"
@@ -320,13 +321,19 @@ static bool layer_duplicate(WrSession *session, WrCall *call, WrError *err)
     WrDocument *document = session->state.document;
     int index;
     if (!check_room(document, err) || !find(session, call, "N", &index, err)) return false;
+    const char *name = document->layers[index].name;
+    const bool linked = wr_call_choice(call, "linked") == 1;
+    if (linked && document->layers[index].filter.op)
+        return wr_fail(err, "linked=on: layer %d is a filter, without heights that could be copied",
+                       index + 1);
     WrLayer layer = wr_layer_share(&document->layers[index]);
     wr_free(layer.name);
-    layer.name = copy_name(document->layers[index].name);
+    layer.name = copy_name(name);
     layer.locked = false;
+    if (linked) wr_layer_link(&layer, name);
     wr_document_insert(document, index + 1, layer);
     document->active = index + 1;
-    return true;
+    return !linked || wr_session_generate_again(session, index + 1, err);
 }
 
 /* ---- joining ---- */
@@ -403,6 +410,7 @@ static bool layer_rename(WrSession *session, WrCall *call, WrError *err)
     WrDocument *document = session->state.document;
     WrLayer *layer = &document->layers[index];
     wr_session_rename_in_masks(session, index, name);
+    wr_session_rename_in_links(session, index, name);
     WrScene *scene = wr_scene_rename_layer(document->scene, layer->name, name);
     if (scene) wr_session_replace_scene(session, scene); /* objects still use it as their table */
     wr_free(layer->name);
@@ -633,7 +641,14 @@ static const WrForm layer_forms[] = {
                                   .args = { LAYER_N } },
     [WR_ROW(LAYER_DUPLICATE)] = { .name = "duplicate",
                                   .help = "a copy above it, active",
-                                  .args = { LAYER_N } },
+                                  .args = { LAYER_N,
+                                            { .name = "linked",
+                                              .type = WR_ARG_CHOICE,
+                                              .words = wr_off_on,
+                                              .fallback_text = "off",
+                                              .help = "on: it follows the heights and the coverage "
+                                                      "of the layer; its other settings are its "
+                                                      "own" } } },
     [WR_ROW(LAYER_MERGE)] = { .name = "merge",
                               .help = "join a layer and the one below; the composite changes by "
                                       "rounding at most: not at "

@@ -80,6 +80,7 @@ void wr_layer_set_line(WrLayer *layer, const char *line, WrHash below)
     layer->line = copy;
     layer->below = below;
     layer->made = line ? wr_field_key(layer->heights) : 0;
+    layer->copied = 0;
 }
 
 void wr_layer_set_mask_line(WrLayer *layer, const char *line, WrHash read)

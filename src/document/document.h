@@ -22,10 +22,12 @@ typedef struct WrScene WrScene;
    coverage come from; they are generated again when the line changes, or the layers below if the line reads them. A live
    mask keeps its terms and is made again in the same way. All fields of a document have one size and one wrap. */
 typedef struct WrLayer {
-    char *name;         /* UTF-8, owned; not necessarily unique */
-    char *line;         /* command line of a generator layer; NULL: a plain layer. Owned */
-    WrHash below;       /* hash of the composite that the line read; 0: it reads none */
-    uint64_t made;      /* wr_field_key of the heights as the line made them */
+    char *name;    /* UTF-8, owned; not necessarily unique */
+    char *line;    /* command line of a generator layer; NULL: a plain layer. Owned */
+    WrHash below;  /* hash of the composite that the line read; 0: it reads none */
+    uint64_t made; /* wr_field_key of the heights as the line made them */
+    uint64_t
+        copied; /* key of the layer that the line copies, as it was copied; 0: none, or just opened */
     char *mask_line;    /* terms of a live mask; NULL: a plain mask, or none. Owned */
     WrHash mask_read;   /* of all that the terms read */
     uint64_t mask_made; /* wr_field_key of the mask as the terms made it */
