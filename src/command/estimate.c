@@ -254,6 +254,7 @@ static const Need needs[] = {
     { "sculpt", NULL, brush, .bytes = 4 },
     { "project", NULL, texels, .bytes = 8 },
     { "layer", .count = NULL },
+    { "variant", .count = NULL },
     { "layer", "mask", masking, .bytes = 4.5 },
     { "layer", "merge", texels, .bytes = 4.2 },
     { "layer", "flatten", texels, .bytes = 4.2 },

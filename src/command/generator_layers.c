@@ -224,6 +224,28 @@ bool wr_session_change_generator_layer(WrSession *session, WrCall *outer, int in
     return good;
 }
 
+bool wr_session_use_line(WrSession *session, int index, const char *line, WrError *err)
+{
+    WrError why = { "" };
+    WrCall *call = NULL;
+    if (!wr_check_layer_line(NULL, "line", line, &why) ||
+        !wr_call_parse(line, false, &call, &why)) {
+        WrText name = { 0 };
+        wr_session_note(session, "%s: its line is not known here (%s): its heights stay",
+                        wr_session_layer_name(session, index, &name), wr_error_message(&why));
+        wr_text_fini(&name);
+        return true;
+    }
+    if (wr_line_links(line)) { /* made at the end of the command, if its source is there */
+        wr_layer_set_line(&session->state.document->layers[index], line, nothing);
+        wr_call_free(call);
+        return true;
+    }
+    const bool good = generate(session, index, call, NULL, err);
+    wr_call_free(call);
+    return good;
+}
+
 bool wr_session_generate_again(WrSession *session, int index, WrError *err)
 {
     WrCall *call = call_of(session, index, err);

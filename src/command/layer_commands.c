@@ -409,6 +409,7 @@ static bool layer_rename(WrSession *session, WrCall *call, WrError *err)
     const char *name = wr_call_arg(call, "NAME")->text;
     WrDocument *document = session->state.document;
     WrLayer *layer = &document->layers[index];
+    wr_session_rename_in_variants(session, index, name);
     wr_session_rename_in_masks(session, index, name);
     wr_session_rename_in_links(session, index, name);
     WrScene *scene = wr_scene_rename_layer(document->scene, layer->name, name);

@@ -239,9 +239,10 @@ bool wr_session_link_lags(WrSession *session, const WrLinks *links, int index)
     WrLayer *layer = &document->layers[index];
     const WrLayer *source = &document->layers[links->source[index]];
     const uint64_t key = key_of(source);
-    if (layer->copied == key || key_of(layer) == key) return false;
+    if (layer->copied == key) return false;
     WrCall *call = call_of(layer->line);
-    const bool lags = !call || !has_values(call) || !wr_hash_equal(hash_of(source), layer->below);
+    const bool lags =
+        has_values(call) ? !wr_hash_equal(hash_of(source), layer->below) : key_of(layer) != key;
     wr_call_free(call);
     if (!lags) layer->copied = key;
     return lags;

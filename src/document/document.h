@@ -42,6 +42,7 @@ typedef struct WrLayer {
     bool locked;        /* edits are refused */
     bool on_mask;       /* edits change its mask, which then exists */
     WrFilter filter;    /* op NULL: not a filter */
+    char *values;       /* in the variants that know the layer (variants.h); NULL: in none. Owned */
 } WrLayer;
 
 typedef struct WrComposite WrComposite; /* private to the module */
@@ -54,6 +55,8 @@ typedef struct WrDocument {
     int solo;               /* index of the layer that is shown alone, even if hidden; -1: none */
     WrField *selection;     /* 0..1, area of edits; NULL: everywhere. Owned */
     WrScene *scene;         /* shared; replaced, never modified */
+    char *variants;         /* names of its variants (variants.h); NULL: none. Owned */
+    char *variant;          /* name of the variant in use; NULL: none. Owned */
     WrComposite *composite; /* updated on request */
 } WrDocument;
 

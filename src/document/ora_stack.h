@@ -24,9 +24,9 @@ typedef struct WrOraLayer {
     double opacity;   /* 0..1, multiplied by the groups' */
     bool visible;     /* of the layer and all its groups */
     bool locked, selected;
-    char *operation;                                            /* composite-op */
-    char *heights, *cover, *mask, *blend, *radius, *name_bytes; /* our attributes */
-    char *filter, *line, *below, *mask_line, *mask_read;        /* our attributes */
+    char *operation;                                              /* composite-op */
+    char *heights, *cover, *mask, *blend, *radius, *name_bytes;   /* our attributes */
+    char *filter, *line, *below, *mask_line, *mask_read, *values; /* our attributes */
     char *own_opacity, *own_visible; /* our attributes, if the standard ones have other values */
     bool on_mask;                    /* our attribute */
 } WrOraLayer;
@@ -37,7 +37,7 @@ typedef struct WrOraStack {
     int groups;                  /* number of dissolved groups */
     int unknown;                 /* number of elements that are neither layers nor groups */
     /* our attributes */
-    char *version, *wrap, *active, *solo, *scene, *selection, *mesh,
+    char *version, *wrap, *active, *solo, *scene, *selection, *mesh, *variants, *variant,
         *pictures[WR_OBJECTS_MAX][WR_OBJECT_PICTURES];
 } WrOraStack;
 

@@ -57,29 +57,54 @@ static void hear(void *ctx, double fraction)
 
 /* "NAME FORM", or its prefix: instant for any table size, or not a table command. */
 static const char *const instant[] = {
-    "object",       "table",
-    "view",         "surface",
-    "rotate",       "analytic",
-    "bump",         "replicate",
-    "material",     "light",
-    "camera",       "dials",
-    "tolerance",    "script",
-    "history",      "background",
-    "ground",       "layer rasterize",
-    "grain",        "tone",
-    "layer use",    "layer move",
-    "layer rename", "layer set",
-    "layer solo",   "layer duplicate",
-    "layer delete", "colouring off",
-    "select all",   "select none",
-    "fill",         "open",
-    "redo",         "cell",
-    "sheet",        "export normal-baked",
-    "gltf",         "filter",
-    "bake",                    /* test_bake_command.c */
-    "bake-tiles",              /* test_udim_command.c */
-    "bake",                    /* test_bake_command.c */
-    "sculpt",       "project", /* test_sculpt.c */
+    "object",
+    "table",
+    "view",
+    "surface",
+    "rotate",
+    "analytic",
+    "bump",
+    "replicate",
+    "material",
+    "light",
+    "camera",
+    "dials",
+    "tolerance",
+    "script",
+    "history",
+    "background",
+    "ground",
+    "layer rasterize",
+    "grain",
+    "tone",
+    "layer use",
+    "layer move",
+    "layer rename",
+    "layer set",
+    "layer solo",
+    "layer duplicate",
+    "layer delete",
+    "colouring off",
+    "variant add",
+    "variant use",
+    "variant set",
+    "variant rename",
+    "variant delete",
+    "select all",
+    "select none",
+    "fill",
+    "open",
+    "redo",
+    "cell",
+    "sheet",
+    "export normal-baked",
+    "gltf",
+    "filter",
+    "bake",       /* test_bake_command.c */
+    "bake-tiles", /* test_udim_command.c */
+    "bake",       /* test_bake_command.c */
+    "sculpt",
+    "project", /* test_sculpt.c */
 };
 
 /* Arguments that generators need besides their defaults; generators that read files are tested elsewhere. */
