@@ -335,6 +335,13 @@ void wr_session_free(WrSession *session)
     wr_free(session);
 }
 
+WrSession *wr_session_of(const WrDocument *document, WrPool *pool)
+{
+    WrSession *session = wr_session_new(&(WrSessionOptions){ .pool = pool });
+    wr_session_put_document(session, wr_document_share(document));
+    return session;
+}
+
 void wr_session_set_outputs(WrSession *session, bool outputs)
 {
     session->options.outputs = outputs;

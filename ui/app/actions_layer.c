@@ -10,6 +10,7 @@
 #include "ui/panels/panel_layers.h"
 #include "ui/panels/panels.h"
 
+#include "command/linked_copies.h"
 #include "document/document.h"
 #include "field/field.h"
 
@@ -42,6 +43,11 @@ void wr_act_layer_add(WrApp *app)
 void wr_act_layer_duplicate(WrApp *app)
 {
     wr_app_run_linef(app, "layer duplicate %d", number(app));
+}
+
+void wr_act_layer_link(WrApp *app)
+{
+    wr_app_run_linef(app, "layer duplicate %d linked=on", number(app));
 }
 
 void wr_act_layer_delete(WrApp *app)
@@ -192,7 +198,8 @@ static bool is_filter(const WrApp *app)
 
 void wr_act_filter_edit(WrApp *app)
 {
-    if (wr_is_generated(app)) wr_generate_edit_layer(app, wr_app_document(app)->active);
+    if (wr_line_links(active(app)->line)) wr_dialog_open(app, WR_DIALOG_LINK);
+    else if (wr_is_generated(app)) wr_generate_edit_layer(app, wr_app_document(app)->active);
     else wr_filter_edit(app);
 }
 
