@@ -133,6 +133,7 @@ typedef struct WrCommand {
     /* Read by the session, its journal and recovery. */
     WrPrework prework;
     bool of_variants; /* outputs: <VARIANT> in its texts: it is run for each variant (variants.h) */
+    bool links;       /* its layer is a linked copy of another one (linked_copies.c) */
     bool generates;   /* it can be the line of a generator layer (generator_layers.c) */
     bool streams;     /* an open call may get its samples one by one (wr_session_stroke_begin) */
     bool on_mesh;     /* it paints on the active object's mesh; its samples are x,y,z */

@@ -67,7 +67,7 @@ static WrCall *call_of(const char *line)
 
 static bool is_link(const WrCall *call)
 {
-    return call->command && strcmp(call->command->name, VERB) == 0;
+    return call->command && call->command->links;
 }
 
 /* The source of a copy at layer `index`; -1: no layer has its name, or only a filter. */
@@ -122,7 +122,7 @@ typedef struct Search {
     const WrLinks *links;
     int target;
     bool seen[WR_LAYERS_MAX];
-    WrText path; /* "layer 3 "b" > layer 1 "a"": what reads what, on success */
+    WrText path; /* "layer 3 "b" > layer 1 "a"": each reads the next, on success */
 } Search;
 
 bool wr_layer_reads_below(const WrDocument *document, const WrLinks *links, int index)
@@ -210,7 +210,7 @@ bool wr_session_take_source(WrSession *session, int index, WrCall *call, WrHash 
     const WrDocument *document = session->state.document;
     WrLinks links;
     wr_session_links(session, &links);
-    links.copies[index] = true; /* what its present line reads counts no longer */
+    links.copies[index] = true; /* its present line counts no longer */
     links.source[index] = -1;
     const int source = find_named(document, index, index + 1, wr_call_arg(call, SOURCE)->text);
     if (!check_cycle(session, &links, index, source, err)) return false;
@@ -425,6 +425,7 @@ const WrCommand wr_command_link = {
     .args = args_link,
     .run = run_link,
     .generates = true,
+    .links = true,
     .help = "copy the heights and the coverage of another layer",
     .details =
         "As the line of a generator layer it is a linked copy, which is made again when that layer "

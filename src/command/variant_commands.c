@@ -199,7 +199,7 @@ static bool differs(const char *a, const char *b)
     return strcmp(a ? a : "", b ? b : "") != 0;
 }
 
-/* Set everything but the line. True: the content of a generator layer depends on what changed. */
+/* Set everything but the line. True: the content of a generator layer depends on the changes. */
 static bool use_settings(WrSession *session, int index, const WrCall *call)
 {
     WrLayer *layer = &session->state.document->layers[index];

@@ -190,7 +190,7 @@ static void cycles_are_refused(void **state)
     must_fail(s, "layer set b change=c", "a cycle of links: layer 3 \"b\" > layer 4 \"c\"");
     must_fail(s, "layer add d from=\"link nothing\"", "no layer is called");
     must_run(s, "layer set b change=a");
-    /* a line that reads what lies below reads the copies there too */
+    /* a line that reads the composite below reads the copies there too */
     must_run(s, "layer add worn from=\"terrain terraces\"");
     must_fail(s, "layer set a from=\"link worn\"",
               "a cycle of links: layer 2 \"a\" > layer 3 \"worn\"");
@@ -299,7 +299,7 @@ static void commands_on_all_tables_keep_the_link(void **state)
     must_run(s, "adjust resize width=131 height=53");
     assert_non_null(layer(s, "a copy")->line);
     assert_true(shares(s, "a", "a copy"));
-    must_run(s, "layer clear \"a copy\""); /* what is written alone is no copy any more */
+    must_run(s, "layer clear \"a copy\""); /* a copy that is written alone is a plain layer */
     assert_null(layer(s, "a copy")->line);
     must_run(s, "undo");
     must_run(s, "layer merge \"a copy\"");

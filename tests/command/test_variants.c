@@ -93,7 +93,7 @@ static bool same_or_none(const WrField *a, const WrField *b)
     return a && b ? same_field(a, b) : a == b;
 }
 
-/* Equal except for the variants themselves. What hidden layers read is not followed, and not compared. */
+/* Equal except for the variants themselves. Contents of hidden layers do not follow, and are not compared. */
 static void compare(const WrSession *s, const WrSession *other, const char *where)
 {
     if (!same_field(wr_document_field(doc(s)), wr_document_field(doc(other))))
@@ -230,7 +230,7 @@ static void values_follow_their_layers(void **state)
     wr_session_free(other);
 }
 
-/* What was painted is never lost to a line, or to terms, that a variant keeps. */
+/* Painted heights and masks are never lost to a line, or to terms, of a variant. */
 static void plain_layers_keep_their_heights(void **state)
 {
     (void)state;
