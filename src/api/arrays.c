@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "command/session.h"
+#include "command/variants.h"
 #include "document/document.h"
 #include "export/export.h"
 #include "export/preview.h"
@@ -311,14 +312,30 @@ static bool export_file(WrDoc *doc, const char *kind, const char *path, WrError 
     return good;
 }
 
+typedef struct FileExport {
+    WrDoc *doc;
+    const char *kind, *path;
+} FileExport;
+
+static bool export_variant(void *ctx, const char *variant, WrError *err)
+{
+    const FileExport *export = ctx;
+    char *name = wr_variant_fill(export->path, variant);
+    char *out = wr_session_output_name(export->doc->session, name, err);
+    const bool good = out && export_file(export->doc, export->kind, out, err);
+    wr_free(name);
+    wr_free(out);
+    return good;
+}
+
 bool wr_doc_export(WrDoc *doc, const char *kind, const char *path, WrDocError *error)
 {
     Call call;
+    FileExport export = { doc, kind, path };
     wr_call_begin(&call, doc);
-    char *out = wr_session_output_name(doc->session, path, &call.err);
-    const bool good = out && export_file(doc, kind, out, &call.err);
-    wr_free(out);
-    return wr_call_end(&call, good, error);
+    return wr_call_end(
+        &call, wr_session_for_variants(doc->session, path, export_variant, &export, &call.err),
+        error);
 }
 
 typedef bool Sink(void *ctx, const void *bytes, size_t count);

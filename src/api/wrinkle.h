@@ -161,7 +161,7 @@ WR_PUBLIC bool wr_doc_map(WrDoc *doc, const char *kind, const WrDocArray *array,
                           WrDocError *error);
 
 /* Writes one file: kind as above, also solids and models ("stl size=80"); the path's extension selects the format. The
-   file is read back and compared before it replaces another. */
+   file is read back and compared before it replaces another. <VARIANT> in the path: a file for each variant. */
 WR_PUBLIC bool wr_doc_export(WrDoc *doc, const char *kind, const char *path, WrDocError *error);
 /* The same file in memory: write is called with its bytes, in order; it returns false to stop. name: a file name whose
    extension selects the format. */

@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "command/session.h"
+#include "command/variants.h"
 #include "export/export.h"
 #include "export/map_sets.h"
 #include "system/file_watch.h"
@@ -80,25 +81,45 @@ static bool is_last(const WrSession *session, Last *last)
     return same;
 }
 
+/* One export of a loaded document: a file or, for a set, files. */
+typedef struct Export {
+    const WrCli *cli;
+    WrSession *session;
+    const WrExportKind *kind; /* or */
+    const WrMapSet *set;
+    const WrExportOptions *options;
+    WrText *report;
+} Export;
+
+static bool write_file(void *ctx, const char *variant, WrError *err)
+{
+    const Export *export = ctx;
+    WrExportReport written;
+    char *name = wr_variant_fill(export->cli->out, variant);
+    char *out = wr_session_output_name(export->session, name, err);
+    const bool good = out && wr_session_check_export(export->session, export->kind, out, err) &&
+                      wr_export(export->kind, wr_session_document(export->session), export->options,
+                                export->cli->pool, out, &written, err);
+    if (good) {
+        wr_text_addf(export->report, "%s: ", out);
+        wr_export_report_text(&written, export->report);
+        wr_text_add(export->report, "\n");
+    }
+    wr_free(name);
+    wr_free(out);
+    return good;
+}
+
 static bool export_file(const WrCli *cli, const WrExportKind *kind, Last *last, WrText *report,
                         WrError *err)
 {
     WrExportOptions options = wr_export_default();
-    WrExportReport written;
     if (!wr_export_words(kind, cli->words, cli->word_count, &options, err)) return false;
     WrSession *session = load(cli, last, err);
     if (!session) return false;
-    const bool same = is_last(session, last);
-    char *out = wr_session_output_name(session, cli->out, err);
-    bool good = out && (same || (wr_session_check_export(session, kind, out, err) &&
-                                 wr_export(kind, wr_session_document(session), &options, cli->pool,
-                                           out, &written, err)));
-    if (good && !same) {
-        wr_text_addf(report, "%s: ", out);
-        wr_export_report_text(&written, report);
-        wr_text_add(report, "\n");
-    }
-    wr_free(out);
+    Export export = { cli, session, kind, NULL, &options, report };
+    const bool good = is_last(session, last) ||
+                      wr_session_for_variants(session, cli->out, write_file, &export, err);
     wr_session_free(session);
     return good;
 }
@@ -118,19 +139,36 @@ static int take_name(const WrCli *cli, const char *words[WR_MAP_SET_WORDS_MAX + 
     return count;
 }
 
+static bool write_maps(void *ctx, const char *variant, WrError *err)
+{
+    const Export *export = ctx;
+    const WrCli *cli = export->cli;
+    WrText name = { 0 };
+    const char *words[WR_MAP_SET_WORDS_MAX + 1];
+    wr_map_set_cell_name(cli->file, &name);
+    const int count = take_name(cli, words, &name);
+    char *cell = wr_variant_fill(wr_text_get(&name), variant);
+    char *folder = wr_variant_fill(cli->out, variant);
+    const WrMapSetRequest order = { export->set, folder, cell, words, count };
+    const bool good = wr_export_map_set(&order, wr_session_document(export->session), cli->pool,
+                                        export->report, err);
+    wr_free(cell);
+    wr_free(folder);
+    wr_text_fini(&name);
+    return good;
+}
+
 static bool export_maps(const WrCli *cli, const WrMapSet *set, Last *last, WrText *report,
                         WrError *err)
 {
     WrSession *session = load(cli, last, err);
     if (!session) return false;
-    WrText name = { 0 };
-    const char *words[WR_MAP_SET_WORDS_MAX + 1];
-    wr_map_set_cell_name(cli->file, &name);
-    WrMapSetRequest order = { set, cli->out, NULL, words, take_name(cli, words, &name) };
-    order.name = wr_text_get(&name);
-    bool good = is_last(session, last) ||
-                wr_export_map_set(&order, wr_session_document(session), cli->pool, report, err);
-    wr_text_fini(&name);
+    Export export = { cli, session, NULL, set, NULL, report };
+    const char *path = cli->out; /* or the name of the cell has the pattern */
+    for (int i = 0; i < cli->word_count && !wr_variant_is_pattern(path); i++)
+        if (strncmp(cli->words[i], "name=", 5) == 0) path = cli->words[i] + 5;
+    const bool good =
+        is_last(session, last) || wr_session_for_variants(session, path, write_maps, &export, err);
     wr_session_free(session);
     return good;
 }

@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "command/commands.h"
 #include "command/session.h"
+#include "command/variants.h"
 #include "document/blend.h"
 #include "document/document.h"
 #include "document/object_tables.h"
@@ -210,13 +211,38 @@ static void add_layer_text(WrText *text, const WrDocument *document, int index)
     wr_text_add(text, "\n");
 }
 
+/* Print the names of the variants; in the text a star marks the one in use, with "changed" if the values differ. */
+static void add_variants(WrText *text, bool json, const WrDocument *document)
+{
+    char name[WR_VARIANT_NAME_MAX + 1];
+    const int count = wr_variant_count(document);
+    const char *changed = wr_variant_differs(document) ? " (changed)" : "";
+    if (count == 0) return;
+    wr_text_add(text, json ? ",\"variants\":[" : "variants     ");
+    for (int i = 0; i < count; i++) {
+        wr_variant_name(document, i, name);
+        if (i) wr_text_add(text, json ? "," : ", ");
+        if (json) wr_text_add_json_string(text, name);
+        else if (document->variant && strcmp(name, document->variant) == 0)
+            wr_text_addf(text, "*%s%s", name, changed);
+        else wr_text_add(text, name);
+    }
+    wr_text_add(text, json ? "]" : "\n");
+    if (!json || !document->variant) return;
+    wr_text_add(text, ",\"variant\":");
+    wr_text_add_json_string(text, document->variant);
+    wr_text_addf(text, ",\"changed\":%s", *changed ? "true" : "false");
+}
+
 static void add_summary_json(WrText *text, const WrDocument *document, const char *hash)
 {
     const WrField *field = wr_document_field(document);
     wr_text_addf(text, "{\"size\":[%d,%d],\"layers\":%d,\"hash\":\"%s\",\"layer_list\":[",
                  wr_field_width(field), wr_field_height(field), document->layer_count, hash);
     for (int i = 0; i < document->layer_count; i++) add_layer_json(text, document, i);
-    wr_text_addf(text, "],\"selection\":%s}\n", document->selection ? "true" : "false");
+    wr_text_add(text, "]");
+    add_variants(text, true, document);
+    wr_text_addf(text, ",\"selection\":%s}\n", document->selection ? "true" : "false");
 }
 
 static void add_summary(WrText *text, bool json, const WrSession *session)
@@ -240,6 +266,7 @@ static void add_summary(WrText *text, bool json, const WrSession *session)
     wr_text_add(text, wr_number_print_float(high, number));
     wr_text_addf(text, "\nlayers       %d\n", document->layer_count);
     for (int i = document->layer_count - 1; i >= 0; i--) add_layer_text(text, document, i);
+    add_variants(text, false, document);
     if (document->selection) wr_text_add(text, "selection    part of the table\n");
     wr_text_addf(text, "hash         %s\n\n", hash);
     wr_session_scene_text(session, text);

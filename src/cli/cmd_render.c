@@ -1,7 +1,9 @@
 #include "cli/cli.h"
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "command/session.h"
+#include "command/variants.h"
 #include "export/film.h"
 #include "image/image.h"
 
@@ -26,18 +28,32 @@ static WrTurntable turntable_of(const WrCli *cli)
     return turntable;
 }
 
-static bool render_frames(const WrCli *cli, WrSession *session, WrError *err)
+typedef struct Render {
+    const WrCli *cli;
+    WrSession *session;
+} Render;
+
+static bool render_frames(void *ctx, const char *variant, WrError *err)
 {
-    const WrTurntable turntable = turntable_of(cli);
-    return wr_session_turntable(session, cli->out, &turntable, err);
+    const Render *render = ctx;
+    const WrTurntable turntable = turntable_of(render->cli);
+    char *out = wr_variant_fill(render->cli->out, variant);
+    const bool good = wr_session_turntable(render->session, out, &turntable, err);
+    wr_free(out);
+    return good;
 }
 
-static bool render_one(const WrCli *cli, WrSession *session, WrError *err)
+static bool render_one(void *ctx, const char *variant, WrError *err)
 {
-    if (!is_there(cli, session, cli->out))
-        return wr_session_render(session, cli->out, cli->width, cli->height, 0, err);
-    wr_cli_note("the picture was there");
-    return true;
+    const Render *render = ctx;
+    const WrCli *cli = render->cli;
+    char *out = wr_variant_fill(cli->out, variant);
+    const bool there = is_there(cli, render->session, out);
+    const bool good =
+        there || wr_session_render(render->session, out, cli->width, cli->height, 0, err);
+    if (there) wr_cli_note("the picture was there");
+    wr_free(out);
+    return good;
 }
 
 /* Check the combination of options. */
@@ -72,7 +88,9 @@ int wr_cli_render(const WrCli *cli)
     WrSession *session = wr_cli_load(cli, false, &err);
     if (!session) return wr_cli_fail(cli, WR_EXIT_FAILED, &err);
     wr_cli_progress_resume();
-    bool good = (cli->framed ? render_frames : render_one)(cli, session, &err);
+    Render render = { cli, session };
+    const bool good = wr_session_for_variants(
+        session, cli->out, cli->framed ? render_frames : render_one, &render, &err);
     wr_session_free(session);
     return good ? WR_EXIT_DONE : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
 }

@@ -133,10 +133,12 @@ typedef struct WrCommand {
 
     /* Read by the session, its journal and recovery. */
     WrPrework prework;
-    bool generates; /* it can be the line of a generator layer (generator_layers.c) */
-    bool streams;   /* an open call may get its samples one by one (wr_session_stroke_begin) */
-    bool on_mesh;   /* it paints on the active object's mesh; its samples are x,y,z */
-    bool of_views;  /* a history command that changes which view is shown, and nothing else */
+    bool of_variants; /* outputs: <VARIANT> in its texts: it is run for each variant (variants.h) */
+    bool links;       /* its layer is a linked copy of another one (linked_copies.c) */
+    bool generates;   /* it can be the line of a generator layer (generator_layers.c) */
+    bool streams;     /* an open call may get its samples one by one (wr_session_stroke_begin) */
+    bool on_mesh;     /* it paints on the active object's mesh; its samples are x,y,z */
+    bool of_views;    /* a history command that changes which view is shown, and nothing else */
     int steps; /* direction of argument N in the history of edits: -1 back, 1 forward, 0: no such argument */
     bool
         print_end; /* the chosen dials are appended to its line in a saved document (session_picture.c) */

@@ -85,6 +85,15 @@ static double generator(const Job *job, const Need *need)
     return (need->bytes + joining) * job->texels;
 }
 
+/* A copy without values shares its texels. */
+static double linking(const Job *job, const Need *need)
+{
+    bool any = false;
+    for (int i = 0; i < job->call->count; i++)
+        any |= job->call->args[i].given && !job->call->specs[i].positional;
+    return any ? texels(job, need) : 0.0;
+}
+
 /* A live mask needs the heights below, their measure, the terms before and the mask. */
 static double masking(const Job *job, const Need *need)
 {
@@ -229,6 +238,7 @@ static const Need needs[] = {
     { "adjust", "resize", resizing, .bytes = 6.5 },
     { "adjust", "crop", resizing, .bytes = 6.5 },
     { "transform", NULL, filter, .bytes = 25 },
+    { "link", NULL, linking, .bytes = 25 },
     { "copy", .count = NULL },
     { "select", NULL, texels, .bytes = 8.2 },
     UNKNOWN("select", "flood", BY_AREA),
@@ -244,6 +254,7 @@ static const Need needs[] = {
     { "sculpt", NULL, brush, .bytes = 4 },
     { "project", NULL, texels, .bytes = 8 },
     { "layer", .count = NULL },
+    { "variant", .count = NULL },
     { "layer", "mask", masking, .bytes = 4.5 },
     { "layer", "merge", texels, .bytes = 4.2 },
     { "layer", "flatten", texels, .bytes = 4.2 },

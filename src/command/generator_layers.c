@@ -4,11 +4,13 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "command/commands.h"
+#include "command/linked_copies.h"
 #include "command/session_internal.h"
 #include "document/blend.h"
 #include "document/document.h"
 #include "field/field.h"
 #include "generate/generator.h"
+#include "scene/objects.h"
 #include "system/path.h"
 
 #include <stdlib.h>
@@ -136,6 +138,7 @@ static bool generate(WrSession *session, int index, WrCall *call, WrCall *outer,
 {
     WrField *below = NULL;
     WrHash hash = nothing;
+    if (!wr_session_take_source(session, index, call, &hash, err)) return false;
     if (reads(call)) {
         below = wr_document_below(session->state.document, index, session->options.pool);
         hash = wr_field_hash(below);
@@ -154,6 +157,7 @@ static bool generate(WrSession *session, int index, WrCall *call, WrCall *outer,
     if (wr_call_generator(call)) clear(call, own_name(call, "radius"));
     wr_call_print(call, &line);
     wr_layer_set_line(&session->state.document->layers[index], wr_text_get(&line), hash);
+    wr_session_note_source(session, index);
     wr_text_fini(&line);
     return true;
 }
@@ -164,8 +168,10 @@ bool wr_session_add_generator_layer(WrSession *session, WrCall *outer, int index
     WrDocument *document = session->state.document;
     WrCall *call = wr_call_inner(outer);
     wr_call_begin_layer(call, document->selection, &layer);
+    /* the numbers of layers are those before it is inserted */
+    bool good = wr_session_name_source(session, index, index, call, err);
     wr_document_insert(document, index, layer);
-    bool good = wr_session_take_tiles(session, call, err);
+    good = good && wr_session_take_tiles(session, call, err);
     if (good) {
         name_files(call, session);
         good = generate(session, index, call, outer, err);
@@ -218,6 +224,28 @@ bool wr_session_change_generator_layer(WrSession *session, WrCall *outer, int in
     return good;
 }
 
+bool wr_session_use_line(WrSession *session, int index, const char *line, WrError *err)
+{
+    WrError why = { "" };
+    WrCall *call = NULL;
+    if (!wr_check_layer_line(NULL, "line", line, &why) ||
+        !wr_call_parse(line, false, &call, &why)) {
+        WrText name = { 0 };
+        wr_session_note(session, "%s: its line is not known here (%s): its heights stay",
+                        wr_session_layer_name(session, index, &name), wr_error_message(&why));
+        wr_text_fini(&name);
+        return true;
+    }
+    if (wr_line_links(line)) { /* made at the end of the command, if its source is there */
+        wr_layer_set_line(&session->state.document->layers[index], line, nothing);
+        wr_call_free(call);
+        return true;
+    }
+    const bool good = generate(session, index, call, NULL, err);
+    wr_call_free(call);
+    return good;
+}
+
 bool wr_session_generate_again(WrSession *session, int index, WrError *err)
 {
     WrCall *call = call_of(session, index, err);
@@ -240,12 +268,47 @@ static bool is_stale(const WrSession *session, int index)
     return stale;
 }
 
-static bool follow_line(WrSession *session, int index, WrError *err)
+/* One pass over the layers, from the bottom up; what a layer reads is made before it, even if that is above. */
+typedef struct Following {
+    WrSession *session;
+    WrLinks links;
+    bool needed[WR_LAYERS_MAX];  /* by the composite, or by a mask */
+    bool heights[WR_LAYERS_MAX]; /* done, or being done */
+    bool masks[WR_LAYERS_MAX];
+} Following;
+
+/* Hidden copies that nothing reads wait until they are shown, as other lines do. */
+static bool is_read(const Following *f, int index)
 {
+    const WrDocument *document = f->session->state.document;
+    bool read =
+        f->needed[index] || wr_scene_uses_layer(document->scene, document->layers[index].name);
+    for (int i = 0; i < document->layer_count && !read; i++) read = f->links.source[i] == index;
+    return read;
+}
+
+/* A line of another version leaves the heights as they are. */
+static bool is_known(const WrSession *session, int index)
+{
+    WrCall *call = call_of(session, index, NULL);
+    wr_call_free(call);
+    return call != NULL;
+}
+
+static bool follow_line(Following *f, int index, WrError *err)
+{
+    WrSession *session = f->session;
     WrLayer *layer = &session->state.document->layers[index];
     if (!layer->line) return true;
-    if (wr_field_key(layer->heights) == layer->made)
-        return !is_stale(session, index) || wr_session_generate_again(session, index, err);
+    const bool written = wr_field_key(layer->heights) != layer->made;
+    const bool copied = f->links.copies[index] && (written || is_read(f, index)) &&
+                        wr_session_check_source(session, &f->links, index);
+    /* a command on the tables of all layers changes the source too */
+    if (copied && wr_session_link_lags(session, &f->links, index))
+        return wr_session_generate_again(session, index, err);
+    if (!written)
+        return f->links.copies[index] || !is_stale(session, index) || !is_known(session, index) ||
+               wr_session_generate_again(session, index, err);
     WrText name = { 0 }; /* another command wrote its heights */
     wr_session_note(session, "%s is a plain layer now: its heights are no longer its line's",
                     wr_session_layer_name(session, index, &name));
@@ -254,15 +317,42 @@ static bool follow_line(WrSession *session, int index, WrError *err)
     return true;
 }
 
+static bool follow_heights(Following *f, int index, WrError *err);
+
+static bool follow_mask(Following *f, int index, WrError *err)
+{
+    if (f->masks[index]) return true;
+    f->masks[index] = true;
+    return !f->needed[index] || wr_session_follow_mask(f->session, index, err);
+}
+
+static bool follow_below(Following *f, int index, WrError *err)
+{
+    bool good = true;
+    for (int i = 0; good && i < index; i++)
+        good = follow_heights(f, i, err) && follow_mask(f, i, err);
+    return good;
+}
+
+static bool follow_heights(Following *f, int index, WrError *err)
+{
+    if (f->heights[index]) return true;
+    f->heights[index] = true; /* a cycle ends here; its copies keep their heights */
+    if (f->links.source[index] >= 0 && !follow_heights(f, f->links.source[index], err))
+        return false;
+    if (wr_layer_reads_below(f->session->state.document, &f->links, index) &&
+        !follow_below(f, index, err))
+        return false;
+    return follow_line(f, index, err);
+}
+
 bool wr_session_follow_lines(WrSession *session, WrError *err)
 {
-    bool needed[WR_LAYERS_MAX];
-    wr_session_needed_masks(session, needed);
-    for (int i = 0; i < session->state.document->layer_count; i++)
-        if (!follow_line(session, i, err) ||
-            (needed[i] && !wr_session_follow_mask(session, i, err)))
-            return false;
-    return true;
+    Following f = { .session = session };
+    wr_session_needed_masks(session, f.needed);
+    wr_session_links(session, &f.links);
+    const int count = session->state.document->layer_count;
+    return follow_below(&f, count, err);
 }
 
 void wr_session_note_lines(WrSession *session)
@@ -274,6 +364,7 @@ void wr_session_note_lines(WrSession *session)
         if (document->layers[i].line && !call)
             wr_session_note(session, "%s", wr_error_message(&why));
         wr_call_free(call);
+        wr_session_note_link(session, i);
         wr_session_note_mask(session, i);
     }
 }

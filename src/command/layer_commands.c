@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
+#include "command/linked_copies.h"
 #include "command/live_masks.h"
 #include "command/session_internal.h"
 #include "document/blend.h"
@@ -411,6 +412,25 @@ static void copy_layer(WrDocument *document, int index, int place, int deeper)
     }
 }
 
+/* Inserts a linked copy of a layer above row place - 1. index < place. */
+static bool link_layer(WrSession *session, int index, int place, int depth, WrError *err)
+{
+    WrDocument *document = session->state.document;
+    const WrLayer *source = &document->layers[index];
+    if (!wr_layer_holds(source))
+        return wr_fail(err,
+                       "linked=on: layer %d is a filter or a group, without heights of its own",
+                       index + 1);
+    WrLayer layer = wr_layer_share(source);
+    wr_free(layer.name);
+    layer.name = copy_name(source->name);
+    layer.locked = false;
+    layer.depth = depth;
+    wr_layer_link(&layer, source->name);
+    wr_document_insert(document, place, layer);
+    return wr_session_generate_again(session, place, err);
+}
+
 /* The copies go above the highest of the layers, in their order; the active layer's copy, else the highest, becomes
    active. */
 static bool layer_duplicate(WrSession *session, WrCall *call, WrError *err)
@@ -418,17 +438,20 @@ static bool layer_duplicate(WrSession *session, WrCall *call, WrError *err)
     WrDocument *document = session->state.document;
     WrLayerList layers;
     if (!find_outermost(session, call, &layers, err)) return false;
+    const bool linked = wr_call_choice(call, "linked") == 1;
     const int top = layers.index[layers.count - 1], depth = document->layers[top].depth;
-    const int rows = rows_of_all(document, &layers), was_active = document->active;
+    const int rows = linked ? layers.count : rows_of_all(document, &layers);
+    const int was_active = document->active;
     if (!check_room(document, rows, err)) return false;
     int active = top + rows, place = top + rows;
     for (int i = layers.count - 1; i >= 0; i--) {
         const int index = layers.index[i];
-        if (depth + wr_document_height(document, index) > WR_DEPTH_MAX)
+        if (!linked && depth + wr_document_height(document, index) > WR_DEPTH_MAX)
             return wr_fail(err, "up to %d groups can be nested", WR_DEPTH_MAX);
         if (index == was_active) active = place;
-        place -= rows_of(document, index);
-        copy_layer(document, index, top + 1, depth - document->layers[index].depth);
+        place -= linked ? 1 : rows_of(document, index);
+        if (!linked) copy_layer(document, index, top + 1, depth - document->layers[index].depth);
+        else if (!link_layer(session, index, top + 1, depth, err)) return false;
     }
     document->active = active;
     return true;
@@ -639,7 +662,9 @@ static bool layer_rename(WrSession *session, WrCall *call, WrError *err)
     const char *name = wr_call_arg(call, "NAME")->text;
     WrDocument *document = session->state.document;
     WrLayer *layer = &document->layers[index];
+    wr_session_rename_in_variants(session, index, name);
     wr_session_rename_in_masks(session, index, name);
+    wr_session_rename_in_links(session, index, name);
     WrScene *scene = wr_scene_rename_layer(document->scene, layer->name, name);
     if (scene) wr_session_replace_scene(session, scene); /* objects still use it as their table */
     wr_free(layer->name);
@@ -978,7 +1003,14 @@ static const WrForm layer_forms[] = {
         LAYER_DUPLICATE)] = { .name = "duplicate",
                               .help =
                                   "a copy above it, active; of several, copies above the highest",
-                              .args = { LAYERS_N } },
+                              .args = { LAYERS_N,
+                                        { .name = "linked",
+                                          .type = WR_ARG_CHOICE,
+                                          .words = wr_off_on,
+                                          .fallback_text = "off",
+                                          .help = "on: it follows the heights and the coverage "
+                                                  "of the layer; its other settings are its "
+                                                  "own" } } },
     [WR_ROW(LAYER_MERGE)] = { .name = "merge",
                               .help = "join a layer and the one below, or several neighbours; the "
                                       "composite changes by "

@@ -675,24 +675,31 @@ void wr_session_note_mask(WrSession *session, int index)
     wr_text_fini(&name);
 }
 
+char *wr_mask_line_renamed(const WrDocument *document, int of, const char *line, int index,
+                           const char *name)
+{
+    WrMaskTerms terms;
+    if (of <= index || !line || !wr_mask_terms_parse(line, &terms, NULL)) return NULL;
+    bool names = false;
+    for (int k = 0; k < terms.count; k++) {
+        const char *word = named_layer(terms.calls[k]);
+        if (!word || find_below(document, of, word) != index) continue;
+        wr_call_set_text(terms.calls[k], OF, name);
+        names = true;
+    }
+    WrText renamed = { 0 };
+    if (names) wr_mask_terms_print(&terms, &renamed);
+    wr_mask_terms_free(&terms);
+    return renamed.data;
+}
+
 void wr_session_rename_in_masks(WrSession *session, int index, const char *name)
 {
     WrDocument *document = session->state.document;
     for (int i = index + 1; i < document->layer_count; i++) {
         WrLayer *layer = &document->layers[i];
-        WrMaskTerms terms;
-        if (!layer->mask_line || !wr_mask_terms_parse(layer->mask_line, &terms, NULL)) continue;
-        bool names = false;
-        for (int k = 0; k < terms.count; k++) {
-            const char *word = named_layer(terms.calls[k]);
-            if (!word || find_below(document, i, word) != index) continue;
-            wr_call_set_text(terms.calls[k], OF, name);
-            names = true;
-        }
-        WrText line = { 0 };
-        wr_mask_terms_print(&terms, &line);
-        if (names) wr_layer_set_mask_line(layer, wr_text_get(&line), layer->mask_read);
-        wr_text_fini(&line);
-        wr_mask_terms_free(&terms);
+        char *line = wr_mask_line_renamed(document, i, layer->mask_line, index, name);
+        if (line) wr_layer_set_mask_line(layer, line, layer->mask_read);
+        wr_free(line);
     }
 }

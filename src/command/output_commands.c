@@ -220,6 +220,7 @@ const WrCommand wr_command_export = { .name = "export",
                                       .form = form_export,
                                       .args = args_export,
                                       .run = run_export,
+                                      .of_variants = true,
                                       .help = "write the table for other programs",
                                       .example = "export height bricks.png" };
 
@@ -227,6 +228,7 @@ const WrCommand wr_command_render = { .name = "render",
                                       .kind = WR_CLASS_OUTPUT,
                                       .args = args_render,
                                       .run = run_render,
+                                      .of_variants = true,
                                       .help = "write a picture of the scene, or a turntable",
                                       .example = "render bricks.png size=640x480" };
 
@@ -341,6 +343,7 @@ const WrCommand wr_command_maps = {
     .row = row_maps,
     .args = args_maps,
     .run = run_maps,
+    .of_variants = true,
     .help = "write the set of maps for another program",
     .details =
         "Sets: blender, gltf, unreal, unity, godot, substance, renderman, arnold, povray, and "

@@ -9,6 +9,7 @@
 #include "command/estimate.h"
 #include "command/command_line.h"
 #include "command/session_internal.h"
+#include "command/variants.h"
 #include "document/document.h"
 #include "document/edit.h"
 #include "document/history.h"
@@ -387,6 +388,13 @@ void wr_session_free(WrSession *session)
     wr_free(session);
 }
 
+WrSession *wr_session_of(const WrDocument *document, WrPool *pool)
+{
+    WrSession *session = wr_session_new(&(WrSessionOptions){ .pool = pool });
+    wr_session_put_document(session, wr_document_share(document));
+    return session;
+}
+
 void wr_session_set_outputs(WrSession *session, bool outputs)
 {
     session->options.outputs = outputs;
@@ -433,8 +441,7 @@ void wr_session_remember(WrSession *session, const WrCall *call)
     wr_text_fini(&text);
 }
 
-/* Replace the session's document by another one (ownership passes); its cached composite is reused. */
-static void put_document(WrSession *session, WrDocument *document)
+void wr_session_put_document(WrSession *session, WrDocument *document)
 {
     wr_document_swap_composites(document, session->state.document);
     wr_document_free(session->state.document);
@@ -444,13 +451,43 @@ static void put_document(WrSession *session, WrDocument *document)
 void wr_session_restore(WrSession *session)
 {
     WrHistory *history = session->state.history;
-    put_document(session, wr_history_go(history, wr_history_position(history)));
+    wr_session_put_document(session, wr_history_go(history, wr_history_position(history)));
+}
+
+typedef struct VariantOutput {
+    WrSession *session;
+    WrCall *call;
+} VariantOutput;
+
+/* Run an output command with the variant's name in place of <VARIANT>. */
+static bool run_for_variant(void *ctx, const char *variant, WrError *err)
+{
+    const VariantOutput *output = ctx;
+    WrCall *call = output->call;
+    char *patterns[WR_ARGS_MAX] = { NULL };
+    for (int i = 0; variant && i < call->count; i++) {
+        if (!wr_variant_is_pattern(call->args[i].text)) continue;
+        patterns[i] = call->args[i].text;
+        call->args[i].text = wr_variant_fill(patterns[i], variant);
+    }
+    const bool good = call->command->run(output->session, call, err);
+    for (int i = 0; i < call->count; i++) {
+        if (!patterns[i]) continue;
+        wr_free(call->args[i].text);
+        call->args[i].text = patterns[i];
+    }
+    return good;
 }
 
 static bool run_output(WrSession *session, WrCall *call, WrError *err)
 {
-    if (session->options.outputs && !session->skip_outputs)
-        return call->command->run(session, call, err);
+    if (session->options.outputs && !session->skip_outputs) {
+        const char *path = NULL;
+        for (int i = 0; i < call->count && call->command->of_variants && !path; i++)
+            if (wr_variant_is_pattern(call->args[i].text)) path = call->args[i].text;
+        VariantOutput output = { session, call };
+        return wr_session_for_variants(session, path, run_for_variant, &output, err);
+    }
     WrText text = { 0 };
     wr_call_print(call, &text);
     wr_session_note(session, "skipped: %s (only `wrinkle run` writes files)", wr_text_get(&text));
@@ -674,7 +711,7 @@ bool wr_session_go_to(WrSession *session, int state, WrError *err)
         return wr_fail(err,
                        "step %d was given up to keep the history in its budget: %d is the oldest",
                        state, oldest);
-    put_document(session, wr_history_go(history, state));
+    wr_session_put_document(session, wr_history_go(history, state));
     return true;
 }
 

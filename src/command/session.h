@@ -61,6 +61,9 @@ typedef struct WrSessionOptions {
 /* Starts with an empty document. The caller owns it. */
 WrSession *wr_session_new(const WrSessionOptions *options);
 void wr_session_free(WrSession *session);
+/* A session of a copy of that document, without its history, journal and file: for the files of its variants. The caller
+   owns it. */
+WrSession *wr_session_of(const WrDocument *document, WrPool *pool);
 
 /* A read-only snapshot of the document, the history, its file name and the journal's state; unaffected by later
    changes of the session in another thread. Commands are rejected. The cost is proportional to the number of steps.

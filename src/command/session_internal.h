@@ -117,6 +117,8 @@ void wr_session_remember(WrSession *session, const WrCall *call);
 bool wr_session_go_to(WrSession *session, int state, WrError *err);
 /* Restore the document to the history's present state. */
 void wr_session_restore(WrSession *session);
+/* Replace the session's document by another one (ownership passes); its cached composite is reused. */
+void wr_session_put_document(WrSession *session, WrDocument *document);
 /* Restart the history at the current document, with a new revision. */
 void wr_session_restart_history(WrSession *session);
 /* Replace the state by a new document (ownership passes to the session); returns the old state. Afterwards either
@@ -181,6 +183,9 @@ bool wr_session_change_generator_layer(WrSession *session, WrCall *outer, int in
                                        const char *change, WrError *err);
 /* Generate a layer by its own line, after a change that its content depends on. */
 bool wr_session_generate_again(WrSession *session, int index, WrError *err);
+/* Give a generator layer another line, and generate it. A line that this program does not know is left out, with a
+   note. */
+bool wr_session_use_line(WrSession *session, int index, const char *line, WrError *err);
 /* At the end of every command, from the bottom up: generate the layers whose lines read layers that have changed, and live
    masks; layers whose heights another command wrote become plain. */
 bool wr_session_follow_lines(WrSession *session, WrError *err);
@@ -197,8 +202,17 @@ void wr_session_needed_masks(const WrSession *session, bool needed[WR_LAYERS_MAX
 bool wr_session_follow_mask(WrSession *session, int index, WrError *err);
 /* Note a live mask whose terms this program does not know. */
 void wr_session_note_mask(WrSession *session, int index);
+/* The terms of a mask of layer `of` with another name for layer `index`; NULL: they do not read it. The caller frees it.
+   Before the layer is renamed. */
+char *wr_mask_line_renamed(const WrDocument *document, int of, const char *line, int index,
+                           const char *name);
 /* Layer `index` is about to get another name: the terms of the masks above that read it get it too. */
 void wr_session_rename_in_masks(WrSession *session, int index, const char *name);
+
+/* ---- variants: variant_commands.c ---- */
+
+/* Layer `index` is about to get another name: lines and terms in variants that read it get it too. */
+void wr_session_rename_in_variants(WrSession *session, int index, const char *name);
 
 /* ---- the active layer ---- */
 

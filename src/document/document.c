@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "document/blend.h"
 #include "document/composite.h"
+#include "document/variants.h"
 #include "field/field.h"
 #include "scene/scene.h"
 
@@ -56,6 +57,7 @@ WrLayer wr_layer_share(const WrLayer *layer)
     copy.name = wr_strdup(layer->name);
     copy.line = wr_strdup(layer->line);
     copy.mask_line = wr_strdup(layer->mask_line);
+    copy.values = wr_strdup(layer->values);
     copy.heights = wr_field_share(layer->heights);
     copy.cover = share_or_null(layer->cover);
     copy.mask = share_or_null(layer->mask);
@@ -67,6 +69,7 @@ void wr_layer_fini(WrLayer *layer)
     wr_free(layer->name);
     wr_free(layer->line);
     wr_free(layer->mask_line);
+    wr_free(layer->values);
     wr_field_free(layer->heights);
     wr_field_free(layer->cover);
     wr_field_free(layer->mask);
@@ -80,6 +83,7 @@ void wr_layer_set_line(WrLayer *layer, const char *line, WrHash below)
     layer->line = copy;
     layer->below = below;
     layer->made = line ? wr_field_key(layer->heights) : 0;
+    layer->copied = 0;
 }
 
 void wr_layer_set_mask_line(WrLayer *layer, const char *line, WrHash read)
@@ -266,6 +270,8 @@ static WrDocument *share_with(const WrDocument *document, WrComposite *composite
     for (int i = 0; i < count; i++) copy->layers[i] = wr_layer_share(&document->layers[i]);
     copy->selection = share_or_null(document->selection);
     copy->scene = wr_scene_share(document->scene);
+    copy->variants = wr_strdup(document->variants);
+    copy->variant = wr_strdup(document->variant);
     copy->composite = composite;
     return copy;
 }
@@ -301,6 +307,8 @@ void wr_document_free(WrDocument *document)
     drop_layers(document);
     wr_field_free(document->selection);
     wr_scene_free(document->scene);
+    wr_free(document->variants);
+    wr_free(document->variant);
     wr_composite_free(document->composite);
     wr_free(document);
 }
@@ -520,6 +528,7 @@ void wr_document_start_over(WrDocument *document, WrField *heights)
 {
     drop_layers(document);
     wr_field_free(document->selection);
+    wr_document_set_variants(document, NULL, NULL);
     document->selection = NULL;
     document->layers = wr_alloc(1, sizeof *document->layers);
     document->layers[0] = layer_of("base", heights);
@@ -546,6 +555,11 @@ static WrHash hash_filter(const WrFilter *filter, WrHash hash)
     return hash;
 }
 
+static WrHash hash_text(const char *text, WrHash hash)
+{
+    return wr_hash_bytes(text, strlen(text) + 1, hash);
+}
+
 static WrHash hash_layer(const WrLayer *layer, WrHash hash)
 {
     int32_t settings[3] = { (int32_t)layer->blend, layer->visible, layer->locked };
@@ -559,9 +573,9 @@ static WrHash hash_layer(const WrLayer *layer, WrHash hash)
         int32_t place[3] = { layer->depth, layer->is_group, layer->collapsed };
         hash = wr_hash_bytes(place, sizeof place, hash);
     }
-    if (layer->line) hash = wr_hash_bytes(layer->line, strlen(layer->line) + 1, hash);
-    if (layer->mask_line)
-        hash = wr_hash_bytes(layer->mask_line, strlen(layer->mask_line) + 1, hash);
+    if (layer->line) hash = hash_text(layer->line, hash);
+    if (layer->mask_line) hash = hash_text(layer->mask_line, hash);
+    if (layer->values) hash = hash_text(layer->values, hash);
     hash = hash_field(layer->heights, hash);
     hash = hash_field(layer->cover, hash);
     return hash_field(layer->mask, hash);
@@ -573,6 +587,8 @@ WrHash wr_document_hash(const WrDocument *document, const char *scene_text)
     WrHash hash = wr_hash_bytes(numbers, sizeof numbers, (WrHash){ 0, 0 });
     for (int i = 0; i < document->layer_count; i++) hash = hash_layer(&document->layers[i], hash);
     hash = hash_field(document->selection, hash);
+    if (document->variants) hash = hash_text(document->variants, hash);
+    if (document->variant) hash = hash_text(document->variant, hash);
     return wr_hash_bytes(scene_text, strlen(scene_text), hash);
 }
 

@@ -25,10 +25,12 @@ typedef struct WrScene WrScene;
    directly below it that are deeper than it, and their composite (composite.h) takes the place of its heights and
    coverage. All fields of a document have one size and one wrap. */
 typedef struct WrLayer {
-    char *name;         /* UTF-8, owned; not necessarily unique */
-    char *line;         /* command line of a generator layer; NULL: a plain layer. Owned */
-    WrHash below;       /* hash of the composite that the line read; 0: it reads none */
-    uint64_t made;      /* wr_field_key of the heights as the line made them */
+    char *name;    /* UTF-8, owned; not necessarily unique */
+    char *line;    /* command line of a generator layer; NULL: a plain layer. Owned */
+    WrHash below;  /* hash of the composite that the line read; 0: it reads none */
+    uint64_t made; /* wr_field_key of the heights as the line made them */
+    uint64_t
+        copied; /* key of the layer that the line copies, as it was copied; 0: none, or just opened */
     char *mask_line;    /* terms of a live mask; NULL: a plain mask, or none. Owned */
     WrHash mask_read;   /* of all that the terms read */
     uint64_t mask_made; /* wr_field_key of the mask as the terms made it */
@@ -46,6 +48,7 @@ typedef struct WrLayer {
     int depth;          /* 0..WR_DEPTH_MAX, the number of groups that it is in */
     bool is_group;      /* then its depth is below WR_DEPTH_MAX */
     bool collapsed;     /* of a group: lists of layers omit its members */
+    char *values;       /* in the variants that know the layer (variants.h); NULL: in none. Owned */
 } WrLayer;
 
 typedef struct WrComposite WrComposite; /* private to the module */
@@ -60,6 +63,8 @@ typedef struct WrDocument {
     int solo;               /* index of the layer that is shown alone, even if hidden; -1: none */
     WrField *selection;     /* 0..1, area of edits; NULL: everywhere. Owned */
     WrScene *scene;         /* shared; replaced, never modified */
+    char *variants;         /* names of its variants (variants.h); NULL: none. Owned */
+    char *variant;          /* name of the variant in use; NULL: none. Owned */
     WrComposite *composite; /* updated on request */
 } WrDocument;
 

@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "document/blend.h"
 #include "document/document.h"
+#include "document/variants.h"
 #include "field/field.h"
 #include "image/image.h"
 #include "scene/dials.h"
@@ -88,8 +89,8 @@ void wr_image_rows_out(const WrImage *image, int channels, int y, int rows, floa
 /* A document is an OpenEXR file of float32 parts: "F", the composite, first, for programs that read one picture, with the
    attributes of the document; then for each layer from the bottom "layer:NAME", "cover:N", "mask:N"; "selection"; pictures of
    objects, 3 channels; the mesh, packed as a picture of one channel. Absent tables have no part: cover and mask NULL mean 1. */
-#define FILE_ATTRIBUTES 8
-#define LAYER_ATTRIBUTES 15
+#define FILE_ATTRIBUTES 10
+#define LAYER_ATTRIBUTES 16
 #define PARTS_MAX                                                                                  \
     (3 + WR_OBJECT_PICTURES * WR_OBJECTS_MAX +                                                     \
      3 * WR_LAYERS_MAX) /* F, selection, mesh, pictures; heights, cover, mask of a layer */
@@ -161,6 +162,7 @@ typedef struct Saving {
     WrImage *mesh; /* the scene's meshes, as a picture; owned; or NULL */
     bool single;   /* the only layer is F itself */
     WrImageAttribute of_file[FILE_ATTRIBUTES + LAYER_ATTRIBUTES];
+    int of_file_count; /* of the document */
     WrImageAttribute of_layers[WR_LAYERS_MAX][LAYER_ATTRIBUTES];
     WR_ARRAY(char *) texts; /* names and values created for the file; owned */
 } Saving;
@@ -218,8 +220,8 @@ static int version_of(const Saving *to)
 {
     const WrScene *scene = to->document->scene;
     const WrSceneAge age = wr_scene_age(scene);
-    if (wr_document_groups(to->document)) return WR_DOCUMENT_VERSION;
-    if (wr_document_generates(to->document)) return WR_DOCUMENT_VERSION_GENERATES;
+    if (wr_document_groups(to->document) || to->document->variants) return WR_DOCUMENT_VERSION;
+    if (wr_document_generates(to->document)) return WR_DOCUMENT_VERSION_GENERATORS;
     if (age == WR_SCENE_OF_PROJECTION) return WR_DOCUMENT_VERSION_PROJECTION;
     if (wr_document_filters(to->document)) return WR_DOCUMENT_VERSION_FILTERS;
     if (age == WR_SCENE_OF_FACETS) return WR_DOCUMENT_VERSION_FACETS;
@@ -231,11 +233,12 @@ static int version_of(const Saving *to)
     return to->single ? WR_DOCUMENT_VERSION_ALONE : WR_DOCUMENT_VERSION_PARTS;
 }
 
-static void add_composite(Saving *to, const char *scene_text)
+/* Fills the document's attributes; returns their number. */
+static int describe_document(Saving *to, const char *scene_text, WrImageAttribute *out)
 {
     const WrDocument *document = to->document;
     const WrField *f = wr_document_field(document);
-    const WrImageAttribute attributes[FILE_ATTRIBUTES] = {
+    const WrImageAttribute attributes[] = {
         { "wrinkle:version", keep_whole(to, "", version_of(to)) },
         { "wrinkle:program", "Wrinkle " WR_VERSION },
         { "wrinkle:scene", scene_text },
@@ -245,10 +248,21 @@ static void add_composite(Saving *to, const char *scene_text)
         { "wrinkle:active", keep_whole(to, "", document->active + 1) },
         { "wrinkle:solo", keep_whole(to, "", document->solo + 1) },
     };
-    memcpy(to->of_file, attributes, sizeof attributes);
-    WrImageOut *part = add_field(to, f, "F");
+    int count = WR_LENGTH(attributes);
+    memcpy(out, attributes, sizeof attributes);
+    if (document->variants)
+        out[count++] = (WrImageAttribute){ "wrinkle:variants", document->variants };
+    if (document->variant)
+        out[count++] = (WrImageAttribute){ "wrinkle:variant", document->variant };
+    return count;
+}
+
+static void add_composite(Saving *to, const char *scene_text)
+{
+    to->of_file_count = describe_document(to, scene_text, to->of_file);
+    WrImageOut *part = add_field(to, wr_document_field(to->document), "F");
     part->attributes = to->of_file;
-    part->attribute_count = FILE_ATTRIBUTES;
+    part->attribute_count = to->of_file_count;
 }
 
 /* Part names must be unique, layers' names need not be: "layer:NAME", then "layer:NAME (2)" and so on. The
@@ -309,6 +323,7 @@ static int describe_layer(Saving *to, int index, WrImageAttribute out[LAYER_ATTR
         out[count++] = (WrImageAttribute){ "wrinkle:depth", keep_whole(to, "", layer->depth) };
     if (layer->is_group) out[count++] = (WrImageAttribute){ "wrinkle:group", "on" };
     if (layer->collapsed) out[count++] = (WrImageAttribute){ "wrinkle:collapsed", "on" };
+    if (layer->values) out[count++] = (WrImageAttribute){ "wrinkle:values", layer->values };
     return count;
 }
 
@@ -327,7 +342,7 @@ static void add_layer(Saving *to, int index)
 static void add_layer_to_composite(Saving *to)
 {
     to->parts[0].attribute_count =
-        FILE_ATTRIBUTES + describe_layer(to, 0, to->of_file + FILE_ATTRIBUTES);
+        to->of_file_count + describe_layer(to, 0, to->of_file + to->of_file_count);
 }
 
 static bool same_bits(const WrField *a, const WrField *b)
@@ -846,6 +861,7 @@ static bool read_layer(Loading *in, int index, WrLayer *out, WrError *err)
                 (!slot.cover || (layer.cover = read_field(in, slot.cover, false, err))) &&
                 (!slot.mask || (layer.mask = read_field(in, slot.mask, false, err))) &&
                 read_mask_line(in, slot.heights, &layer, err);
+    layer.values = wr_strdup(wr_image_file_attribute(in->file, slot.heights, "wrinkle:values"));
     layer.on_mask = layer.on_mask && layer.mask;
     if (good) *out = layer;
     else wr_layer_fini(&layer);
@@ -881,6 +897,8 @@ static bool read_document(Loading *in, WrDocument *document, WrError *err)
         return wr_fail(err, "%s: damaged: %s", in->path, wr_error_message(&why));
     if (in->selection && !(document->selection = read_field(in, in->selection, false, err)))
         return false;
+    wr_document_set_variants(document, wr_image_file_attribute(in->file, 0, "wrinkle:variants"),
+                             wr_image_file_attribute(in->file, 0, "wrinkle:variant"));
     return read_index(in, "wrinkle:active", 1, &document->active, err) &&
            read_index(in, "wrinkle:solo", 0, &document->solo, err);
 }

@@ -16,6 +16,8 @@
    composite that the line read; of a layer with a live mask wrinkle:mask-line, its terms, and wrinkle:mask-read, the hash
    of all that they read; of a layer in a group wrinkle:depth, the number of groups that it is in; of a group, whose heights
    are 0 and whose members are the deeper layers directly below, wrinkle:group and wrinkle:collapsed ("on").
+   A document with variants has wrinkle:variants, their names, one a line, and wrinkle:variant, the
+   name of the one in use; its layers have wrinkle:values, their values in the variants (document/variants.h).
 
    A document of one layer that equals F bit for bit, without coverage, mask, selection, pictures or mesh, is a
    file of only that part, with the layer's attributes beside the file's: many programs open no file of several
@@ -45,7 +47,7 @@ typedef struct WrImage WrImage;
 typedef struct WrImageRows WrImageRows;
 
 #define WR_DOCUMENT_VERSION 12
-#define WR_DOCUMENT_VERSION_GENERATES 11  /* for a file without groups */
+#define WR_DOCUMENT_VERSION_GENERATORS 11 /* for a file without groups and variants */
 #define WR_DOCUMENT_VERSION_PROJECTION 10 /* for a file without generator layers */
 #define WR_DOCUMENT_VERSION_FILTERS                                                                \
     9                                /* for a file without the features of WR_SCENE_OF_PROJECTION */

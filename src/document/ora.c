@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "document/blend.h"
 #include "document/document.h"
+#include "document/variants.h"
 #include "document/document_file.h"
 #include "document/ora_stack.h"
 #include "field/field.h"
@@ -519,6 +520,7 @@ static bool read_layer(Loading *in, const WrOraLayer *from, int number, WrLayer 
     }
     good = good && (!from->mask || (layer.mask = read_field(in, from->mask, false, err))) &&
            read_mask_line(in, from, &layer, err);
+    layer.values = wr_strdup(from->values);
     layer.on_mask = from->on_mask && layer.mask;
     if (good) *out = layer;
     else wr_layer_fini(&layer);
@@ -671,6 +673,7 @@ static bool load(Loading *in, WrLoaded *loaded, WrError *err)
     int count = document->layer_count, chosen = document->active < 0 ? count - 1 : document->active;
     document->active = layer_number(in->stack.active, count, chosen);
     document->solo = layer_number(in->stack.solo, count, -1);
+    wr_document_set_variants(document, in->stack.variants, in->stack.variant);
     if (in->stack.selection &&
         !(document->selection = read_field(in, in->stack.selection, false, err)))
         return false;
@@ -1050,6 +1053,7 @@ static void add_settings(Saving *to, int index)
         wr_ora_add_attribute(xml, "wrinkle:mask-line", layer->mask_line);
         add_hash(xml, "wrinkle:mask-read", layer->mask_read);
     }
+    if (layer->values) wr_ora_add_attribute(xml, "wrinkle:values", layer->values);
 }
 
 static void indent(WrText *xml, int depth)
@@ -1128,6 +1132,9 @@ static bool add_image_attributes(Saving *to, WrError *err)
                  wr_number_print_float(to->range.low, low),
                  wr_number_print_float(to->range.high, high), document->active + 1,
                  document->solo + 1);
+    if (document->variants)
+        wr_ora_add_attribute(&to->stack, "wrinkle:variants", document->variants);
+    if (document->variant) wr_ora_add_attribute(&to->stack, "wrinkle:variant", document->variant);
     if (document->selection && !add_field(to, "wrinkle:selection", wr_strdup("data/selection.exr"),
                                           document->selection, err))
         return false;

@@ -14,11 +14,11 @@
 
      image   wrinkle:version  wrinkle:wrap  wrinkle:range  wrinkle:active  wrinkle:solo (layers counted from 1
              at the bottom; 0: none)  wrinkle:scene  wrinkle:selection  wrinkle:colour
-             wrinkle:normals (names of entries)
+             wrinkle:normals (names of entries)  wrinkle:variants  wrinkle:variant
      layer   wrinkle:composite (on: for that topmost layer, which has no other attribute)
              wrinkle:heights  wrinkle:cover  wrinkle:mask (names of entries)  wrinkle:blend  wrinkle:radius
              wrinkle:name (bytes in hex, if XML cannot represent the name)  wrinkle:opacity  wrinkle:visible (for
-             the lowest layer and with a solo layer, if the standard attributes differ)
+             the lowest layer and with a solo layer, if the standard attributes differ)  wrinkle:values
      stack   a group, with the attributes of a layer that it needs, isolation="isolate" and wrinkle:collapsed (on)
 
    So a saved document is restored bit for bit. The same document produces the same bytes. Source: OpenRaster
@@ -33,7 +33,7 @@ typedef struct WrText WrText;
 
 #define WR_ORA_NAMESPACE "urn:wrinkle:openraster"
 #define WR_ORA_VERSION 9
-#define WR_ORA_VERSION_GENERATES 8  /* for a file without groups */
+#define WR_ORA_VERSION_GENERATORS 8 /* for a file without groups and variants */
 #define WR_ORA_VERSION_PROJECTION 7 /* for a file without generator layers */
 #define WR_ORA_VERSION_COMPOSITE 6  /* for a file without projected meshes */
 #define WR_ORA_VERSION_FILTERS 5    /* for a file without a composite */

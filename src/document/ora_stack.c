@@ -382,6 +382,7 @@ static void add_layer(Reading *reading, const char **attributes, bool group)
                          .below = wr_strdup(find(attributes, OURS "below")),
                          .mask_line = wr_strdup(find(attributes, OURS "mask-line")),
                          .mask_read = wr_strdup(find(attributes, OURS "mask-read")),
+                         .values = wr_strdup(find(attributes, OURS "values")),
                          .name_bytes = wr_strdup(find(attributes, OURS "name")),
                          .own_opacity = wr_strdup(find(attributes, OURS "opacity")),
                          .own_visible = wr_strdup(find(attributes, OURS "visible")) };
@@ -407,8 +408,8 @@ int wr_ora_version(const WrDocument *document, bool composite)
     const bool new =
         wr_object_any_picture(scene, WR_OBJECT_NORMALS) || wr_scene_several_meshes(scene);
     const WrSceneAge age = wr_scene_age(scene);
-    if (wr_document_groups(document)) return WR_ORA_VERSION;
-    if (wr_document_generates(document)) return WR_ORA_VERSION_GENERATES;
+    if (wr_document_groups(document) || document->variants) return WR_ORA_VERSION;
+    if (wr_document_generates(document)) return WR_ORA_VERSION_GENERATORS;
     if (age == WR_SCENE_OF_PROJECTION) return WR_ORA_VERSION_PROJECTION;
     if (composite) return WR_ORA_VERSION_COMPOSITE;
     if (wr_document_filters(document)) return WR_ORA_VERSION_FILTERS;
@@ -444,6 +445,8 @@ static void read_image(Reading *reading, const char **attributes)
                 wr_strdup(find(attributes, wr_ora_picture_name(OURS, i, k, "", name)));
         }
     stack->mesh = wr_strdup(find(attributes, OURS "mesh"));
+    stack->variants = wr_strdup(find(attributes, OURS "variants"));
+    stack->variant = wr_strdup(find(attributes, OURS "variant"));
 }
 
 /* Some programs use a namespace for the elements, most do not. */
@@ -522,12 +525,13 @@ void wr_ora_stack_fini(WrOraStack *stack)
                           layer->blend,       layer->radius,      layer->name_bytes,
                           layer->own_opacity, layer->own_visible, layer->filter,
                           layer->line,        layer->below,       layer->mask_line,
-                          layer->mask_read };
+                          layer->mask_read,   layer->values };
         for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) wr_free(texts[k]);
     }
     wr_array_free(&stack->layers);
-    char *texts[] = { stack->version, stack->wrap, stack->active,   stack->solo,
-                      stack->scene,   stack->mesh, stack->selection };
+    char *texts[] = { stack->version,   stack->wrap,     stack->active,
+                      stack->solo,      stack->scene,    stack->mesh,
+                      stack->selection, stack->variants, stack->variant };
     for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) wr_free(texts[k]);
     for (int i = 0; i < WR_OBJECTS_MAX; i++)
         for (int k = 0; k < WR_OBJECT_PICTURES; k++) wr_free(stack->pictures[i][k]);

@@ -28,7 +28,7 @@ typedef struct WrOraLayer {
     bool passes;                                                /* a group that is not isolated */
     char *operation;                                            /* composite-op */
     char *heights, *cover, *mask, *blend, *radius, *name_bytes; /* our attributes */
-    char *filter, *line, *below, *mask_line, *mask_read;        /* our attributes */
+    char *filter, *line, *below, *mask_line, *mask_read, *values; /* our attributes */
     char *own_opacity, *own_visible; /* our attributes, if the standard ones have other values */
     bool on_mask;                    /* our attribute */
 } WrOraLayer;
@@ -38,7 +38,7 @@ typedef struct WrOraStack {
     WR_ARRAY(WrOraLayer) layers; /* topmost first */
     int unknown;                 /* number of elements that are neither layers nor groups */
     /* our attributes */
-    char *version, *wrap, *active, *solo, *scene, *selection, *mesh,
+    char *version, *wrap, *active, *solo, *scene, *selection, *mesh, *variants, *variant,
         *pictures[WR_OBJECTS_MAX][WR_OBJECT_PICTURES];
 } WrOraStack;
 

@@ -67,6 +67,8 @@ static const char *const lines[] = {
     "layer merge 3",
     "layer merge 3,1,2",
     "layer add from=\"pattern planks rows=40\"",
+    "layer add from=\"link second turn=31 factor=0.5\"",
+    "link second turn=31 scale=0.7,-1.2 factor=2",
     "layer flatten",
     "layer clear 1",
     "layer paste big.exr at=0.5,0.5",

@@ -19,6 +19,7 @@
 #include "ui/app/state/settings.h"
 #include "ui/panels/generate/generate_state.h"
 #include "ui/panels/panel_tablet.h"
+#include "ui/panels/panels.h"
 #include "ui/patch/patch.h"
 #include "ui/patch/patch_paint.h"
 #include "ui/patch/patch_projection.h"
@@ -362,6 +363,7 @@ const WrAction wr_actions[] = {
     EDIT(select_mask, "Select by the mask", wr_act_select_mask, wr_has_mask, NULL, .row_menu = 4),
     EDIT(layer_add, "New layer", wr_act_layer_add, NULL, NULL),
     EDIT(layer_duplicate, "Duplicate layer", wr_act_layer_duplicate, NULL, NULL, .row_menu = 1),
+    EDIT(layer_link, "Linked copy", wr_act_layer_link, wr_has_heights, NULL, .row_menu = 1),
     LAYER(layer_delete, "Delete layer", wr_act_layer_delete, wr_can_delete, NULL, .row_menu = 1),
     EDIT(layer_rename, "Rename layer", wr_act_layer_rename, NULL, NULL, .row_menu = 1),
     EDIT(filter_edit, "Edit filter or generator...", wr_act_filter_edit, wr_has_values, NULL,
@@ -386,6 +388,10 @@ const WrAction wr_actions[] = {
     ROW(layer_below, "Layer below", wr_act_layer_below, wr_has_below, NULL),
     ROW(layer_choose_all, "Choose all layers", wr_act_layer_choose_all, wr_can_several_layers,
         NULL),
+    EDIT(variant_add, "New variant...", wr_act_variant_add, NULL, NULL),
+    EDIT(variant_set, "Update variant", wr_act_variant_set, wr_is_variant_changed, NULL),
+    EDIT(variant_rename, "Rename variant...", wr_act_variant_rename, wr_is_variant, NULL),
+    EDIT(variant_delete, "Delete variant", wr_act_variant_delete, wr_is_variant, NULL),
     LAYER(mask_selection, "Mask from selection", wr_act_mask_selection, wr_can_mask_selection, NULL,
           .row_menu = 3),
     LAYER(mask_white, "Mask that shows all", wr_act_mask_white, NULL, NULL, .row_menu = 3),

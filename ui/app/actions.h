@@ -61,6 +61,7 @@ bool wr_is_keys_sculpt(const WrApp *app);
 
 void wr_act_layer_add(WrApp *app);
 void wr_act_layer_duplicate(WrApp *app);
+void wr_act_layer_link(WrApp *app);
 void wr_act_layer_delete(WrApp *app);
 void wr_act_layer_rename(WrApp *app);
 void wr_act_layer_merge(WrApp *app);

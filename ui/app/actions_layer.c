@@ -13,6 +13,7 @@
 #include "ui/toolkit/focus.h"
 
 #include "base/text.h"
+#include "command/linked_copies.h"
 #include "document/document.h"
 #include "field/field.h"
 
@@ -90,6 +91,11 @@ void wr_act_layer_add(WrApp *app)
 void wr_act_layer_duplicate(WrApp *app)
 {
     wr_layers_run_to(app, "duplicate", "", wr_chosen_highest(wr_app_chosen(app)) + 1);
+}
+
+void wr_act_layer_link(WrApp *app)
+{
+    wr_app_run_linef(app, "layer duplicate %d linked=on", number(app));
 }
 
 void wr_act_layer_delete(WrApp *app)
@@ -246,7 +252,8 @@ static bool is_filter(const WrApp *app)
 
 void wr_act_filter_edit(WrApp *app)
 {
-    if (generated(active(app))) wr_generate_edit_layer(app, wr_app_document(app)->active);
+    if (wr_line_links(active(app)->line)) wr_dialog_open(app, WR_DIALOG_LINK);
+    else if (generated(active(app))) wr_generate_edit_layer(app, wr_app_document(app)->active);
     else wr_filter_edit(app);
 }
 

@@ -189,6 +189,7 @@ void wr_app_end(WrApp *app)
     wr_free(app->file->after_path);
     wr_free(app->file->picture);
     wr_free(app->replace->path);
+    wr_free(app->replace->found);
     for (int i = 0; i < SDL_NUM_SYSTEM_CURSORS; i++)
         if (app->cursors[i]) SDL_FreeCursor(app->cursors[i]);
     if (app->renderer) SDL_DestroyRenderer(app->renderer);

@@ -17,8 +17,10 @@
 #include "ui/app/jobs/files.h"
 
 #include "base/enum_rows.h"
+#include "base/memory.h"
 #include "base/text.h"
 #include "command/command_line.h"
+#include "command/variants.h"
 #include "document/document_file.h"
 #include "export/export.h"
 #include "export/film.h"
@@ -189,12 +191,29 @@ void wr_file_take_export(WrApp *app, const char *path)
     wr_text_fini(&line);
 }
 
+/* The row of dialogs that can write a file for each variant. */
+static void variants_row(const WrApp *app)
+{
+    if (!wr_variant_count(wr_app_document(app))) return;
+    wr_gui_check("All variants, a file for each", &app->forms->all_variants);
+    wr_gui_tip("<VARIANT> in the name of the file becomes the name of each variant in turn");
+}
+
+/* Ask for the name of a file; of one for each variant if that was chosen. */
+static void ask_file(WrApp *app, WrFilePurpose purpose, const char *name)
+{
+    const bool all = app->forms->all_variants && wr_variant_count(wr_app_document(app)) > 0;
+    char *pattern = all ? wr_variant_insert(name) : wr_strdup(name);
+    if (!wr_files_request_path(app->files, purpose, NULL, pattern))
+        wr_dialog_open(app, WR_DIALOG_FILE);
+    wr_free(pattern);
+}
+
 static void ask_export_file(WrApp *app, const char *ending)
 {
     char name[24];
     snprintf(name, sizeof name, "%s.%s", ending ? "relief" : "height", ending ? ending : "png");
-    if (!wr_files_request_path(app->files, WR_FILE_EXPORT, NULL, name))
-        wr_dialog_open(app, WR_DIALOG_FILE);
+    ask_file(app, WR_FILE_EXPORT, name);
 }
 
 static void mesh_numbers(WrForms *f)
@@ -255,6 +274,7 @@ void wr_dialog_export(WrApp *app)
     wr_gui_tip(
         "Options of the command `export`; F1 lists them.\nExport maps (Ctrl+Alt+M) writes whole "
         "sets, with a picture of each map.");
+    variants_row(app);
     WrText line = { 0 };
     add_export_line(app, "x.png", &line);
     const bool agreed = wr_dialog_buttons(app, "Choose a file...", true) > 0;
@@ -288,12 +308,12 @@ void wr_dialog_render(WrApp *app)
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
                         "The format goes by the file's ending: exr and tif hold linear float with "
                         "coverage, png, jpg and others 8-bit sRGB over the background.");
+    variants_row(app);
     add_render_line(app, "x.png", &line);
     const bool agreed = wr_dialog_buttons(app, "Choose a file...", true) > 0;
     wr_panel_estimate(app, wr_text_get(&line));
     wr_text_fini(&line);
-    if (agreed && !wr_files_request_path(app->files, WR_FILE_RENDER, NULL, "picture.png"))
-        wr_dialog_open(app, WR_DIALOG_FILE);
+    if (agreed) ask_file(app, WR_FILE_RENDER, "picture.png");
     wr_gui_dialog_end();
 }
 
@@ -348,13 +368,13 @@ void wr_dialog_film(WrApp *app)
                         "Once round the world's upright axis, beginning as the view is turned now. "
                         "The program ffmpeg makes it.");
     film_numbers(f);
+    variants_row(app);
     add_film_line(app, "x.png", &line);
     const bool agreed = wr_dialog_buttons(app, "Choose a file...", true) > 0;
     wr_panel_estimate(app, wr_text_get(&line));
     wr_text_fini(&line);
     snprintf(name, sizeof name, "turn.%s", wr_film_kinds[f->film_kind].ending);
-    if (agreed && !wr_files_request_path(app->files, WR_FILE_FILM, NULL, name))
-        wr_dialog_open(app, WR_DIALOG_FILE);
+    if (agreed) ask_file(app, WR_FILE_FILM, name);
     wr_gui_dialog_end();
 }
 

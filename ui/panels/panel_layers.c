@@ -21,6 +21,7 @@
 
 #include "base/text.h"
 #include "command/command_line.h"
+#include "command/linked_copies.h"
 #include "command/session.h"
 #include "document/blend.h"
 #include "document/document.h"
@@ -233,8 +234,11 @@ static void row_generator(WrApp *app, int i, double *x)
 {
     const double side = wr_gui_px(13);
     wr_gui_row_set_cursor(*x, side);
-    if (wr_gui_glyph("generator", WR_ICON_TUNE, 13, WR_COLOUR_CELL)) edit_values(app, i);
-    wr_gui_tip("A generator layer. Click to change its values");
+    const bool links = wr_line_links(wr_app_document(app)->layers[i].line);
+    if (wr_gui_glyph("generator", links ? WR_ICON_LINK : WR_ICON_TUNE, 13, WR_COLOUR_CELL))
+        edit_values(app, i);
+    wr_gui_tip(links ? "A linked copy, which follows its layer. Click to change its values"
+                     : "A generator layer. Click to change its values");
     *x += side + wr_gui_px(2);
     wr_gui_row_set_cursor(*x, wr_gui_px(THUMB_UNITS));
 }
@@ -509,14 +513,16 @@ void wr_panel_layers(WrApp *app, SDL_Rect room)
     bool smooth = wr_blends[document->layers[active].blend].uses_radius;
     SDL_Rect head = room, middle = room, bottom = room;
     double line = wr_gui_line_height(WR_FONT_TEXT) + wr_gui_px(12);
-    head.h = wr_gui_px(20) + (int)(line * (smooth ? 3 : 2));
+    const bool variants = wr_variant_count(document) > 0;
+    head.h = wr_gui_px(20) + (int)(line * ((smooth ? 3 : 2) + variants));
     bottom.h = wr_gui_px(38);
     bottom.y = room.y + room.h - bottom.h;
     middle.y = room.y + head.h;
     middle.h = bottom.y - middle.y;
     wr_gui_area_begin("##layer_settings", WR_AREA_PANEL, head, WR_COLOUR_PANEL);
     wr_busy_hold(app);
-    settings(app, active);
+    if (variants) wr_panel_variants(app);
+    if (active < wr_app_document(app)->layer_count) settings(app, active);
     wr_busy_hold_end();
     wr_gui_area_end();
     if (middle.h > 0) {

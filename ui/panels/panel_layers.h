@@ -8,6 +8,7 @@
 
 #include "base/array.h"
 #include "document/document.h"
+#include "document/variants.h"
 
 #include <SDL.h>
 #include <stdbool.h>
@@ -22,9 +23,11 @@ typedef struct WrLayersState {
     int renamed;   /* index of the layer being renamed, -1: none */
     bool fresh;    /* first frame of the text field */
     char name[WR_LAYER_NAME_MAX + 1];
-    bool open;          /* open the menu */
-    WrThumbList thumbs; /* two per layer: heights, mask */
-    WrThumbList steps;  /* one per state of the history */
+    bool open;            /* open the menu */
+    bool renames_variant; /* the open dialog renames the variant in use; else it adds one */
+    char variant[WR_VARIANT_NAME_MAX + 1]; /* the name in that dialog */
+    WrThumbList thumbs;                    /* two per layer: heights, mask */
+    WrThumbList steps;                     /* one per state of the history */
 } WrLayersState;
 
 void wr_panel_layers(WrApp *app, SDL_Rect room);

@@ -18,6 +18,7 @@
 #include "base/memory.h"
 #include "command/command_line.h"
 #include "command/session.h"
+#include "command/variants.h"
 #include "document/document.h"
 #include "field/field.h"
 #include "scene/scene.h"
@@ -409,6 +410,22 @@ static void choose_how(const WrApp *app, WrSheetState *sheet)
     wr_gui_tip("Heights of the first and the last code");
 }
 
+/* The check that puts <VARIANT> into the cell's name, and takes it out. */
+static void choose_variants(const WrApp *app, WrSheetState *sheet)
+{
+    char *name = sheet->ask.name;
+    bool all = wr_variant_is_pattern(name);
+    if (!all && !wr_variant_count(wr_session_document(app->session))) return;
+    if (wr_gui_check("All variants, a file for each", &all)) {
+        char *made = all ? wr_variant_insert(name) : wr_variant_fill(name, "");
+        size_t length = strlen(made);
+        while (!all && length > 1 && made[length - 1] == '_') made[--length] = '\0';
+        snprintf(name, sizeof sheet->ask.name, "%s", made);
+        wr_free(made);
+    }
+    wr_gui_tip("<VARIANT> in the name of the file becomes the name of each variant in turn");
+}
+
 static void choose_where(WrSheetState *sheet)
 {
     label("To");
@@ -653,6 +670,7 @@ void wr_dialog_sheet(WrApp *app)
     if (!wr_gui_dialog_begin("Export maps", WIDE_UNITS)) return;
     choose_what(sheet);
     choose_where(sheet);
+    choose_variants(app, sheet);
     choose_how(app, sheet);
     show_maps(app, sheet);
     numbers(app, sheet);

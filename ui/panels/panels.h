@@ -53,6 +53,16 @@ void wr_dialog_preset(WrApp *app); /* name of a preset to save */
 void wr_dialog_select_open(WrApp *app, WrOutlineKind kind);
 void wr_dialog_select(WrApp *app);
 void wr_dialog_mask(WrApp *app);
-void wr_dialog_recover_open(WrApp *app); /* if there are recoverable journals */
+void wr_dialog_link(WrApp *app);
+void wr_panel_variants(
+    WrApp *app); /* row above the layers' list; only if the document has variants */
+void wr_dialog_variant(WrApp *app); /* name of a variant */
+void wr_act_variant_add(WrApp *app);
+void wr_act_variant_set(WrApp *app);
+void wr_act_variant_rename(WrApp *app);
+void wr_act_variant_delete(WrApp *app);
+bool wr_is_variant(const WrApp *app);         /* one is in use */
+bool wr_is_variant_changed(const WrApp *app); /* the values differ from it */
+void wr_dialog_recover_open(WrApp *app);      /* if there are recoverable journals */
 void wr_dialog_recover(WrApp *app);
 void wr_recovery_free(WrRecovery *recovery); /* NULL is allowed */

@@ -85,6 +85,7 @@ int wr_gui_px(double units); /* units rounded to whole pixels */
 #define WR_ICON_CAMERA "\xef\x91\xa4"    /* f464 rotate-3d */
 #define WR_ICON_EYE "\xef\x88\x88"       /* f208 */
 #define WR_ICON_EYE_OFF "\xef\x88\x89"   /* f209 */
+#define WR_ICON_LINK "\xef\x8c\xb9"      /* f339 link-variant */
 #define WR_ICON_LOCK "\xef\x8c\xbe"      /* f33e */
 #define WR_ICON_UNLOCK "\xef\x8d\x80"    /* f340 lock-open-outline */
 #define WR_ICON_COPY "\xef\x86\x91"      /* f191 content-duplicate */

@@ -52,6 +52,7 @@ static const struct {
     { WR_ICON_WAND, "Wd" },      { WR_ICON_DICE, "Rnd" },    { WR_ICON_GRID, "Gr" },
     { WR_ICON_TRANSFORM, "Tf" }, { WR_ICON_ERASER, "Er" },   { WR_ICON_TEXT, "T" },
     { WR_ICON_CUBE, "So" },      { WR_ICON_OPENED, "v" },    { WR_ICON_CLOSED, ">" },
+    { WR_ICON_LINK, "Li" },
 };
 
 const char *wr_icon_word(const char *icon)

@@ -3,6 +3,8 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/enum_rows.h"
+#include "command/session.h"
+#include "command/variants.h"
 #include "document/document.h"
 #include "field/field.h"
 #include "field/ops.h"
@@ -240,20 +242,43 @@ static void drop_write(void *work)
     wr_sheet_write_free(work);
 }
 
+typedef struct Writing {
+    WrSheetWrite *write;
+    WrSession *session; /* whose document has the variant in use */
+    const WrMapSet *set;
+    WrPool *pool;
+} Writing;
+
+/* Write the set once; with the variant's name in the files' names, if there is one. */
+static bool write_set(void *ctx, const char *variant, WrError *err)
+{
+    const Writing *writing = ctx;
+    const WrSheetRequest *ask = &writing->write->ask;
+    WrDocument *document = wr_document_share(wr_session_document(writing->session));
+    const WrField *field = wr_document_composite(document, writing->pool);
+    int w = wr_field_width(field), h = wr_field_height(field);
+    char *name = wr_variant_fill(ask->name, variant);
+    const WrMapSetRequest order = { writing->set, ask->folder, name, NULL, 0 };
+    wr_sheet_size(ask->size, &w, &h);
+    const bool good =
+        resize(document, w, h, writing->pool, err) &&
+        wr_export_map_set(&order, document, writing->pool, &writing->write->report, err);
+    if (good) writing->write->files += writing->set->maps.count;
+    wr_free(name);
+    wr_document_free(document);
+    return good;
+}
+
 static void run_write(void *work, WrPool *pool, const WrProgress *progress)
 {
     WrSheetWrite *write = work;
-    const WrSheetRequest *ask = &write->ask;
     const double began = wr_clock_seconds();
-    WrMapSet *set = sheet_set(ask, &write->err);
+    WrMapSet *set = sheet_set(&write->ask, &write->err);
     if (set) {
-        const WrField *field = wr_document_composite(write->document, pool);
-        int w = wr_field_width(field), h = wr_field_height(field);
-        const WrMapSetRequest order = { set, ask->folder, ask->name, NULL, 0 };
-        wr_sheet_size(ask->size, &w, &h);
-        write->ok = resize(write->document, w, h, pool, &write->err) &&
-                    wr_export_map_set(&order, write->document, pool, &write->report, &write->err);
-        write->files = set->maps.count;
+        Writing writing = { write, wr_session_of(write->document, pool), set, pool };
+        write->ok = wr_session_for_variants(writing.session, write->ask.name, write_set, &writing,
+                                            &write->err);
+        wr_session_free(writing.session);
     }
     write->cancelled = !write->ok && wr_progress_cancelled(progress);
     write->seconds = wr_clock_seconds() - began;

@@ -92,6 +92,7 @@
     X(select_mask, "")                                                                             \
     X(layer_add, "Ctrl+Shift+N Insert")                                                            \
     X(layer_duplicate, "Ctrl+J")                                                                   \
+    X(layer_link, "")                                                                              \
     X(layer_delete, "Shift+Delete")                                                                \
     X(layer_rename, "")                                                                            \
     X(filter_edit, "")                                                                             \
@@ -110,6 +111,10 @@
     X(layer_above, "PageUp")                                                                       \
     X(layer_below, "PageDown")                                                                     \
     X(layer_choose_all, "Ctrl+Alt+A")                                                              \
+    X(variant_add, "")                                                                             \
+    X(variant_set, "")                                                                             \
+    X(variant_rename, "")                                                                          \
+    X(variant_delete, "")                                                                          \
     X(mask_selection, "")                                                                          \
     X(mask_white, "")                                                                              \
     X(mask_black, "")                                                                              \

@@ -30,6 +30,8 @@ typedef enum WrDialog {
     WR_DIALOG_REPLACE,   /* question before an existing file is overwritten */
     WR_DIALOG_RASTERIZE, /* question before a generator layer is painted on */
     WR_DIALOG_MASK,      /* terms of a live mask */
+    WR_DIALOG_LINK,      /* values of a linked copy */
+    WR_DIALOG_VARIANT,   /* name of a variant */
     WR_DIALOG_TABLET,
     WR_DIALOG_BAKE, /* maps of a detailed mesh */
     WR_DIALOG_CASES,

@@ -25,6 +25,7 @@
 #include "command/session_internal.h"
 #include "command/session.h"
 #include "command/command_table.h"
+#include "command/variants.h"
 #include "field/field.h"
 #include "system/locale.h"
 #include "system/path.h"
@@ -491,7 +492,9 @@ void wr_file_take_import(WrApp *app, const char *path)
 
 void wr_app_file_chosen(WrApp *app, WrFilePurpose purpose, const char *path)
 {
-    bool asks = wr_file_purpose_writes(purpose) && !wr_files_agreed(app->files) &&
+    /* the desktop's dialog asks for the name as it is, not for those that <VARIANT> stands for */
+    const bool agreed = wr_files_agreed(app->files) && !wr_variant_is_pattern(path);
+    bool asks = wr_file_purpose_writes(purpose) && !agreed &&
                 wr_replace_confirm(app, WR_REPLACE_CHOSEN, purpose, path);
     if (!asks) wr_deferred(app, app->registry->takes[purpose], path); /* may take long */
 }

@@ -26,6 +26,7 @@ typedef struct WrForms { /* values of open dialogs */
     double film_width, film_height, film_frames, film_fps;
     double width, height, picture_width, picture_height, fill, cells_u, cells_v, line_width, low,
         high;
+    bool all_variants;                               /* export a file for each variant */
     double solid_size, solid_error, solid_thickness; /* mm; thickness 0: default of the export */
     double mesh_size;                                /* mm; 0: the file's unit */
     int mesh_round, mesh_limited;                    /* of a mesh as a solid: 0 or 1 */

@@ -6,6 +6,7 @@
 #include "ui/app/state/dialog.h"
 #include "ui/app/state/document.h"
 #include "ui/app/state/registry.h"
+#include "ui/app/state/session_view.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
@@ -15,6 +16,8 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/enum_rows.h"
+#include "command/variants.h"
+#include "document/document.h"
 #include "system/clock.h"
 
 #include <SDL.h>
@@ -22,12 +25,30 @@
 #include <string.h>
 #include <time.h>
 
+/* The file of that name if it exists, or the first of those that <VARIANT> stands for. The caller frees it. */
+static char *find_existing(const WrApp *app, const char *path)
+{
+    const WrDocument *document = wr_app_document(app);
+    const int count = wr_variant_is_pattern(path) ? wr_variant_count(document) : 0;
+    char name[WR_VARIANT_NAME_MAX + 1];
+    if (wr_file_identity(path).there) return wr_strdup(path);
+    for (int i = 0; i < count; i++) {
+        wr_variant_name(document, i, name);
+        char *file = wr_variant_fill(path, name);
+        if (wr_file_identity(file).there) return file;
+        wr_free(file);
+    }
+    return NULL;
+}
+
 bool wr_replace_confirm(WrApp *app, WrReplaceKind kind, WrFilePurpose purpose, const char *path)
 {
-    if (!wr_file_identity(path).there) return false;
+    char *found = find_existing(app, path);
+    if (!found) return false;
     char *kept = wr_strdup(path); /* `path` may be the old string */
     wr_free(app->replace->path);
-    *app->replace = (WrReplace){ .kind = kind, .purpose = purpose, .path = kept };
+    wr_free(app->replace->found);
+    *app->replace = (WrReplace){ .kind = kind, .purpose = purpose, .path = kept, .found = found };
     wr_dialog_open(app, WR_DIALOG_REPLACE);
     return true;
 }
@@ -41,7 +62,7 @@ static const char *name_of(const char *path)
 /* "1.25 MB, written 3 May 2026, 14:02:07" */
 static void describe(const WrReplace *replace, char *text, size_t size)
 {
-    WrFileIdentity stamp = wr_file_identity(replace->path);
+    WrFileIdentity stamp = wr_file_identity(replace->found);
     char when[64] = "";
     struct tm parts;
     time_t t = (time_t)stamp.seconds;
@@ -94,7 +115,7 @@ void wr_dialog_replace(WrApp *app)
                  ? wr_words("Another program has changed %.200s since it was opened or saved here. "
                             "Saving would lose the changes of that program.")
                  : wr_words("There is already a file %.200s."),
-             name_of(replace->path));
+             name_of(replace->found));
     describe(replace, facts, sizeof facts);
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, text);
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL, facts);

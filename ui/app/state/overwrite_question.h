@@ -15,7 +15,8 @@ typedef enum WrReplaceKind {
 typedef struct WrReplace { /* state of the open question */
     WrReplaceKind kind;
     WrFilePurpose purpose;
-    char *path; /* owned */
+    char *path;  /* owned */
+    char *found; /* the file that exists: path, or that of a variant; owned */
 } WrReplace;
 
 /* If the file exists, open the question and do the action after a yes; returns true. False: there is no such file. */

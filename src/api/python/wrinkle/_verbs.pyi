@@ -241,6 +241,12 @@ class Verbs:
     ) -> None:
         """Heights from pictures and from normal maps."""
 
+    def link(
+        self, *_values: Any, shift: Sequence[float] | None = ..., turn: float | None = ..., scale: Sequence[float] |
+        None = ..., factor: float | None = ...
+    ) -> None:
+        """Copy the heights and the coverage of another layer."""
+
     def open(
         self, *_values: Any, sha256: str | None = ...
     ) -> None:
@@ -252,10 +258,16 @@ class Verbs:
         'subtract', 'max', 'min', 'smooth-max', 'smooth-min', 'replace', 'mix', 'multiply'] | None = ..., opacity: float
         | None = ..., radius: float | None = ..., above: int | str | None = ..., part: Literal['heights', 'mask'] | None
         = ..., to: float | None = ..., change: Any | None = ..., visible: bool | str | None = ..., lock: bool | str |
-        None = ..., low: float | None = ..., high: float | None = ..., soft: float | None = ..., live: Any | None = ...,
-        at: Sequence[float] | None = ..., size: float | None = ..., sha256: str | None = ...
+        None = ..., linked: bool | str | None = ..., low: float | None = ..., high: float | None = ..., soft: float |
+        None = ..., live: Any | None = ..., at: Sequence[float] | None = ..., size: float | None = ..., sha256: str |
+        None = ...
     ) -> None:
         """Add, order, join and set layers."""
+
+    def variant(
+        self, _form: Literal['add', 'use', 'set', 'rename', 'delete'], /, *_values: Any
+    ) -> None:
+        """Store and use sets of layers' values."""
 
     def select(
         self, _form: Literal['all', 'none', 'invert', 'rect', 'ellipse', 'lasso', 'height', 'slope', 'flood', 'mask',
