@@ -87,6 +87,8 @@ void wr_arg_fini(WrArg *arg);
 
 /* A word in command syntax: bare if possible, else quoted. */
 void wr_text_add_word(WrText *text, const char *word);
+/* A path's file name without its ending as such a word, as a layer's name: cut if it is too long. */
+void wr_text_add_file_name(WrText *text, const char *path);
 /* At most 48 bytes of user text for a message: whole UTF-8 characters, no control characters. */
 #define WR_EXCERPT_SIZE 56
 const char *wr_excerpt(const char *bytes, char buffer[WR_EXCERPT_SIZE]);

@@ -178,11 +178,10 @@ bool wr_picture_svg(const WrParamValue *values, const WrGenerateJob *job, WrReli
 bool wr_picture_path(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                      WrError *err)
 {
-    static const char letters[] = "MmZzLlHhVvCcSsQqTtAaEe0123456789+-., \t\n";
     const WrParams p = { wr_params_path, values };
     const char *path = wr_param_value(&p, "path")->text;
     const WrSvgRequest ask = { .side = side_of(wr_param_number(&p, "size"), job->coarse) };
-    const size_t length = strspn(path, letters);
+    const size_t length = wr_svg_path_span(path);
     if (path[length])
         return wr_fail(err, "path: \"%.20s\": must be commands and numbers of an SVG path",
                        path + length);

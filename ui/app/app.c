@@ -17,6 +17,7 @@
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/dialog.h"
 #include "ui/app/state/document.h"
+#include "ui/app/state/drawing.h"
 #include "ui/app/state/pointer_state.h"
 #include "ui/app/state/keys.h"
 #include "ui/app/state/action.h"
@@ -230,7 +231,7 @@ static void handle(WrApp *app, const SDL_Event *event)
     } else if (event->type == SDL_WINDOWEVENT) {
         wr_window_event(app, event);
     } else if (event->type == SDL_DROPFILE) {
-        if (event->drop.file) wr_app_open_path(app, event->drop.file);
+        if (event->drop.file) wr_app_drop(app, event->drop.file);
         SDL_free(event->drop.file);
     } else if (event->type == SDL_RENDER_TARGETS_RESET || event->type == SDL_RENDER_DEVICE_RESET) {
         for (const WrPart *const *p = app->registry->parts; *p; p++)

@@ -503,7 +503,8 @@ static const char *const *file_endings(WrFilePurpose purpose)
 {
     static const char *const pictures[] = { PICTURES, NULL };
     static const char *const stamps[] = { PICTURES, "gbr", "gih", "pat", NULL };
-    static const char *const documents[] = { PICTURES, "wrinkle", "ora", NULL };
+    static const char *const documents[] = { PICTURES, "wrinkle", "ora", "svg", "svgz", NULL };
+    static const char *const tables[] = { PICTURES, "wrinkle", "ora", NULL };
     static const char *const models[] = { "gltf", "glb", NULL };
     static const char *const patches[] = { "bpt", "txt", NULL };
     static const char *const grounds[] = { PICTURES, "r16", "r32", "raw", "hgt", "fits", NULL };
@@ -514,7 +515,8 @@ static const char *const *file_endings(WrFilePurpose purpose)
     if (purpose == WR_FILE_MESH || purpose == WR_FILE_BAKE) return wr_mesh_endings;
     if (purpose == WR_FILE_PATCHES) return patches;
     if (purpose == WR_FILE_TERRAIN) return grounds;
-    return purpose == WR_FILE_OPEN || purpose == WR_FILE_TABLE ? documents : pictures;
+    if (purpose == WR_FILE_TABLE) return tables;
+    return purpose == WR_FILE_OPEN ? documents : pictures;
 }
 
 bool wr_file_fits(WrFilePurpose purpose, const char *name)
