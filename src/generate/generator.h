@@ -57,11 +57,14 @@ typedef struct WrParam {
     double soft_low, soft_high; /* slider range */
     bool above;                 /* `low` itself is excluded */
     bool positional;            /* in commands by position, not by name */
-    int components;             /* tuples, terms */
-    int fewest;                 /* terms: number of required components; the others default to 0 */
-    const WrParamPart *parts;   /* terms: [components] */
-    const char *shape;          /* tuples, terms: syntax for help: "i,j,a;..."; may be NULL */
-    const char *const *words;   /* choices; ends with NULL */
+    bool
+        path; /* text: SVG path data, sized and placed by `size`, `at` and `rotate` like `picture path`; the
+                  window shows its points on the canvas */
+    int components;           /* tuples, terms */
+    int fewest;               /* terms: number of required components; the others default to 0 */
+    const WrParamPart *parts; /* terms: [components] */
+    const char *shape;        /* tuples, terms: syntax for help: "i,j,a;..."; may be NULL */
+    const char *const *words; /* choices; ends with NULL */
 } WrParam;
 
 typedef struct WrParamValue {

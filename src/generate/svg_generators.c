@@ -68,7 +68,8 @@ const WrParam wr_params_path[] = {
       .kind = WR_PARAM_TEXT,
       /* a star of five points */
       .fallback_text = "M0,-50 L12,-15 48,-15 19,6 29,40 0,20 -29,40 -19,6 -48,-15 -12,-15 Z",
-      .positional = true },
+      .positional = true,
+      .path = true },
     WR_P_DRAWING
 };
 

@@ -76,7 +76,7 @@ static void a_drawing_opens_as_a_table_of_its_pages_proportions(void **state)
     wr_session_free(by_line);
 }
 
-static void a_drawing_keeps_the_tables_edges_and_takes_other_values(void **state)
+static void a_drawing_keeps_the_tables_edges_and_can_be_changed(void **state)
 {
     (void)state;
     write_page();
@@ -148,7 +148,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_drawing_opens_as_a_table_of_its_pages_proportions),
-        cmocka_unit_test(a_drawing_keeps_the_tables_edges_and_takes_other_values),
+        cmocka_unit_test(a_drawing_keeps_the_tables_edges_and_can_be_changed),
         cmocka_unit_test(a_damaged_drawing_leaves_the_document),
         cmocka_unit_test(texts_are_recognised_as_drawings_and_single_paths),
     };

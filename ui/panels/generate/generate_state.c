@@ -365,6 +365,7 @@ void wr_generate_take(WrApp *app, const WrGenerator *generator)
     hand->generator = generator;
     hand->seconds = 0.0;
     hand->held = WR_POSE_NONE;
+    hand->point = -1;
     wr_generate_defaults(app);
 }
 

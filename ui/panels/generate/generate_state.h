@@ -82,7 +82,7 @@ typedef struct WrGenerateState {
     WrPosePart held; /* handle being dragged */
     double first[3], first_number[3];
     bool placed; /* the press placed the object there */
-    int point;   /* index of the dragged point; -1: none */
+    int point;   /* index of the dragged point, or of the last one; -1: none */
     WrSelectPoint point_first;
 } WrGenerateState;
 
