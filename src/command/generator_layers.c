@@ -113,7 +113,10 @@ static bool by_generator(WrSession *session, int index, WrCall *call, const WrFi
 {
     WrLayer *layer = &session->state.document->layers[index];
     WrProgressPart making, laying;
+    WrLayersBelow layers = { session->state.document, index };
     WrGenerateJob job = { .like = below ? below : layer->heights,
+                          .layer = wr_layers_below_find,
+                          .layer_ctx = &layers,
                           .mask = layer->mask,
                           .progress = wr_progress_part(&making, wr_progress_here(), 0.0, 0.9) };
     WrRelief relief = { NULL, NULL };
@@ -124,22 +127,33 @@ static bool by_generator(WrSession *session, int index, WrCall *call, const WrFi
     return good;
 }
 
-static bool reads(const WrCall *call)
+/* Hash of what the line reads: a layer that it names, or the composite of the layers below, which is stored in *below
+   (owned by the caller). `nothing` if it reads neither, or the layer is gone. */
+static WrHash read_below(const WrSession *session, int index, const WrCall *call, WrField **below)
 {
+    const WrDocument *document = session->state.document;
     const WrGenerator *generator = wr_call_generator(call);
-    return generator && generator->reads;
+    const WrArg *named = generator ? wr_call_layer_argument(call) : NULL;
+    *below = NULL;
+    if (named) {
+        const int i = wr_document_find_below(document, index, named->text);
+        if (i < 0) return nothing;
+        const WrLayer *layer = &document->layers[i];
+        const WrHash hash = wr_field_hash(layer->heights);
+        const WrHash cover = layer->cover ? wr_field_hash(layer->cover) : nothing;
+        return wr_hash_bytes(&cover, sizeof cover, hash);
+    }
+    if (!generator || !generator->reads) return nothing;
+    *below = wr_document_below(document, index, session->options.pool);
+    return wr_field_hash(*below);
 }
 
 /* Generate the content of layer `index` by a call, whose canonical line becomes the layer's. On failure the layer is
    unchanged. outer: the call whose from= this is; it gets the line with absolute file names and checksums; or NULL */
 static bool generate(WrSession *session, int index, WrCall *call, WrCall *outer, WrError *err)
 {
-    WrField *below = NULL;
-    WrHash hash = nothing;
-    if (reads(call)) {
-        below = wr_document_below(session->state.document, index, session->options.pool);
-        hash = wr_field_hash(below);
-    }
+    WrField *below;
+    const WrHash hash = read_below(session, index, call, &below);
     const bool good = wr_call_generator(call) ? by_generator(session, index, call, below, err)
                                               : by_painting(session, index, call, err);
     wr_field_free(below);
@@ -158,17 +172,61 @@ static bool generate(WrSession *session, int index, WrCall *call, WrCall *outer,
     return true;
 }
 
-bool wr_session_add_generator_layer(WrSession *session, WrCall *outer, int index, WrLayer layer,
+/* The line makes an edge of the selection. */
+static bool is_edge(const WrCall *call, const WrDocument *document)
+{
+    const WrFamily *family = wr_family_find(call->command->name);
+    if (!family || !family->beyond || !document->selection || wr_call_layer_argument(call))
+        return false;
+    const int of = wr_call_choice(call, "of");
+    return of == WR_RIM_AUTO || of == WR_RIM_SELECTION;
+}
+
+/* A layer of opacity 0 with the selection as its coverage; it stays when the selection changes. The line then names it. */
+static bool keep_selection(WrSession *session, WrCall *call, int index, const char *name,
+                           WrError *err)
+{
+    WrDocument *document = session->state.document;
+    const WrField *s = document->selection;
+    WrText text = { 0 };
+    if (document->layer_count + 1 >= WR_LAYERS_MAX)
+        return wr_fail(err, "a document has up to %d layers: an edge of the selection needs two",
+                       WR_LAYERS_MAX);
+    for (int n = 1; n == 1 || wr_layer_named(document, wr_text_get(&text)) >= 0; n++) {
+        char excerpt[WR_EXCERPT_SIZE];
+        wr_text_clear(&text);
+        wr_text_addf(&text, "%s shape", wr_excerpt(name, excerpt));
+        if (n > 1) wr_text_addf(&text, " %d", n);
+    }
+    WrLayer shape = wr_layer_make(wr_text_get(&text), s);
+    wr_field_free(shape.heights);
+    wr_field_free(shape.cover);
+    shape.heights = wr_field_new(wr_field_width(s), wr_field_height(s), wr_field_wrap_u(s),
+                                 wr_field_wrap_v(s), 1.0f, NULL);
+    shape.cover = wr_field_share(s);
+    shape.opacity = 0.0f; /* unlike a hidden layer it can be painted on */
+    wr_document_insert(document, index, shape);
+    wr_call_set_text(call, "layer", wr_text_get(&text));
+    clear(call, "of");
+    wr_text_fini(&text);
+    return true;
+}
+
+bool wr_session_add_generator_layer(WrSession *session, WrCall *outer, int *index, WrLayer layer,
                                     WrError *err)
 {
     WrDocument *document = session->state.document;
     WrCall *call = wr_call_inner(outer);
+    const bool edge = is_edge(call, document);
+    bool good = !edge || keep_selection(session, call, *index, layer.name, err);
+    *index += edge && good;
     wr_call_begin_layer(call, document->selection, &layer);
-    wr_document_insert(document, index, layer);
-    bool good = wr_session_take_tiles(session, call, err);
+    wr_document_insert(document, *index, layer);
+    good = good && wr_session_take_tiles(session, call, err);
     if (good) {
         name_files(call, session);
-        good = generate(session, index, call, outer, err);
+        /* the step's line goes on to name the selection */
+        good = generate(session, *index, call, edge ? NULL : outer, err);
     }
     wr_call_free(call);
     return good;
@@ -226,6 +284,24 @@ bool wr_session_generate_again(WrSession *session, int index, WrError *err)
     return good;
 }
 
+void wr_session_rename_in_lines(WrSession *session, int index, const char *name)
+{
+    WrDocument *document = session->state.document;
+    for (int i = index + 1; i < document->layer_count; i++) {
+        WrLayer *layer = &document->layers[i];
+        WrCall *call = layer->line ? call_of(session, i, NULL) : NULL;
+        WrArg *arg = call && wr_call_generator(call) ? wr_call_layer_argument(call) : NULL;
+        if (arg && wr_document_find_below(document, i, arg->text) == index) {
+            WrText line = { 0 };
+            wr_call_set_text(call, call->specs[arg - call->args].name, name);
+            wr_call_print(call, &line);
+            wr_layer_set_line(layer, wr_text_get(&line), layer->below);
+            wr_text_fini(&line);
+        }
+        wr_call_free(call);
+    }
+}
+
 /* ---- after each command ---- */
 
 /* The layers below have changed since the line read them. */
@@ -234,10 +310,14 @@ static bool is_stale(const WrSession *session, int index)
     const WrDocument *document = session->state.document;
     const WrLayer *layer = &document->layers[index];
     if (wr_hash_equal(layer->below, nothing) || !wr_document_shows(document, index)) return false;
-    WrField *below = wr_document_below(document, index, session->options.pool);
-    const bool stale = !wr_hash_equal(wr_field_hash(below), layer->below);
+    WrCall *call = call_of(session, index, NULL);
+    if (!call) return false;
+    WrField *below;
+    const WrHash hash = read_below(session, index, call, &below);
     wr_field_free(below);
-    return stale;
+    wr_call_free(call);
+    /* a layer that the line names may be gone: the heights then stay */
+    return !wr_hash_equal(hash, nothing) && !wr_hash_equal(hash, layer->below);
 }
 
 static bool follow_line(WrSession *session, int index, WrError *err)

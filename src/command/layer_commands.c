@@ -283,11 +283,12 @@ static bool layer_add(WrSession *session, WrCall *call, WrError *err)
     WrLayer layer = wr_layer_make(name ? name : wr_text_get(&made), document->layers[0].heights);
     wr_text_fini(&made);
     bool good = true;
+    int index = below + 1;
     if (wr_call_given(call, "from"))
-        good = wr_session_add_generator_layer(session, call, below + 1, layer, err);
-    else wr_document_insert(document, below + 1, layer);
-    if (good) document->active = below + 1;
-    return good && settle(session, call, below + 1, err);
+        good = wr_session_add_generator_layer(session, call, &index, layer, err);
+    else wr_document_insert(document, index, layer);
+    if (good) document->active = index;
+    return good && settle(session, call, index, err);
 }
 
 static bool layer_delete(WrSession *session, WrCall *call, WrError *err)
@@ -403,6 +404,7 @@ static bool layer_rename(WrSession *session, WrCall *call, WrError *err)
     WrDocument *document = session->state.document;
     WrLayer *layer = &document->layers[index];
     wr_session_rename_in_masks(session, index, name);
+    wr_session_rename_in_lines(session, index, name);
     WrScene *scene = wr_scene_rename_layer(document->scene, layer->name, name);
     if (scene) wr_session_replace_scene(session, scene); /* objects still use it as their table */
     wr_free(layer->name);

@@ -171,10 +171,13 @@ bool wr_height_colormap_make(const WrSession *session, WrScene *object, WrError 
 bool wr_session_follow(WrSession *session, WrError *err);
 /* ---- generator layers: generator_layers.c ---- */
 
-/* Insert `layer` (new, empty; ownership passes) and generate it by the from= of `outer`; the selection becomes its mask.
-   blend= and radius= of that line become the layer's. */
-bool wr_session_add_generator_layer(WrSession *session, WrCall *outer, int index, WrLayer layer,
+/* Insert `layer` (new, empty; ownership passes) at *index and generate it by the from= of `outer`; the selection becomes its
+   mask, or of an edge of the selection a layer of opacity 0 below it, and *index is 1 more. blend= and radius= of that line become
+   the layer's. */
+bool wr_session_add_generator_layer(WrSession *session, WrCall *outer, int *index, WrLayer layer,
                                     WrError *err);
+/* Layer `index` is about to get another name: the lines above that name it get it too. */
+void wr_session_rename_in_lines(WrSession *session, int index, const char *name);
 /* Generate a generator layer by the from= of `outer` if given, or else by its own line, with the words of `change` (may be
    NULL) in place of the line's. */
 bool wr_session_change_generator_layer(WrSession *session, WrCall *outer, int index,

@@ -155,6 +155,13 @@ bool wr_document_generates(const WrDocument *document)
     return any;
 }
 
+int wr_document_find_below(const WrDocument *document, int index, const char *name)
+{
+    do index--;
+    while (index >= 0 && strcmp(document->layers[index].name, name) != 0);
+    return index;
+}
+
 bool wr_document_shows(const WrDocument *document, int index)
 {
     if (document->solo >= 0) return document->solo == index;

@@ -126,6 +126,8 @@ bool wr_document_filters(const WrDocument *document); /* true if any layer is a 
 bool wr_document_generates(const WrDocument *document);
 /* True if the layer is shown: visible, and no other layer is solo. */
 bool wr_document_shows(const WrDocument *document, int index);
+/* The nearest layer of that name below layer `index`; -1: none. */
+int wr_document_find_below(const WrDocument *document, int index, const char *name);
 
 /* Structural changes keep `active` and `solo` at the same layers. If one of these is removed, active moves to
    the layer below (else above), solo to none. */
