@@ -313,7 +313,7 @@ typedef struct Net {
 static const WrParam relief_params[] = {
     { .name = "file",
       .label = "File",
-      .help = "a picture: black is the ground, white the highest; its alpha counts",
+      .help = "a picture: black is the ground, white the highest; its alpha counts; none: a pebble",
       .unit = "",
       .kind = WR_PARAM_FILE,
       .fallback_text = "",
@@ -341,6 +341,21 @@ static bool read_picture(const char *file, const WrGenerateJob *job, WrSheet *sh
     }
     wr_image_free(image);
     return good;
+}
+
+#define PEBBLE 65 /* samples along a side */
+
+/* The upper half of a ball: a piece to begin with. */
+static bool make_pebble(WrSheet *sheet, WrError *err)
+{
+    static const WrWrap clamped[] = { WR_WRAP_CLAMP, WR_WRAP_CLAMP };
+    if (!wr_sheet_init(sheet, PEBBLE, PEBBLE, clamped, err)) return false;
+    for (int k = 0; k < PEBBLE * PEBBLE; k++) {
+        const double x = (k % PEBBLE + 0.5) * 2.0 / PEBBLE - 1.0;
+        const double y = (k / PEBBLE + 0.5) * 2.0 / PEBBLE - 1.0, rest = 1.0 - x * x - y * y;
+        sheet->z[k] = rest > 0.0 ? sqrt(rest) : 0.0;
+    }
+    return true;
 }
 
 /* Cut out the part with heights. False: nothing is above 0. */
@@ -443,11 +458,12 @@ static bool make_relief(const WrParamValue *values, const WrGenerateJob *job, Wr
     WrSolidPlace *places = NULL;
     Net made = { 0 };
     int64_t copies;
-    if (has_file == has_layer)
-        return wr_fail(err, "solid relief: give either a picture file or layer=");
-    bool good =
-        (has_file ? read_picture(file, job, &sheet, err) : read_layer(layer, job, &sheet, err)) &&
-        wr_solid_places(&params, job, &places, &copies, err);
+    if (has_file && has_layer)
+        return wr_fail(err, "solid relief: give a picture file or layer=, not both");
+    bool good = (has_file    ? read_picture(file, job, &sheet, err)
+                 : has_layer ? read_layer(layer, job, &sheet, err)
+                             : make_pebble(&sheet, err)) &&
+                wr_solid_places(&params, job, &places, &copies, err);
     wr_free(places);
     good = good && thin_out(&sheet, size, copies, job, err) &&
            net_of(&sheet, size, wr_param_number(&params, "depth"), &made, err);
