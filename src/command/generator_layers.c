@@ -276,6 +276,33 @@ bool wr_session_change_generator_layer(WrSession *session, WrCall *outer, int in
     return good;
 }
 
+static bool names_file(const WrCall *call)
+{
+    for (int i = 0; i < call->count; i++)
+        if (call->specs[i].type == WR_ARG_PATH && call->args[i].text && *call->args[i].text &&
+            wr_call_names_file(call, i))
+            return true;
+    return false;
+}
+
+void wr_session_spell_change(WrSession *session, WrCall *call)
+{
+    int index;
+    if (call->command != &wr_command_layer || strcmp(call->form_name, "set") != 0 ||
+        !wr_call_given(call, "change") || wr_call_given(call, "from") ||
+        !wr_session_find_layer(session, wr_call_arg(call, "N")->text, &index, NULL))
+        return;
+    WrCall *line = call_of(session, index, NULL);
+    if (line && wr_call_change(line, wr_call_arg(call, "change")->text, NULL) && names_file(line)) {
+        WrText text = { 0 };
+        wr_call_print(line, &text);
+        wr_call_set_text(call, "from", wr_text_get(&text));
+        wr_text_fini(&text);
+        clear(call, "change");
+    }
+    wr_call_free(line);
+}
+
 bool wr_session_generate_again(WrSession *session, int index, WrError *err)
 {
     WrCall *call = call_of(session, index, err);

@@ -422,9 +422,11 @@ static bool layer_set(WrSession *session, WrCall *call, WrError *err)
                             "of a generator layer change= or from=");
     if (!find(session, call, "N", &index, err)) return false;
     const bool generates = wr_call_given(call, "change") || wr_call_given(call, "from");
-    if (generates && (!wr_session_check_unlocked(session, index, err) ||
-                      !wr_session_change_generator_layer(session, call, index,
-                                                         wr_call_arg(call, "change")->text, err)))
+    if (generates &&
+        (!wr_session_check_unlocked(session, index, err) ||
+         !wr_session_change_generator_layer(
+             session, call, index,
+             wr_call_given(call, "change") ? wr_call_arg(call, "change")->text : NULL, err)))
         return false;
     if (!settle(session, call, index, err)) return false;
     WrLayer *layer = &session->state.document->layers[index];

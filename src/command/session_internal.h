@@ -182,6 +182,9 @@ void wr_session_rename_in_lines(WrSession *session, int index, const char *name)
    NULL) in place of the line's. */
 bool wr_session_change_generator_layer(WrSession *session, WrCall *outer, int index,
                                        const char *change, WrError *err);
+/* If a call is `layer set N change=` of a line that names a file, give it that line as from= instead: journals and scripts
+   then hold the file's absolute name and checksum. */
+void wr_session_spell_change(WrSession *session, WrCall *call);
 /* Generate a layer by its own line, after a change that its content depends on. */
 bool wr_session_generate_again(WrSession *session, int index, WrError *err);
 /* At the end of every command, from the bottom up: generate the layers whose lines read layers that have changed, and live
