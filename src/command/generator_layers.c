@@ -276,13 +276,30 @@ bool wr_session_change_generator_layer(WrSession *session, WrCall *outer, int in
     return good;
 }
 
+static bool is_file(const WrCall *call, int i)
+{
+    return call->specs[i].type == WR_ARG_PATH && wr_call_names_file(call, i) && *call->args[i].text;
+}
+
 static bool names_file(const WrCall *call)
 {
     for (int i = 0; i < call->count; i++)
-        if (call->specs[i].type == WR_ARG_PATH && call->args[i].text && *call->args[i].text &&
-            wr_call_names_file(call, i))
-            return true;
+        if (is_file(call, i)) return true;
     return false;
+}
+
+const char *wr_line_missing_file(const char *line, WrText *path)
+{
+    WrCall *call = NULL;
+    const char *name = NULL;
+    if (!wr_call_parse(line, false, &call, NULL)) return NULL;
+    for (int i = 0; i < call->count && !name; i++) {
+        if (!is_file(call, i) || wr_path_can_read(call->args[i].text)) continue;
+        name = call->specs[i].name;
+        wr_text_add(path, call->args[i].text);
+    }
+    wr_call_free(call);
+    return name;
 }
 
 void wr_session_spell_change(WrSession *session, WrCall *call)
@@ -372,10 +389,42 @@ bool wr_session_follow_lines(WrSession *session, WrError *err)
     return true;
 }
 
+/* One note for a file, however many layers name it. */
+static void note_missing(WrSession *session, int index)
+{
+    const WrDocument *document = session->state.document;
+    WrText path = { 0 }, other = { 0 }, name = { 0 };
+    const char *argument = wr_line_missing_file(document->layers[index].line, &path);
+    int first = index, count = 0;
+    for (int i = 0; argument && i < document->layer_count; i++) {
+        wr_text_clear(&other);
+        if (!document->layers[i].line || !wr_line_missing_file(document->layers[i].line, &other) ||
+            strcmp(wr_text_get(&other), wr_text_get(&path)) != 0)
+            continue;
+        if (count++ == 0) first = i;
+    }
+    if (argument && first == index && count == 1)
+        wr_session_note(session,
+                        "%s: its file %s is missing here: its heights stay; `layer set %d "
+                        "change=\"%s=PATH\"` names another place",
+                        wr_session_layer_name(session, index, &name), wr_text_get(&path), index + 1,
+                        argument);
+    else if (argument && first == index)
+        wr_session_note(session,
+                        "%s and %d more layers: their file %s is missing here: their heights stay; "
+                        "`layer set %d change=\"%s=PATH\"` names another place",
+                        wr_session_layer_name(session, index, &name), count - 1, wr_text_get(&path),
+                        index + 1, argument);
+    wr_text_fini(&path);
+    wr_text_fini(&other);
+    wr_text_fini(&name);
+}
+
 void wr_session_note_lines(WrSession *session)
 {
     const WrDocument *document = session->state.document;
     for (int i = 0; i < document->layer_count; i++) {
+        if (document->layers[i].line) note_missing(session, i);
         WrError why = { "" };
         WrCall *call = document->layers[i].line ? call_of(session, i, &why) : NULL;
         if (document->layers[i].line && !call)

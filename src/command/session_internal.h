@@ -190,7 +190,7 @@ bool wr_session_generate_again(WrSession *session, int index, WrError *err);
 /* At the end of every command, from the bottom up: generate the layers whose lines read layers that have changed, and live
    masks; layers whose heights another command wrote become plain. */
 bool wr_session_follow_lines(WrSession *session, WrError *err);
-/* Note the layers whose lines, or terms of masks, this program does not know. */
+/* Note the layers whose files are missing, each file once, and those whose lines, or terms of masks, this program does not know. */
 void wr_session_note_lines(WrSession *session);
 
 /* ---- live masks: live_masks.c ---- */

@@ -3,6 +3,8 @@
 #include "test_folder.h"
 #include "session_help.h"
 
+#include "base/text.h"
+#include "command/command_line.h"
 #include "image/image.h"
 
 static float made_at(const WrSession *s, int i, int j)
@@ -200,6 +202,41 @@ static void a_layer_is_scattered_and_followed(void **state)
     wr_session_free(s);
 }
 
+/* ---- missing files ---- */
+
+static void missing_files_are_noted_once_and_their_heights_stay(void **state)
+{
+    (void)state;
+    Said said = { "" };
+    WrError err;
+    WrText path = { 0 };
+    write_stone();
+    WrSession *s = listening(&said);
+    must_run(s, "table 61x43");
+    must_run(s, "layer add one from=\"solid relief stone.png size=9\"");
+    must_run(s, "layer add two from=\"picture photo stone.png\"");
+    must_run(s, "layer add three from=\"text A\"");
+    assert_null(wr_line_missing_file(doc(s)->layers[1].line, &path));
+    if (!wr_session_save(s, "stones.exr", &err)) fail_msg("%s", err.text);
+    const WrHash before = wr_session_hash(s);
+    assert_int_equal(rename("stone.png", "moved stone.png"), 0);
+    said.text[0] = '\0';
+    if (!wr_session_open(s, "stones.exr", &err)) fail_msg("%s", err.text);
+    assert_true(wr_hash_equal(before, wr_session_hash(s)));
+    const char *first = strstr(said.text, "stone.png is missing here");
+    assert_true(first && strstr(said.text, "and 1 more layers"));
+    assert_null(strstr(first + 20, "is missing"));
+    const char *name = wr_line_missing_file(doc(s)->layers[2].line, &path);
+    assert_string_equal(name, "file");
+    assert_non_null(strstr(wr_text_get(&path), "/stone.png"));
+    must_fail(s, "layer set two change=\"height=0.5\"", "stone.png");
+    must_run(s, "layer set two change=\"file=\\\"moved stone.png\\\"\"");
+    wr_text_clear(&path);
+    assert_null(wr_line_missing_file(doc(s)->layers[2].line, &path));
+    wr_text_fini(&path);
+    wr_session_free(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -209,6 +246,7 @@ int main(void)
         cmocka_unit_test(a_picture_stands_where_it_is_scattered),
         cmocka_unit_test(copies_vary_in_angle_depth_and_size),
         cmocka_unit_test(a_layer_is_scattered_and_followed),
+        cmocka_unit_test(missing_files_are_noted_once_and_their_heights_stay),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
 }

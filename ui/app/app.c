@@ -34,6 +34,7 @@
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
 #include "ui/panels/help/guide.h"
+#include "ui/panels/missing_files.h"
 #include "ui/panels/panel_layers.h"
 #include "ui/panels/panel_status.h"
 #include "ui/panels/panel_dynamics.h"
@@ -172,6 +173,7 @@ void wr_app_end(WrApp *app)
     wr_generate_free(app);
     wr_guide_free(app);
     if (app->renderer) wr_panel_layers_forget(app);
+    wr_missing_files_free(app);
     wr_canvas_free(app->canvas);
     wr_canvas_map_free(app->canvas_map);
     wr_canvas_map_free(app->canvas_second);

@@ -14,6 +14,7 @@
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
 #include "ui/app/jobs/edit_preview.h"
+#include "ui/panels/missing_files.h"
 #include "ui/panels/panels.h"
 
 #include "base/text.h"
@@ -211,9 +212,23 @@ static void edit_values(WrApp *app, int i)
 static void row_generator(WrApp *app, int i, double *x)
 {
     const double side = wr_gui_px(13);
+    const char *missing = wr_missing_file(app, i);
     wr_gui_row_set_cursor(*x, side);
-    if (wr_gui_glyph("generator", WR_ICON_TUNE, 13, WR_COLOUR_CELL)) edit_values(app, i);
-    wr_gui_tip("A generator layer. Click to change its values");
+    if (wr_gui_glyph("generator", missing ? WR_ICON_ALERT : WR_ICON_TUNE, 13,
+                     missing ? WR_COLOUR_BAD : WR_COLOUR_CELL)) {
+        if (missing) wr_missing_file_locate(app, i);
+        else edit_values(app, i);
+    }
+    if (missing) {
+        char tip[300];
+        snprintf(tip, sizeof tip, wr_words("Its file %.200s is missing: click to locate it"),
+                 missing);
+        wr_gui_as_it_is(true);
+        wr_gui_tip(tip);
+        wr_gui_as_it_is(false);
+    } else {
+        wr_gui_tip("A generator layer. Click to change its values");
+    }
     *x += side + wr_gui_px(2);
     wr_gui_row_set_cursor(*x, wr_gui_px(THUMB_UNITS));
 }
