@@ -295,7 +295,7 @@ const char *wr_line_missing_file(const char *line, WrText *path)
     if (!wr_call_parse(line, false, &call, NULL)) return NULL;
     for (int i = 0; i < call->count && !name; i++) {
         if (!is_file(call, i) || wr_path_can_read(call->args[i].text)) continue;
-        name = call->specs[i].name;
+        name = call->specs[i].positional ? "" : call->specs[i].name;
         wr_text_add(path, call->args[i].text);
     }
     wr_call_free(call);
@@ -406,15 +406,15 @@ static void note_missing(WrSession *session, int index)
     if (argument && first == index && count == 1)
         wr_session_note(session,
                         "%s: its file %s is missing here: its heights stay; `layer set %d "
-                        "change=\"%s=PATH\"` names another place",
+                        "change=\"%s%sPATH\"` names another place",
                         wr_session_layer_name(session, index, &name), wr_text_get(&path), index + 1,
-                        argument);
+                        argument, *argument ? "=" : "");
     else if (argument && first == index)
         wr_session_note(session,
                         "%s and %d more layers: their file %s is missing here: their heights stay; "
-                        "`layer set %d change=\"%s=PATH\"` names another place",
+                        "`layer set %d change=\"%s%sPATH\"` names another place",
                         wr_session_layer_name(session, index, &name), count - 1, wr_text_get(&path),
-                        index + 1, argument);
+                        index + 1, argument, *argument ? "=" : "");
     wr_text_fini(&path);
     wr_text_fini(&other);
     wr_text_fini(&name);

@@ -536,8 +536,8 @@ static void the_file_of_a_changed_value_comes_back(void **state)
         wr_text_addf(&line, "layer add from=\"picture paste %s\"", path);
         run(session, wr_text_get(&line));
         wr_text_clear(&line);
-        wr_text_addf(
-            &line, "layer set 2 change=\"file=\\\"%s\\\" size=13.7 blend=add\" opacity=0.5", other);
+        wr_text_addf(&line, "layer set 2 change=\"\\\"%s\\\" size=13.7 blend=add\" opacity=0.5",
+                     other);
         run(session, wr_text_get(&line));
         assert_non_null(strstr(wr_session_last_command(session), "sha256="));
         run(session, "layer set 2 change=\"height=0.61\"");

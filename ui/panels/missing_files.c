@@ -72,7 +72,7 @@ void wr_missing_file_chosen(WrApp *app, const char *path)
         const char *line_now = document->layers[i].line;
         const char *name = line_now ? wr_line_missing_file(line_now, &old) : NULL;
         if (name && strcmp(wr_text_get(&old), wanted) == 0) {
-            wr_text_addf(&change, "%s=", name);
+            if (*name) wr_text_addf(&change, "%s=", name);
             wr_text_add_word(&change, path);
             wr_text_addf(&line, "layer set %d", i + 1);
             wr_line_text(&line, "change", wr_text_get(&change));
