@@ -302,11 +302,18 @@ const char *wr_line_missing_file(const char *line, WrText *path)
     return name;
 }
 
+/* The argument of that name is given. */
+static bool gives(const WrCall *call, const char *name)
+{
+    for (int i = 0; i < call->count; i++)
+        if (strcmp(call->specs[i].name, name) == 0) return call->args[i].given;
+    return false;
+}
+
 void wr_session_spell_change(WrSession *session, WrCall *call)
 {
     int index;
-    if (call->command != &wr_command_layer || strcmp(call->form_name, "set") != 0 ||
-        !wr_call_given(call, "change") || wr_call_given(call, "from") ||
+    if (!gives(call, "change") || gives(call, "from") || !gives(call, "N") ||
         !wr_session_find_layer(session, wr_call_arg(call, "N")->text, &index, NULL))
         return;
     WrCall *line = call_of(session, index, NULL);

@@ -66,7 +66,7 @@ static void a_drawing_opens_as_a_table_of_its_pages_proportions(void **state)
     WrError err;
     if (!wr_session_open(s, "logo one.svg", &err)) fail_msg("%s", err.text);
     check_page(s);
-    assert_string_equal(wr_session_path(s), ""); /* saving asks for a name */
+    assert_string_equal(wr_session_path(s), ""); /* saving needs a name */
     must_run(by_line, "open \"logo one.svg\"");
     check_page(by_line);
     assert_int_equal(wr_session_history_count(by_line), 2);

@@ -91,7 +91,7 @@ static void an_edge_follows_the_outline_of_a_layer(void **state)
     assert_non_null(strstr(doc(s)->layers[2].line, "layer=other"));
     must_run(s, "layer set other change=\"at=0.333333333,0.541666667\"");
     check_bevel(s, 20);
-    must_run(s, "layer set other visible=off"); /* as the name says, not the composite */
+    must_run(s, "layer set other visible=off"); /* hidden layers count too */
     must_run(s, "layer set other change=\"at=0.541666667,0.541666667\"");
     check_bevel(s, 40);
     must_run(s, "layer delete other");
