@@ -73,6 +73,9 @@ WrCall *wr_call_inner(const WrCall *call);
 /* Visit the call, and the call that it holds, whose text is then written back. */
 typedef void WrCallVisit(WrCall *call, void *ctx);
 void wr_call_visit(WrCall *call, WrCallVisit *visit, void *ctx);
+/* The first file that a layer's line names and that cannot be read: its argument's name (static; "": it has none in lines) and its
+   path, appended to `path`. NULL: all can be read, or the line is not known. */
+const char *wr_line_missing_file(const char *line, WrText *path);
 /* Append a tuple of `count` numbers to a list argument. */
 void wr_call_add_row(WrCall *call, const char *name, const double *numbers, int count);
 
@@ -87,6 +90,8 @@ void wr_arg_fini(WrArg *arg);
 
 /* A word in command syntax: bare if possible, else quoted. */
 void wr_text_add_word(WrText *text, const char *word);
+/* A path's file name without its ending as such a word, as a layer's name: cut if it is too long. */
+void wr_text_add_file_name(WrText *text, const char *path);
 /* At most 48 bytes of user text for a message: whole UTF-8 characters, no control characters. */
 #define WR_EXCERPT_SIZE 56
 const char *wr_excerpt(const char *bytes, char buffer[WR_EXCERPT_SIZE]);

@@ -64,6 +64,17 @@ bool wr_call_lay(const WrCall *call, const WrRelief *relief, WrLayer *layer, WrP
  * family works beyond it. */
 void wr_call_begin_layer(const WrCall *call, const WrField *selection, WrLayer *layer);
 
+/* Layers that a generator's line can name: those below `index` (WrGenerateJob.layer, layer_ctx). */
+typedef struct WrDocument WrDocument;
+typedef struct WrLayersBelow {
+    const WrDocument *document;
+    int index;
+} WrLayersBelow;
+bool wr_layers_below_find(void *ctx, const char *name, const WrField **heights,
+                          const WrField **cover, WrError *err);
+/* The argument of a generator's line that names such a layer; NULL: none is named. */
+WrArg *wr_call_layer_argument(const WrCall *call);
+
 /* Run the line's generator. Reads its files, and sets or checks their checksums in the call. job: with like, selection,
  * mask and progress; the rest is set. The caller owns *out. */
 bool wr_call_make(WrSession *session, WrCall *call, WrGenerateJob *job, WrRelief *out,

@@ -290,6 +290,29 @@ void wr_call_values(const WrCall *call, const WrGenerator *generator, WrParamVal
     }
 }
 
+/* ---- layers ---- */
+
+WrArg *wr_call_layer_argument(const WrCall *call)
+{
+    const WrGenerator *generator = wr_call_generator(call);
+    for (const WrParam *p = generator ? generator->params : NULL; p && p->name; p++) {
+        WrArg *arg = p->layer ? wr_call_arg(call, p->name) : NULL;
+        if (arg && arg->text && *arg->text) return arg;
+    }
+    return NULL;
+}
+
+bool wr_layers_below_find(void *ctx, const char *name, const WrField **heights,
+                          const WrField **cover, WrError *err)
+{
+    const WrLayersBelow *below = ctx;
+    const int i = wr_document_find_below(below->document, below->index, name);
+    if (i < 0) return wr_fail(err, "layer=%s: no layer below has this name", name);
+    *heights = below->document->layers[i].heights;
+    *cover = below->document->layers[i].cover;
+    return true;
+}
+
 /* ---- texts and files ---- */
 
 char *wr_generator_text(const char *text)
@@ -377,7 +400,10 @@ static bool run_generate(WrSession *session, WrCall *call, WrError *err)
     if (!layer) return false;
     WrProgressPart making, joining;
     const WrDocument *document = session->state.document;
+    WrLayersBelow below = { document, document->active };
     WrGenerateJob job = { .like = layer->heights,
+                          .layer = wr_layers_below_find,
+                          .layer_ctx = &below,
                           .selection = document->selection,
                           .mask = document->layers[document->active].mask,
                           .progress = wr_progress_part(&making, wr_progress_here(), 0.0, 0.9) };

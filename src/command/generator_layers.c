@@ -115,7 +115,10 @@ static bool by_generator(WrSession *session, int index, WrCall *call, const WrFi
 {
     WrLayer *layer = &session->state.document->layers[index];
     WrProgressPart making, laying;
+    WrLayersBelow layers = { session->state.document, index };
     WrGenerateJob job = { .like = below ? below : layer->heights,
+                          .layer = wr_layers_below_find,
+                          .layer_ctx = &layers,
                           .mask = layer->mask,
                           .progress = wr_progress_part(&making, wr_progress_here(), 0.0, 0.9) };
     WrRelief relief = { NULL, NULL };
@@ -126,23 +129,36 @@ static bool by_generator(WrSession *session, int index, WrCall *call, const WrFi
     return good;
 }
 
-static bool reads(const WrCall *call)
+/* Hash of what the line reads: a layer that it names, or the composite of the layers below, which is stored in *below
+   (owned by the caller). `nothing` if it reads neither, or the layer is gone. */
+static WrHash read_below(const WrSession *session, int index, const WrCall *call, WrField **below)
 {
+    const WrDocument *document = session->state.document;
     const WrGenerator *generator = wr_call_generator(call);
-    return generator && generator->reads;
+    const WrArg *named = generator ? wr_call_layer_argument(call) : NULL;
+    *below = NULL;
+    if (named) {
+        const int i = wr_document_find_below(document, index, named->text);
+        if (i < 0) return nothing;
+        const WrLayer *layer = &document->layers[i];
+        const WrHash hash = wr_field_hash(layer->heights);
+        const WrHash cover = layer->cover ? wr_field_hash(layer->cover) : nothing;
+        return wr_hash_bytes(&cover, sizeof cover, hash);
+    }
+    if (!generator || !generator->reads) return nothing;
+    *below = wr_document_below(document, index, session->options.pool);
+    return wr_field_hash(*below);
 }
 
 /* Generate the content of layer `index` by a call, whose canonical line becomes the layer's. On failure the layer is
    unchanged. outer: the call whose from= this is; it gets the line with absolute file names and checksums; or NULL */
 static bool generate(WrSession *session, int index, WrCall *call, WrCall *outer, WrError *err)
 {
-    WrField *below = NULL;
-    WrHash hash = nothing;
-    if (!wr_session_take_source(session, index, call, &hash, err)) return false;
-    if (reads(call)) {
-        below = wr_document_below(session->state.document, index, session->options.pool);
-        hash = wr_field_hash(below);
-    }
+    WrField *below;
+    WrHash source = nothing;
+    if (!wr_session_take_source(session, index, call, &source, err)) return false;
+    const WrHash read = read_below(session, index, call, &below);
+    const WrHash hash = wr_hash_equal(read, nothing) ? source : read;
     const bool good = wr_call_generator(call) ? by_generator(session, index, call, below, err)
                                               : by_painting(session, index, call, err);
     wr_field_free(below);
@@ -162,19 +178,63 @@ static bool generate(WrSession *session, int index, WrCall *call, WrCall *outer,
     return true;
 }
 
-bool wr_session_add_generator_layer(WrSession *session, WrCall *outer, int index, WrLayer layer,
+/* The line makes an edge of the selection. */
+static bool is_edge(const WrCall *call, const WrDocument *document)
+{
+    const WrFamily *family = wr_family_find(call->command->name);
+    if (!family || !family->beyond || !document->selection || wr_call_layer_argument(call))
+        return false;
+    const int of = wr_call_choice(call, "of");
+    return of == WR_RIM_AUTO || of == WR_RIM_SELECTION;
+}
+
+/* A layer of opacity 0 with the selection as its coverage; it stays when the selection changes. The line then names it. */
+static bool keep_selection(WrSession *session, WrCall *call, int index, const char *name,
+                           WrError *err)
+{
+    WrDocument *document = session->state.document;
+    const WrField *s = document->selection;
+    WrText text = { 0 };
+    if (document->layer_count + 1 >= WR_LAYERS_MAX)
+        return wr_fail(err, "a document has up to %d layers: an edge of the selection needs two",
+                       WR_LAYERS_MAX);
+    for (int n = 1; n == 1 || wr_layer_named(document, wr_text_get(&text)) >= 0; n++) {
+        char excerpt[WR_EXCERPT_SIZE];
+        wr_text_clear(&text);
+        wr_text_addf(&text, "%s shape", wr_excerpt(name, excerpt));
+        if (n > 1) wr_text_addf(&text, " %d", n);
+    }
+    WrLayer shape = wr_layer_make(wr_text_get(&text), s);
+    wr_field_free(shape.heights);
+    wr_field_free(shape.cover);
+    shape.heights = wr_field_new(wr_field_width(s), wr_field_height(s), wr_field_wrap_u(s),
+                                 wr_field_wrap_v(s), 1.0f, NULL);
+    shape.cover = wr_field_share(s);
+    shape.opacity = 0.0f; /* unlike a hidden layer it can be painted on */
+    wr_document_insert(document, index, shape);
+    wr_call_set_text(call, "layer", wr_text_get(&text));
+    clear(call, "of");
+    wr_text_fini(&text);
+    return true;
+}
+
+bool wr_session_add_generator_layer(WrSession *session, WrCall *outer, int *index, WrLayer layer,
                                     WrError *err)
 {
     WrDocument *document = session->state.document;
     WrCall *call = wr_call_inner(outer);
+    const bool edge = is_edge(call, document);
+    bool good = !edge || keep_selection(session, call, *index, layer.name, err);
+    *index += edge && good;
     wr_call_begin_layer(call, document->selection, &layer);
     /* the numbers of layers are those before it is inserted */
-    bool good = wr_session_name_source(session, index, index, call, err);
-    wr_document_insert(document, index, layer);
+    good = good && wr_session_name_source(session, *index, *index, call, err);
+    wr_document_insert(document, *index, layer);
     good = good && wr_session_take_tiles(session, call, err);
     if (good) {
         name_files(call, session);
-        good = generate(session, index, call, outer, err);
+        /* the step's line goes on to name the selection */
+        good = generate(session, *index, call, edge ? NULL : outer, err);
     }
     wr_call_free(call);
     return good;
@@ -246,12 +306,81 @@ bool wr_session_use_line(WrSession *session, int index, const char *line, WrErro
     return good;
 }
 
+static bool is_file(const WrCall *call, int i)
+{
+    return call->specs[i].type == WR_ARG_PATH && wr_call_names_file(call, i) && *call->args[i].text;
+}
+
+static bool names_file(const WrCall *call)
+{
+    for (int i = 0; i < call->count; i++)
+        if (is_file(call, i)) return true;
+    return false;
+}
+
+const char *wr_line_missing_file(const char *line, WrText *path)
+{
+    WrCall *call = NULL;
+    const char *name = NULL;
+    if (!wr_call_parse(line, false, &call, NULL)) return NULL;
+    for (int i = 0; i < call->count && !name; i++) {
+        if (!is_file(call, i) || wr_path_can_read(call->args[i].text)) continue;
+        name = call->specs[i].positional ? "" : call->specs[i].name;
+        wr_text_add(path, call->args[i].text);
+    }
+    wr_call_free(call);
+    return name;
+}
+
+/* The argument of that name is given. */
+static bool gives(const WrCall *call, const char *name)
+{
+    for (int i = 0; i < call->count; i++)
+        if (strcmp(call->specs[i].name, name) == 0) return call->args[i].given;
+    return false;
+}
+
+void wr_session_spell_change(WrSession *session, WrCall *call)
+{
+    int index;
+    if (!gives(call, "change") || gives(call, "from") || !gives(call, "N") ||
+        !wr_session_find_layer(session, wr_call_arg(call, "N")->text, &index, NULL))
+        return;
+    WrCall *line = call_of(session, index, NULL);
+    if (line && wr_call_change(line, wr_call_arg(call, "change")->text, NULL) && names_file(line)) {
+        WrText text = { 0 };
+        wr_call_print(line, &text);
+        wr_call_set_text(call, "from", wr_text_get(&text));
+        wr_text_fini(&text);
+        clear(call, "change");
+    }
+    wr_call_free(line);
+}
+
 bool wr_session_generate_again(WrSession *session, int index, WrError *err)
 {
     WrCall *call = call_of(session, index, err);
     const bool good = call && generate(session, index, call, NULL, err);
     wr_call_free(call);
     return good;
+}
+
+void wr_session_rename_in_lines(WrSession *session, int index, const char *name)
+{
+    WrDocument *document = session->state.document;
+    for (int i = index + 1; i < document->layer_count; i++) {
+        WrLayer *layer = &document->layers[i];
+        WrCall *call = layer->line ? call_of(session, i, NULL) : NULL;
+        WrArg *arg = call && wr_call_generator(call) ? wr_call_layer_argument(call) : NULL;
+        if (arg && wr_document_find_below(document, i, arg->text) == index) {
+            WrText line = { 0 };
+            wr_call_set_text(call, call->specs[arg - call->args].name, name);
+            wr_call_print(call, &line);
+            wr_layer_set_line(layer, wr_text_get(&line), layer->below);
+            wr_text_fini(&line);
+        }
+        wr_call_free(call);
+    }
 }
 
 /* ---- after each command ---- */
@@ -262,10 +391,14 @@ static bool is_stale(const WrSession *session, int index)
     const WrDocument *document = session->state.document;
     const WrLayer *layer = &document->layers[index];
     if (wr_hash_equal(layer->below, nothing) || !wr_document_shows(document, index)) return false;
-    WrField *below = wr_document_below(document, index, session->options.pool);
-    const bool stale = !wr_hash_equal(wr_field_hash(below), layer->below);
+    WrCall *call = call_of(session, index, NULL);
+    if (!call) return false;
+    WrField *below;
+    const WrHash hash = read_below(session, index, call, &below);
     wr_field_free(below);
-    return stale;
+    wr_call_free(call);
+    /* a layer that the line names may be gone: the heights then stay */
+    return !wr_hash_equal(hash, nothing) && !wr_hash_equal(hash, layer->below);
 }
 
 /* One pass over the layers, from the bottom up; what a layer reads is made before it, even if that is above. */
@@ -355,10 +488,42 @@ bool wr_session_follow_lines(WrSession *session, WrError *err)
     return follow_below(&f, count, err);
 }
 
+/* One note for a file, however many layers name it. */
+static void note_missing(WrSession *session, int index)
+{
+    const WrDocument *document = session->state.document;
+    WrText path = { 0 }, other = { 0 }, name = { 0 };
+    const char *argument = wr_line_missing_file(document->layers[index].line, &path);
+    int first = index, count = 0;
+    for (int i = 0; argument && i < document->layer_count; i++) {
+        wr_text_clear(&other);
+        if (!document->layers[i].line || !wr_line_missing_file(document->layers[i].line, &other) ||
+            strcmp(wr_text_get(&other), wr_text_get(&path)) != 0)
+            continue;
+        if (count++ == 0) first = i;
+    }
+    if (argument && first == index && count == 1)
+        wr_session_note(session,
+                        "%s: its file %s is missing here: its heights stay; `layer set %d "
+                        "change=\"%s%sPATH\"` names another place",
+                        wr_session_layer_name(session, index, &name), wr_text_get(&path), index + 1,
+                        argument, *argument ? "=" : "");
+    else if (argument && first == index)
+        wr_session_note(session,
+                        "%s and %d more layers: their file %s is missing here: their heights stay; "
+                        "`layer set %d change=\"%s%sPATH\"` names another place",
+                        wr_session_layer_name(session, index, &name), count - 1, wr_text_get(&path),
+                        index + 1, argument, *argument ? "=" : "");
+    wr_text_fini(&path);
+    wr_text_fini(&other);
+    wr_text_fini(&name);
+}
+
 void wr_session_note_lines(WrSession *session)
 {
     const WrDocument *document = session->state.document;
     for (int i = 0; i < document->layer_count; i++) {
+        if (document->layers[i].line) note_missing(session, i);
         WrError why = { "" };
         WrCall *call = document->layers[i].line ? call_of(session, i, &why) : NULL;
         if (document->layers[i].line && !call)

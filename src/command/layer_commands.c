@@ -363,11 +363,12 @@ static bool layer_add(WrSession *session, WrCall *call, WrError *err)
     wr_text_fini(&made);
     if (group >= 0) layer.depth = WR_DEPTH_MAX; /* the deepest possible there: in the group */
     bool good = true;
+    int index = below + 1;
     if (wr_call_given(call, "from"))
-        good = wr_session_add_generator_layer(session, call, below + 1, layer, err);
-    else wr_document_insert(document, below + 1, layer);
-    if (good) document->active = below + 1;
-    return good && settle(session, call, below + 1, err);
+        good = wr_session_add_generator_layer(session, call, &index, layer, err);
+    else wr_document_insert(document, index, layer);
+    if (good) document->active = index;
+    return good && settle(session, call, index, err);
 }
 
 static bool layer_delete(WrSession *session, WrCall *call, WrError *err)
@@ -665,6 +666,7 @@ static bool layer_rename(WrSession *session, WrCall *call, WrError *err)
     wr_session_rename_in_variants(session, index, name);
     wr_session_rename_in_masks(session, index, name);
     wr_session_rename_in_links(session, index, name);
+    wr_session_rename_in_lines(session, index, name);
     WrScene *scene = wr_scene_rename_layer(document->scene, layer->name, name);
     if (scene) wr_session_replace_scene(session, scene); /* objects still use it as their table */
     wr_free(layer->name);
@@ -677,9 +679,11 @@ static bool set_one(WrSession *session, WrCall *call, int index, WrError *err)
     if (wr_call_given(call, "collapsed") && !session->state.document->layers[index].is_group)
         return wr_fail(err, "layer %d is no group that could be collapsed", index + 1);
     const bool generates = wr_call_given(call, "change") || wr_call_given(call, "from");
-    if (generates && (!wr_session_check_unlocked(session, index, err) ||
-                      !wr_session_change_generator_layer(session, call, index,
-                                                         wr_call_arg(call, "change")->text, err)))
+    if (generates &&
+        (!wr_session_check_unlocked(session, index, err) ||
+         !wr_session_change_generator_layer(
+             session, call, index,
+             wr_call_given(call, "change") ? wr_call_arg(call, "change")->text : NULL, err)))
         return false;
     if (!settle(session, call, index, err)) return false;
     WrLayer *layer = &session->state.document->layers[index];

@@ -40,14 +40,6 @@ typedef struct MaskJob {
 
 /* ---- inputs ---- */
 
-/* The nearest layer of that name below layer `index`; -1: none. */
-static int find_below(const WrDocument *document, int index, const char *name)
-{
-    do index--;
-    while (index >= 0 && strcmp(document->layers[index].name, name) != 0);
-    return index;
-}
-
 static const char *named_layer(const WrCall *term)
 {
     for (int i = 0; i < term->count; i++)
@@ -66,7 +58,7 @@ static const WrField *heights_of(MaskJob *job, const WrCall *term)
 {
     const WrDocument *document = job->session->state.document;
     const char *name = named_layer(term);
-    if (name) return document->layers[find_below(document, job->index, name)].heights;
+    if (name) return document->layers[wr_document_find_below(document, job->index, name)].heights;
     if (!job->below)
         job->below = wr_document_below(document, job->index, job->session->options.pool);
     return job->below;
@@ -184,7 +176,8 @@ static WrField *by_mask(MaskJob *job, const WrCall *term, WrError *err)
 {
     (void)err;
     const WrDocument *document = job->session->state.document;
-    const WrLayer *layer = &document->layers[find_below(document, job->index, named_layer(term))];
+    const WrLayer *layer =
+        &document->layers[wr_document_find_below(document, job->index, named_layer(term))];
     const WrField *f = layer->heights;
     if (layer->mask) return wr_field_share(layer->mask);
     return wr_field_new(wr_field_width(f), wr_field_height(f), wr_field_wrap_u(f),
@@ -416,7 +409,7 @@ static bool name_layer(const WrSession *session, int index, WrCall *term, WrErro
         return wr_fail(err, "%s: layer 1 has no layers below that its mask could read",
                        term->form_name);
     if (!word) return true;
-    int found = find_below(document, index, word);
+    int found = wr_document_find_below(document, index, word);
     if (found < 0 && !wr_session_find_layer(session, word, &found, err)) return false;
     WrText name = { 0 };
     wr_session_layer_name(session, found, &name);
@@ -424,7 +417,7 @@ static bool name_layer(const WrSession *session, int index, WrCall *term, WrErro
     if (found >= index)
         good = wr_fail(err, "%s is not below layer %d: a live mask reads layers below its own",
                        wr_text_get(&name), index + 1);
-    else if (find_below(document, index, document->layers[found].name) != found)
+    else if (wr_document_find_below(document, index, document->layers[found].name) != found)
         good =
             wr_fail(err, "%s has the name of another layer: rename it first", wr_text_get(&name));
     else if (strcmp(term->form_name, "mask") != 0 && document->layers[found].filter.op)
@@ -458,7 +451,8 @@ static WrHash read_hash(MaskJob *job, const WrMaskTerms *terms, const char *line
         const WrCall *term = terms->calls[i];
         const WrField *f = NULL;
         if (strcmp(term->form_name, "mask") == 0)
-            f = document->layers[find_below(document, job->index, named_layer(term))].mask;
+            f = document->layers[wr_document_find_below(document, job->index, named_layer(term))]
+                    .mask;
         else if (takes_layer(term)) f = heights_of(job, term);
         if (f && f != same) field = wr_field_hash(f);
         if (f) {
@@ -594,7 +588,7 @@ static const char *lost_layer(const MaskJob *job, const WrMaskTerms *terms)
     const WrDocument *document = job->session->state.document;
     for (int i = 0; i < terms->count; i++) {
         const char *name = named_layer(terms->calls[i]);
-        if (name && find_below(document, job->index, name) < 0) return name;
+        if (name && wr_document_find_below(document, job->index, name) < 0) return name;
     }
     return NULL;
 }
@@ -631,7 +625,7 @@ void wr_session_needed_masks(const WrSession *session, bool needed[WR_LAYERS_MAX
         if (!needed[i] || !line || !wr_mask_terms_parse(line, &terms, NULL)) continue;
         for (int k = 0; k < terms.count; k++) {
             const char *name = named_layer(terms.calls[k]);
-            const int found = name ? find_below(document, i, name) : -1;
+            const int found = name ? wr_document_find_below(document, i, name) : -1;
             if (found >= 0) needed[found] = true;
         }
         wr_mask_terms_free(&terms);
@@ -683,7 +677,7 @@ char *wr_mask_line_renamed(const WrDocument *document, int of, const char *line,
     bool names = false;
     for (int k = 0; k < terms.count; k++) {
         const char *word = named_layer(terms.calls[k]);
-        if (!word || find_below(document, of, word) != index) continue;
+        if (!word || wr_document_find_below(document, of, word) != index) continue;
         wr_call_set_text(terms.calls[k], OF, name);
         names = true;
     }

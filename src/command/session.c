@@ -677,6 +677,7 @@ bool wr_session_run(WrSession *session, const char *line, WrError *err)
     if (!wr_session_refuse_in_stroke(session, err)) return false;
     if (!parse(session, line, &call, err)) return false;
     if (session->options.foretell && !session->opening) foretell(session, call);
+    wr_session_spell_change(session, call);
     bool good = wr_session_take_tiles(session, call, err) && run_call(session, call, err);
     if (!good && wr_progress_stopped())
         wr_fail(err, "cancelled"); /* the half-done state was restored

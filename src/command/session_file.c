@@ -12,6 +12,7 @@
 #include "document/ora.h"
 #include "image/gltf.h"
 #include "image/image.h"
+#include "image/svg.h"
 #include "scene/scene.h"
 #include "system/fd.h"
 #include "system/path.h"
@@ -433,10 +434,11 @@ static bool open_script(WrSession *session, const char *path, WrError *err)
     return good;
 }
 
-static bool open_picture(WrSession *session, const char *path, WrError *err)
+/* verb: of the command that reads it, with a space. */
+static bool open_picture(WrSession *session, const char *verb, const char *path, WrError *err)
 {
     WrText line = { 0 };
-    wr_text_add(&line, "image ");
+    wr_text_add(&line, verb);
     wr_text_add_word(&line, path);
     session->nameless = true; /* the user gave no command */
     bool good = wr_session_run(session, wr_text_get(&line), err);
@@ -479,7 +481,7 @@ bool wr_session_open(WrSession *session, const char *path, WrError *err)
     if (script) good = open_script(session, path, err);
     else if ((exr && wr_document_recognise(path)) || wr_ora_recognise(path))
         good = open_document(session, path, err);
-    else good = open_picture(session, path, err);
+    else good = open_picture(session, wr_svg_named(path) ? "open " : "image ", path, err);
     session->opening = false;
     if (good && wr_progress_stopped()) good = wr_fail(err, "%s: cancelled", path);
     if (good) wr_session_journal_drop(session);

@@ -173,14 +173,20 @@ bool wr_height_colormap_make(const WrSession *session, WrScene *object, WrError 
 bool wr_session_follow(WrSession *session, WrError *err);
 /* ---- generator layers: generator_layers.c ---- */
 
-/* Insert `layer` (new, empty; ownership passes) and generate it by the from= of `outer`; the selection becomes its mask.
-   blend= and radius= of that line become the layer's. */
-bool wr_session_add_generator_layer(WrSession *session, WrCall *outer, int index, WrLayer layer,
+/* Insert `layer` (new, empty; ownership passes) at *index and generate it by the from= of `outer`; the selection becomes its
+   mask, or of an edge of the selection a layer of opacity 0 below it, and *index is 1 more. blend= and radius= of that line become
+   the layer's. */
+bool wr_session_add_generator_layer(WrSession *session, WrCall *outer, int *index, WrLayer layer,
                                     WrError *err);
+/* Layer `index` is about to get another name: the lines above that name it get it too. */
+void wr_session_rename_in_lines(WrSession *session, int index, const char *name);
 /* Generate a generator layer by the from= of `outer` if given, or else by its own line, with the words of `change` (may be
    NULL) in place of the line's. */
 bool wr_session_change_generator_layer(WrSession *session, WrCall *outer, int index,
                                        const char *change, WrError *err);
+/* If a call is `layer set N change=` of a line that names a file, give it that line as from= instead: journals and scripts
+   then hold the file's absolute name and checksum. */
+void wr_session_spell_change(WrSession *session, WrCall *call);
 /* Generate a layer by its own line, after a change that its content depends on. */
 bool wr_session_generate_again(WrSession *session, int index, WrError *err);
 /* Give a generator layer another line, and generate it. A line that this program does not know is left out, with a
@@ -189,7 +195,7 @@ bool wr_session_use_line(WrSession *session, int index, const char *line, WrErro
 /* At the end of every command, from the bottom up: generate the layers whose lines read layers that have changed, and live
    masks; layers whose heights another command wrote become plain. */
 bool wr_session_follow_lines(WrSession *session, WrError *err);
-/* Note the layers whose lines, or terms of masks, this program does not know. */
+/* Note the layers whose files are missing, each file once, and those whose lines, or terms of masks, this program does not know. */
 void wr_session_note_lines(WrSession *session);
 
 /* ---- live masks: live_masks.c ---- */

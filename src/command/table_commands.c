@@ -3,12 +3,15 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
+#include "command/session_internal.h"
 #include "document/document.h"
 #include "document/document_file.h"
 #include "field/field.h"
 #include "generate/generator.h"
+#include "image/svg.h"
 #include "scene/scene.h"
 
 #include <math.h>
@@ -102,10 +105,42 @@ static bool run_grid(WrSession *session, WrCall *call, WrError *err)
 
 /* ---- open ---- */
 
+#define DRAWING_SIDE 1024 /* texels of the longer side of a drawing's page */
+
+/* An empty table with the proportions of the drawing's page, and the drawing as a generator layer. */
+static bool open_drawing(WrSession *session, const char *path, WrError *err)
+{
+    const WrSvgRequest ask = { .side = DRAWING_SIDE, .page = 1 };
+    const WrField *old = session->state.document->layers[0].heights;
+    const int wrap =
+        (wr_field_wrap_u(old) == WR_WRAP_CLAMP) | (wr_field_wrap_v(old) == WR_WRAP_CLAMP) << 1;
+    WrSvg page = { 0 };
+    WrText table = { 0 }, layer = { 0 }, from = { 0 };
+    if (!wr_svg_read(path, &ask, &page, err)) return false;
+    wr_text_addf(&table, "table %dx%d wrap=%s", page.box[0] < 1.0 ? 1 : (int)rint(page.box[0]),
+                 page.box[1] < 1.0 ? 1 : (int)rint(page.box[1]), wr_document_wrap_name(wrap));
+    wr_svg_fini(&page);
+    wr_text_add(&from, "picture svg ");
+    wr_text_add_word(&from, path);
+    wr_text_addf(&from, " box=page size=%d", DRAWING_SIDE);
+    wr_text_add(&layer, "layer add ");
+    wr_text_add_file_name(&layer, path);
+    wr_text_add(&layer, " from=");
+    wr_text_add_word(&layer, wr_text_get(&from));
+    const bool good = wr_session_run(session, wr_text_get(&table), err) &&
+                      wr_session_run(session, wr_text_get(&layer), err);
+    wr_text_fini(&table);
+    wr_text_fini(&layer);
+    wr_text_fini(&from);
+    return good;
+}
+
 static bool run_open(WrSession *session, WrCall *call, WrError *err)
 {
     char *path = wr_session_input_path(session, wr_call_arg(call, "FILE")->text);
-    bool good = wr_session_check_sha256(call, path, err) && wr_session_load(session, path, err);
+    bool good = wr_session_check_sha256(call, path, err) &&
+                (wr_svg_named(path) ? open_drawing(session, path, err)
+                                    : wr_session_load(session, path, err));
     wr_free(path);
     return good;
 }
@@ -339,7 +374,8 @@ static const WrArgSpec args_image[] = {
     { 0 }
 };
 
-static const WrArgSpec args_open[] = { { PLACE("FILE"), .type = WR_ARG_PATH, .help = "a document" },
+static const WrArgSpec args_open[] = { { PLACE("FILE"), .type = WR_ARG_PATH,
+                                         .help = "a document, or an SVG file" },
                                        { .name = "sha256",
                                          .type = WR_ARG_SHA256,
                                          .help = "of the file: another content is then an error" },
@@ -378,14 +414,18 @@ const WrCommand wr_command_grid = {
     .example = "grid cells=4x4 width=6 high=0.5"
 };
 
-const WrCommand wr_command_open = { .name = "open",
-                                    .kind = WR_CLASS_EDIT,
-                                    .args = args_open,
-                                    .run = run_open,
-                                    .help = "take a document's layers, selection and scene",
-                                    .details =
-                                        "In a script the file is looked up beside the script.",
-                                    .example = "open bricks.exr" };
+const WrCommand wr_command_open = {
+    .name = "open",
+    .kind = WR_CLASS_EDIT,
+    .args = args_open,
+    .run = run_open,
+    .help = "take a document's layers, selection and scene",
+    .details = "Of an SVG file: a table with the proportions of its page, 1024 "
+               "texels on the longer side, and the drawing as a generator "
+               "layer; the scene stays. In a script the file is looked up "
+               "beside the script.",
+    .example = "open bricks.exr"
+};
 
 const WrCommand wr_command_image = {
     .name = "image",

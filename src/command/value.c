@@ -376,6 +376,16 @@ void wr_text_add_word(WrText *text, const char *word)
     wr_text_add(text, "\"");
 }
 
+void wr_text_add_file_name(WrText *text, const char *path)
+{
+    char excerpt[WR_EXCERPT_SIZE];
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    char *stem = wr_strndup(name, dot && dot > name ? (size_t)(dot - name) : strlen(name));
+    wr_text_add_word(text, wr_excerpt(stem, excerpt));
+    wr_free(stem);
+}
+
 void wr_arg_print(const WrArgSpec *spec, const WrArg *arg, WrText *text)
 {
     if (spec->type == WR_ARG_CHOICE) {

@@ -238,6 +238,13 @@ static bool is_visible_up_to(const WrDocument *document, int index, int top)
     return true;
 }
 
+int wr_document_find_below(const WrDocument *document, int index, const char *name)
+{
+    do index--;
+    while (index >= 0 && strcmp(document->layers[index].name, name) != 0);
+    return index;
+}
+
 bool wr_document_shows(const WrDocument *document, int index)
 {
     const int solo = document->solo;

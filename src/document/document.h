@@ -141,6 +141,8 @@ bool wr_document_generates(const WrDocument *document);
 /* True if the layer is shown: it and all groups that it is in are visible, and no other layer is solo. A solo group shows its
    visible members. */
 bool wr_document_shows(const WrDocument *document, int index);
+/* The nearest layer of that name below layer `index`; -1: none. */
+int wr_document_find_below(const WrDocument *document, int index, const char *name);
 /* True if the layer has heights of its own: it is neither a filter nor a group. */
 bool wr_layer_holds(const WrLayer *layer);
 

@@ -249,3 +249,10 @@ WrOrigin wr_origin(int size, double origin)
     double moved = (origin - floor(origin)) * size, whole = floor(moved + 0.5);
     return (WrOrigin){ .size = size, .shift = (int)whole % size, .rest = moved - whole };
 }
+
+bool wr_generate_layer(const WrGenerateJob *job, const char *name, const WrField **heights,
+                       const WrField **cover, WrError *err)
+{
+    if (job->layer) return job->layer(job->layer_ctx, name, heights, cover, err);
+    return wr_fail(err, "layer=%s: there are no layers here", name);
+}

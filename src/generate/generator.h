@@ -57,11 +57,15 @@ typedef struct WrParam {
     double soft_low, soft_high; /* slider range */
     bool above;                 /* `low` itself is excluded */
     bool positional;            /* in commands by position, not by name */
-    int components;             /* tuples, terms */
-    int fewest;                 /* terms: number of required components; the others default to 0 */
-    const WrParamPart *parts;   /* terms: [components] */
-    const char *shape;          /* tuples, terms: syntax for help: "i,j,a;..."; may be NULL */
-    const char *const *words;   /* choices; ends with NULL */
+    bool
+        path; /* text: SVG path data, sized and placed by `size`, `at` and `rotate` like `picture path`; the
+                  window shows its points on the canvas */
+    bool layer;               /* text: name of a layer below (WrGenerateJob.layer); "": none */
+    int components;           /* tuples, terms */
+    int fewest;               /* terms: number of required components; the others default to 0 */
+    const WrParamPart *parts; /* terms: [components] */
+    const char *shape;        /* tuples, terms: syntax for help: "i,j,a;..."; may be NULL */
+    const char *const *words; /* choices; ends with NULL */
 } WrParam;
 
 typedef struct WrParamValue {
@@ -95,6 +99,11 @@ typedef struct WrGenerateJob {
        path of its word's file. False, with an error: the choice must not be used. NULL: no callback */
     bool (*chose)(void *ctx, const char *param, const char *value, WrError *err);
     void *chose_ctx;
+    /* Finds the layer below of that name: its heights, and coverage (NULL: 1 everywhere), borrowed until the generator
+       returns. False, with an error: there is none. NULL: there are no layers */
+    bool (*layer)(void *ctx, const char *name, const WrField **heights, const WrField **cover,
+                  WrError *err);
+    void *layer_ctx;
 } WrGenerateJob;
 
 typedef struct WrGenerator {
@@ -134,6 +143,16 @@ extern const WrGenerator wr_patterns[], wr_noise_rows[], wr_text_rows[], wr_soli
     X(WR_LAYOUT_GRID, "grid") X(WR_LAYOUT_HEXAGON, "hexagon") X(WR_LAYOUT_CHANCE, "chance")
 enum { WR_LAYOUTS(WR_WORD_ID) };
 
+/* Values of the parameter `of` of edges. */
+#define WR_RIM_SOURCES(X)                                                                          \
+    X(WR_RIM_AUTO, "auto")                                                                         \
+    X(WR_RIM_SELECTION, "selection") X(WR_RIM_MASK, "mask") X(WR_RIM_HEIGHTS, "heights")
+enum { WR_RIM_SOURCES(WR_WORD_ID) };
+
+/* The layer that a text with the flag `layer` names. */
+bool wr_generate_layer(const WrGenerateJob *job, const char *name, const WrField **heights,
+                       const WrField **cover, WrError *err);
+
 const WrFamily *wr_family_find(const char *name);
 const WrGenerator *wr_generator_find(const char *family,
                                      const char *name); /* NULL if there is none */
@@ -159,6 +178,11 @@ bool wr_generator_make(const WrGenerator *generator, const WrParamValue *values,
         .name = (n), .label = (l), .help = (h), .unit = (u), .kind = WR_PARAM_NUMBER,              \
         .fallback = { value }, .low = (lowest), .above = true, .high = (highest),                  \
         .soft_low = (lowest), .soft_high = (soft)                                                  \
+    }
+#define WR_P_LAYER(h)                                                                              \
+    {                                                                                              \
+        .name = "layer", .label = "Layer", .help = (h), .unit = "", .kind = WR_PARAM_TEXT,         \
+        .fallback_text = "", .layer = true                                                         \
     }
 #define WR_P_WHOLE(n, l, value, lowest, highest, soft, h)                                          \
     {                                                                                              \

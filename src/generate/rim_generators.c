@@ -20,17 +20,15 @@
 enum { KINDS(WR_WORD_ID) };
 static const char *const kinds[] = { KINDS(WR_WORD) NULL };
 
-#define SOURCES(X)                                                                                 \
-    X(OF_AUTO, "auto") X(OF_SELECTION, "selection") X(OF_MASK, "mask") X(OF_HEIGHTS, "heights")
-enum { SOURCES(WR_WORD_ID) };
-static const char *const sources[] = { SOURCES(WR_WORD) NULL };
+static const char *const sources[] = { WR_RIM_SOURCES(WR_WORD) NULL };
 
 static const WrParam params[] = {
     WR_P_CHOICE("kind", "Kind", RIM_BEVEL, kinds,
                 "bevel: a slope, then level; round: a quarter circle, then level; ridge: up to the "
                 "middle; outline: a cord along the edge; emboss: a soft step across it"),
-    WR_P_CHOICE("of", "Of", OF_AUTO, sources,
+    WR_P_CHOICE("of", "Of", WR_RIM_AUTO, sources,
                 "shape whose edge is used; auto: the selection, or without one the heights"),
+    WR_P_LAYER("a layer below whose outline is used, instead of of="),
     WR_P_ABOVE("width", "Width", 12, 0, 4096, 64, "texels",
                "of the slope, of the cord, of half the step; of a ridge the way up to the height"),
     WR_P_HEIGHT,
@@ -192,15 +190,26 @@ static WrField *above(const WrField *heights, double level, const WrGenerateJob 
     return wr_op_run(wr_op_find("add"), heights, amount, &options, err);
 }
 
+/* The coverage of a layer, or without one the area above the level. */
+static WrField *shape_of_layer(const WrParams *p, const WrGenerateJob *job, WrError *err)
+{
+    const WrField *heights, *cover;
+    if (!wr_generate_layer(job, wr_param_value(p, "layer")->text, &heights, &cover, err))
+        return NULL;
+    return cover ? wr_field_share(cover) : above(heights, wr_param_number(p, "level"), job, err);
+}
+
 static WrField *shape_of(const WrParams *p, const WrGenerateJob *job, WrError *err)
 {
+    const char *layer = wr_param_value(p, "layer")->text;
+    if (layer && *layer) return shape_of_layer(p, job, err);
     int of = wr_param_whole(p, "of");
-    if (of == OF_AUTO) of = job->selection ? OF_SELECTION : OF_HEIGHTS;
-    const WrField *field = of == OF_SELECTION ? job->selection : job->mask;
-    if (of == OF_HEIGHTS) return above(job->like, wr_param_number(p, "level"), job, err);
+    if (of == WR_RIM_AUTO) of = job->selection ? WR_RIM_SELECTION : WR_RIM_HEIGHTS;
+    const WrField *field = of == WR_RIM_SELECTION ? job->selection : job->mask;
+    if (of == WR_RIM_HEIGHTS) return above(job->like, wr_param_number(p, "level"), job, err);
     if (field) return wr_field_share(field);
-    wr_fail(err,
-            of == OF_MASK ? "of=mask: the layer has none" : "of=selection: nothing is selected");
+    wr_fail(err, of == WR_RIM_MASK ? "of=mask: the layer has none"
+                                   : "of=selection: nothing is selected");
     return NULL;
 }
 

@@ -5,15 +5,18 @@
 #include "base/text.h"
 #include "field/field.h"
 #include "generate/generator.h"
+#include "generate/sheet.h"
 #include "generate/solid_places.h"
 #include "generate/text_relief.h"
 #include "generate/tile_builder.h"
 #include "generate/zbuffer.h"
 #include "image/font.h"
+#include "image/image.h"
 #include "image/mesh.h"
 #include "surface/data.h"
 #include "surface/surface.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
@@ -296,6 +299,186 @@ static bool solid_mesh(const WrParamValue *values, const WrGenerateJob *job, WrR
     return good;
 }
 
+/* A mesh being made; owned. */
+typedef struct Net {
+    double (*points)[3];
+    int32_t (*corners)[3];
+    int64_t point_count, count;
+} Net;
+
+/* ---- reliefs ---- */
+
+/* Heights of a picture or of a layer as a piece: a mesh with a point for each of its samples. */
+
+static const WrParam relief_params[] = {
+    { .name = "file",
+      .label = "File",
+      .help = "a picture: black is the ground, white the highest; its alpha counts; none: a pebble",
+      .unit = "",
+      .kind = WR_PARAM_FILE,
+      .fallback_text = "",
+      .positional = true },
+    WR_P_LAYER("instead of a file a layer below: the box of its content"),
+    WR_S_RADIUS("size", "Size", 64, "of the longest side of its box, before it is turned"),
+    WR_S_RADIUS("depth", "Depth", 16, "of its highest place over its ground, before it is turned"),
+    WR_S_POSE,
+    WR_S_HEIGHT("of its highest place over its lowest, as it is turned"),
+    WR_S_PLACE,
+    WR_P_END,
+};
+
+static bool read_picture(const char *file, const WrGenerateJob *job, WrSheet *sheet, WrError *err)
+{
+    static const WrWrap clamped[] = { WR_WRAP_CLAMP, WR_WRAP_CLAMP };
+    WrImage *image = wr_image_read(file, err);
+    if (!image) return false;
+    const int n = image->channels;
+    const bool good = wr_sheet_init(sheet, image->width, image->height, clamped, err);
+    if (image->note[0]) wr_generate_note(job, "%s: %s", file, image->note);
+    for (size_t k = 0; good && k < (size_t)image->width * (size_t)image->height; k++) {
+        const float *pixel = image->data + k * (size_t)n;
+        sheet->z[k] = (double)wr_image_luma(pixel, n) * (n % 2 ? 1.0 : (double)pixel[n - 1]);
+    }
+    wr_image_free(image);
+    return good;
+}
+
+#define PEBBLE 65 /* samples along a side */
+
+/* The upper half of a ball: a piece to begin with. */
+static bool make_pebble(WrSheet *sheet, WrError *err)
+{
+    static const WrWrap clamped[] = { WR_WRAP_CLAMP, WR_WRAP_CLAMP };
+    if (!wr_sheet_init(sheet, PEBBLE, PEBBLE, clamped, err)) return false;
+    for (int k = 0; k < PEBBLE * PEBBLE; k++) {
+        const double x = (k % PEBBLE + 0.5) * 2.0 / PEBBLE - 1.0;
+        const double y = (k / PEBBLE + 0.5) * 2.0 / PEBBLE - 1.0, rest = 1.0 - x * x - y * y;
+        sheet->z[k] = rest > 0.0 ? sqrt(rest) : 0.0;
+    }
+    return true;
+}
+
+/* Cut out the part with heights. False: nothing is above 0. */
+static bool cut_content(const WrSheet *whole, WrSheet *sheet, WrError *err)
+{
+    int low[2] = { whole->width, whole->height }, high[2] = { -1, -1 };
+    for (int j = 0; j < whole->height; j++)
+        for (int i = 0; i < whole->width; i++) {
+            if (!(whole->z[(size_t)j * (size_t)whole->width + (size_t)i] > 0.0)) continue;
+            low[0] = i < low[0] ? i : low[0];
+            high[0] = i > high[0] ? i : high[0];
+            low[1] = j < low[1] ? j : low[1];
+            high[1] = j;
+        }
+    if (high[0] < 0) return wr_fail(err, "nothing of it is above 0");
+    if (!wr_sheet_init(sheet, high[0] - low[0] + 1, high[1] - low[1] + 1, whole->wrap, err))
+        return false;
+    for (int j = 0; j < sheet->height; j++)
+        memcpy(sheet->z + (size_t)j * (size_t)sheet->width,
+               whole->z + (size_t)(low[1] + j) * (size_t)whole->width + low[0],
+               (size_t)sheet->width * sizeof *sheet->z);
+    return true;
+}
+
+static bool read_layer(const char *name, const WrGenerateJob *job, WrSheet *sheet, WrError *err)
+{
+    const WrField *heights, *cover;
+    WrSheet whole = { .z = NULL }, weight = { .z = NULL };
+    if (!wr_generate_layer(job, name, &heights, &cover, err)) return false;
+    bool good =
+        wr_sheet_read(&whole, heights, err) && (!cover || wr_sheet_read(&weight, cover, err));
+    const size_t count = (size_t)whole.width * (size_t)whole.height;
+    for (size_t k = 0; good && cover && k < count; k++) whole.z[k] *= weight.z[k];
+    if (good) whole.wrap[0] = whole.wrap[1] = WR_WRAP_CLAMP;
+    good = good && cut_content(&whole, sheet, err);
+    if (!good) wr_error_prefix(err, "layer=%s: ", name);
+    wr_sheet_fini(&whole);
+    wr_sheet_fini(&weight);
+    return good;
+}
+
+/* A sample a texel at most, and so few that all copies have room. */
+static bool thin_out(WrSheet *sheet, double size, int64_t copies, const WrGenerateJob *job,
+                     WrError *err)
+{
+    const double longest = sheet->width > sheet->height ? sheet->width : sheet->height;
+    const double room = sqrt(TRIANGLES_MAX / (2.0 * (double)copies));
+    const double most = fmin(fmin(ceil(job->coarse ? 0.5 * size : size), room), longest);
+    if (most >= longest) return true;
+    const int width = (int)rint(sheet->width * most / longest);
+    const int height = (int)rint(sheet->height * most / longest);
+    return wr_sheet_resize(sheet, width > 1 ? width : 1, height > 1 ? height : 1, job, err);
+}
+
+/* Points at the samples' middles, and a rim of points on the ground around them, one sample away. Sides of cells that lie on the
+   ground alone are left out. */
+static bool net_of(const WrSheet *sheet, double size, double depth, Net *net, WrError *err)
+{
+    const int across = sheet->width + 2, down = sheet->height + 2;
+    const double step = size / (sheet->width > sheet->height ? sheet->width : sheet->height);
+    double low, high;
+    wr_sheet_range(sheet, &low, &high);
+    if (!(high > 0.0)) return wr_fail(err, "nothing of it is above 0");
+    net->points = wr_try_alloc((size_t)across * (size_t)down, sizeof *net->points, "points", err);
+    net->corners = net->points ? wr_try_alloc(2 * (size_t)across * (size_t)down,
+                                              sizeof *net->corners, "triangles", err)
+                               : NULL;
+    for (int j = 0; net->corners && j < down; j++)
+        for (int i = 0; i < across; i++) {
+            double *p = net->points[net->point_count++];
+            const bool inside = i > 0 && j > 0 && i + 1 < across && j + 1 < down;
+            const double z =
+                inside ? sheet->z[(size_t)(j - 1) * (size_t)sheet->width + (size_t)(i - 1)] : 0.0;
+            p[0] = (i - 0.5 * (across - 1)) * step;
+            p[1] = (0.5 * (down - 1) - j) * step;
+            p[2] = z > 0.0 ? z / high * depth : 0.0;
+        }
+    for (int j = 0; net->corners && j + 1 < down; j++)
+        for (int i = 0; i + 1 < across; i++) {
+            const int32_t a = j * across + i, b = a + 1, c = a + across, d = c + 1;
+            const int32_t two[2][3] = { { a, c, d }, { a, d, b } };
+            for (int t = 0; t < 2; t++) {
+                double most = 0.0;
+                for (int k = 0; k < 3; k++) most = fmax(most, net->points[two[t][k]][2]);
+                if (most > 0.0) memcpy(net->corners[net->count++], two[t], sizeof two[t]);
+            }
+        }
+    return net->corners != NULL;
+}
+
+static bool make_relief(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
+                        WrError *err)
+{
+    const WrParams params = { relief_params, values };
+    const char *file = wr_param_value(&params, "file")->text;
+    const char *layer = wr_param_value(&params, "layer")->text;
+    const double size = wr_param_number(&params, "size");
+    const bool has_file = file && *file, has_layer = layer && *layer;
+    WrSheet sheet = { .z = NULL };
+    WrSolidPlace *places = NULL;
+    Net made = { 0 };
+    int64_t copies;
+    if (has_file && has_layer)
+        return wr_fail(err, "solid relief: give a picture file or layer=, not both");
+    bool good = (has_file    ? read_picture(file, job, &sheet, err)
+                 : has_layer ? read_layer(layer, job, &sheet, err)
+                             : make_pebble(&sheet, err)) &&
+                wr_solid_places(&params, job, &places, &copies, err);
+    wr_free(places);
+    good = good && thin_out(&sheet, size, copies, job, err) &&
+           net_of(&sheet, size, wr_param_number(&params, "depth"), &made, err);
+    if (!good && has_file && !strstr(err->text, file)) wr_error_prefix(err, "%s: ", file);
+    const WrSolidNet net = { .points = (const double(*)[3])made.points,
+                             .corners = (const int32_t(*)[3])made.corners,
+                             .point_count = made.point_count,
+                             .count = made.count };
+    good = good && solid_draw_net(&params, &net, job, out, err);
+    wr_sheet_fini(&sheet);
+    wr_free(made.points);
+    wr_free(made.corners);
+    return good;
+}
+
 /* ---- surfaces ---- */
 
 /* The parametric surfaces as triangle meshes, seen from above. */
@@ -470,12 +653,6 @@ static void choose_cells(const Measure *m, double error, int faces, int cells[2]
     cells[0] = (int)ceil(u);
     cells[1] = (int)ceil(v);
 }
-
-typedef struct Net {
-    double (*points)[3];
-    int32_t (*corners)[3];
-    int64_t point_count, count;
-} Net;
 
 /* Points row by row, (cells[0] + 1) x (cells[1] + 1) per face; faces do not share points, since the Z-buffer needs no
    connectivity. */
@@ -789,6 +966,8 @@ const WrGenerator wr_solids[] = {
     ROW("capsule", "Capsule", "a rod with round ends", capsule_params, make_capsule),
     ROW("mesh", "Mesh file", "triangles of a file: OBJ, PLY, STL, glTF, 3MF and others",
         wr_params_solid_mesh, solid_mesh),
+    ROW("relief", "Relief", "a picture's or a layer's heights as a piece, for scattering",
+        relief_params, make_relief),
     ROW("letters", "Letters", "letters of any font cut out of a plate, in any pose",
         wr_params_solid_letters, solid_letters),
     ROW("surface", "Surface", "any of the surfaces that can be shown, seen from above",

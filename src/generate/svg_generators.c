@@ -68,7 +68,8 @@ const WrParam wr_params_path[] = {
       .kind = WR_PARAM_TEXT,
       /* a star of five points */
       .fallback_text = "M0,-50 L12,-15 48,-15 19,6 29,40 0,20 -29,40 -19,6 -48,-15 -12,-15 Z",
-      .positional = true },
+      .positional = true,
+      .path = true },
     WR_P_DRAWING
 };
 
@@ -178,11 +179,10 @@ bool wr_picture_svg(const WrParamValue *values, const WrGenerateJob *job, WrReli
 bool wr_picture_path(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                      WrError *err)
 {
-    static const char letters[] = "MmZzLlHhVvCcSsQqTtAaEe0123456789+-., \t\n";
     const WrParams p = { wr_params_path, values };
     const char *path = wr_param_value(&p, "path")->text;
     const WrSvgRequest ask = { .side = side_of(wr_param_number(&p, "size"), job->coarse) };
-    const size_t length = strspn(path, letters);
+    const size_t length = wr_svg_path_span(path);
     if (path[length])
         return wr_fail(err, "path: \"%.20s\": must be commands and numbers of an SVG path",
                        path + length);

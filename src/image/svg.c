@@ -69,6 +69,89 @@ bool wr_svg_read(const char *path, const WrSvgRequest *ask, WrSvg *out, WrError 
     return good;
 }
 
+/* ---- recognition ---- */
+
+bool wr_svg_named(const char *path)
+{
+    char buffer[16];
+    const char *ending = wr_path_ending(path, buffer);
+    return strcmp(ending, "svg") == 0 || strcmp(ending, "svgz") == 0;
+}
+
+static const char *skip_blanks(const char *text)
+{
+    return text + strspn(text, " \t\r\n");
+}
+
+bool wr_svg_is_text(const char *text)
+{
+    if (strncmp(text, "\xEF\xBB\xBF", 3) == 0) text += 3; /* byte order mark */
+    text = skip_blanks(text);
+    if (strncmp(text, "<svg", 4) == 0) return true;
+    return (strncmp(text, "<?xml", 5) == 0 || strncmp(text, "<!", 2) == 0) && strstr(text, "<svg");
+}
+
+size_t wr_svg_path_span(const char *text)
+{
+    return strspn(text, "MmZzLlHhVvCcSsQqTtAaEe0123456789+-., \t\r\n");
+}
+
+/* M and a number, then only letters of path data. */
+static bool is_path_data(const char *text)
+{
+    const char *first = skip_blanks(text);
+    if (*first != 'M' && *first != 'm') return false;
+    first = skip_blanks(first + 1);
+    return *first && strchr("0123456789+-.", *first) && !text[wr_svg_path_span(text)];
+}
+
+/* Value of a tag's attribute: its first letter and its length; NULL: the tag has none. end: of the tag. */
+static const char *attribute(const char *tag, const char *end, const char *name, size_t *length)
+{
+    const size_t count = strlen(name);
+    for (const char *at = tag; (at = strstr(at, name)) && at < end; at += count) {
+        const char quote = at[count] == '=' ? at[count + 1] : '\0';
+        if (!strchr(" \t\r\n", at[-1]) || (quote != '"' && quote != '\'')) continue;
+        const char *from = at + count + 2, *to = strchr(from, quote);
+        *length = to ? (size_t)(to - from) : 0;
+        return to && to < end ? from : NULL;
+    }
+    return NULL;
+}
+
+static bool is_none(const char *tag, const char *end)
+{
+    size_t length;
+    const char *fill = attribute(tag, end, "fill", &length);
+    return fill && length == 4 && strncmp(fill, "none", 4) == 0;
+}
+
+char *wr_svg_one_path(const char *text)
+{
+    /* anything that draws something else, or draws the path in another way */
+    static const char *const others[] = {
+        "<rect",  "<circle",  "<ellipse", "<line",     "<poly",   "<use",      "<image",
+        "<text",  "<style",   "<g",       "<a",        "<switch", "<symbol",   "<clip",
+        "<mask",  "<!ENTITY", "<svg:",    "style=",    "class=",  "transform", "fill-rule",
+        "stroke", "display",  "opacity",  "visibility"
+    };
+    if (is_path_data(text)) return wr_strdup(text);
+    const char *root = wr_svg_is_text(text) ? strstr(text, "<svg") : NULL;
+    const char *tag = root ? strstr(root, "<path") : NULL;
+    if (!tag || strstr(tag + 1, "<path") || strstr(root + 1, "<svg")) return NULL;
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (strstr(text, others[i])) return NULL;
+    const char *root_end = strchr(root, '>'), *end = strchr(tag, '>');
+    size_t length, unused;
+    const char *d = end ? attribute(tag, end, "d", &length) : NULL;
+    const bool own = d && attribute(tag, end, "fill", &unused);
+    if (!d || is_none(own ? tag : root, own ? end : root_end)) return NULL;
+    char *path = wr_strndup(d, length);
+    if (is_path_data(path)) return path;
+    wr_free(path);
+    return NULL;
+}
+
 void wr_svg_fini(WrSvg *svg)
 {
     wr_free(svg->block);

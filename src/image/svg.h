@@ -44,6 +44,17 @@ bool wr_svg_read_bytes(const char *name, const void *bytes, size_t length, const
                        WrSvg *out, WrError *err);
 void wr_svg_fini(WrSvg *svg);
 
+/* ---- recognition; nothing is decoded ---- */
+
+bool wr_svg_named(const char *path); /* the file's name ends in .svg or .svgz */
+/* The text begins like an SVG file. */
+bool wr_svg_is_text(const char *text);
+/* The d= of an SVG text that draws one filled path and nothing else, unchanged by any other attribute, or of a
+ * text that is such path data itself. The caller frees it (wr_free); NULL: it draws more. */
+char *wr_svg_one_path(const char *text);
+/* Length of the longest beginning that consists of letters of path data. */
+size_t wr_svg_path_span(const char *text);
+
 /* ---- in the process that reads the file ---- */
 
 /* Header of a serialised raster; its rows follow. */

@@ -521,6 +521,45 @@ static void the_file_of_a_generator_layer_comes_back(void **state)
     }
 }
 
+/* So is a file that a changed value names, relative to the folder of that time; and the layer's own file at any change. */
+static void the_file_of_a_changed_value_comes_back(void **state)
+{
+    (void)state;
+    for (int changed = 0; changed < 4; changed++) {
+        WrRecovered how;
+        WrText line = { 0 };
+        char *path = in(folder, "relief.png"), *other = in(folder, "other relief.png");
+        write_picture(path, 37);
+        write_picture(other, 53);
+        WrSession *session = new_session(true);
+        run(session, "table 41x29");
+        wr_text_addf(&line, "layer add from=\"picture paste %s\"", path);
+        run(session, wr_text_get(&line));
+        wr_text_clear(&line);
+        wr_text_addf(&line, "layer set 2 change=\"\\\"%s\\\" size=13.7 blend=add\" opacity=0.5",
+                     other);
+        run(session, wr_text_get(&line));
+        assert_non_null(strstr(wr_session_last_command(session), "sha256="));
+        run(session, "layer set 2 change=\"height=0.61\"");
+        const WrHash want = wr_field_hash(wr_document_field(wr_session_document(session)));
+        leave(session);
+        if (changed & 1) write_picture(other, 41);
+        if (changed & 2) remove(path);
+        char *journal = only_journal();
+        session = recover(journal, false, &how);
+        const WrDocument *document = wr_session_document(session);
+        assert_true(wr_hash_equal(wr_field_hash(wr_document_field(document)), want));
+        assert_non_null(document->layers[1].line);
+        assert_int_equal(document->layers[1].blend, WR_BLEND_ADD);
+        wr_recovered_fini(&how);
+        wr_session_free(session);
+        wr_text_fini(&line);
+        wr_free(journal);
+        wr_free(path);
+        wr_free(other);
+    }
+}
+
 /* The journal has a copy of the file. If that is missing too, the changed file is not used, and the journal stays. */
 static void what_a_journal_began_with_comes_back_or_nothing_does(void **state)
 {
@@ -824,6 +863,7 @@ int main(void)
         PLACED(a_kill_between_a_save_and_its_record_leaves_the_journal_as_it_was),
         PLACED(an_opened_document_comes_back_with_each_step_once),
         PLACED(the_file_of_a_generator_layer_comes_back),
+        PLACED(the_file_of_a_changed_value_comes_back),
         PLACED(what_a_journal_began_with_comes_back_or_nothing_does),
         PLACED(another_document_has_another_journal),
         PLACED(a_file_that_changed_before_the_first_step_is_no_beginning),

@@ -319,6 +319,18 @@ for kind in tiff:tif bmp:bmp jpeg:jpg; do
     key ctrl+v
     becomes "layer paste *clipboard/copy-*.${kind#*:} at=*" "a picture offered as ${kind%:*} is pasted"
 done
+# drawings: of another program, as a text of one path, as a file's name
+drawing='<svg xmlns="http://www.w3.org/2000/svg" width="9" height="5"><rect width="3" height="2"/></svg>'
+printf '%s' "$drawing" | xclip -selection clipboard -t image/svg+xml
+key ctrl+v
+becomes 'layer add "Vector drawing" from="picture svg *clipboard/drawing-*.svg*' "a drawing of another program is pasted"
+printf '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0,0 5,1 2,7Z"/></svg>' | xclip -selection clipboard
+key ctrl+v
+becomes 'layer add "Vector drawing" from="picture path*M0,0 5,1 2,7Z*' "one path is kept in its layer's line"
+printf '%s' "$drawing" >'a logo.svg'
+printf 'file://%s/a%%20logo.svg\r\n' "$PWD" | xclip -selection clipboard -t text/uri-list
+key ctrl+v
+becomes 'layer add "a logo" from="picture svg *a logo.svg*' "a copied file is pasted"
 xdotool key ctrl+q
 settle
 xdotool key d

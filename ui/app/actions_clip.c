@@ -3,15 +3,18 @@
 #include "ui/canvas/view.h"
 #include "ui/app/state/background_command.h"
 #include "ui/app/state/app_state.h"
+#include "ui/app/state/drawing.h"
 #include "ui/app/state/line.h"
 #include "ui/app/state/messages.h"
 #include "ui/app/state/session_view.h"
 #include "ui/panels/generate/generate_state.h"
 #include "ui/input/clip.h"
+#include "ui/toolkit/words.h"
 
 #include "base/array.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/hash.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "command/command_line.h"
@@ -21,6 +24,7 @@
 #include "field/select.h"
 #include "generate/generator.h"
 #include "image/image.h"
+#include "image/svg.h"
 #include "system/clock.h"
 #include "system/path.h"
 
@@ -163,39 +167,96 @@ void wr_act_cut(WrApp *app)
 
 /* ---- paste ---- */
 
-/* Write the system clipboard's content to a file: a picture of another program, or use the path it contains. *none: it
-   holds nothing that can be pasted. */
-static bool find_picture(WrText *path, bool *none, WrError *err)
+/* Content of the clipboard: the path of a file, or path data of a drawing. Zeroed is empty. */
+typedef struct Clip {
+    WrText path;
+    char *data;       /* owned; NULL: a file */
+    const char *name; /* of a drawing without a file: of its layer; NULL: the file's name */
+} Clip;
+
+/* A drawing without a file: one path is kept in the layer's line; any other drawing becomes a file named by its content,
+   which is never removed, since layers keep its name. */
+static bool take_drawing(Clip *clip, const char *bytes, size_t length, WrError *err)
+{
+    char hex[65], *text = wr_strndup(bytes, length);
+    clip->name = wr_words("Vector drawing");
+    clip->data = wr_svg_one_path(text);
+    wr_free(text);
+    if (clip->data && strlen(clip->data) < WR_GENERATE_TEXT) return true;
+    wr_free(clip->data);
+    clip->data = NULL;
+    if (!clip_folder(&clip->path, err)) return false;
+    wr_sha256_bytes(bytes, length, hex);
+    wr_text_addf(&clip->path, "/drawing-%.16s.svg", hex);
+    return wr_path_is_file(wr_text_get(&clip->path)) ||
+           wr_file_write(wr_text_get(&clip->path), bytes, length, err);
+}
+
+/* The first line's path, as file managers copy it: "/a b" or "file:///a%20b". False: it names no file. */
+static bool take_path(Clip *clip, const char *text, size_t length)
+{
+    static const char scheme[] = "file://";
+    const char *end = memchr(text, '\n', length);
+    if (end) length = (size_t)(end - text);
+    while (length > 0 && text[length - 1] == '\r') length--;
+    const bool coded = length > 7 && strncmp(text, scheme, 7) == 0;
+    for (size_t i = coded ? 7 : 0; i < length; i++) {
+        char hex[3] = { 0 }, *last = hex;
+        if (coded && text[i] == '%' && i + 2 < length) memcpy(hex, text + i + 1, 2);
+        const char byte = (char)strtol(hex, &last, 16);
+        const bool code = last == hex + 2;
+        wr_text_add_n(&clip->path, code ? &byte : text + i, 1);
+        if (code) i += 2;
+    }
+    const char *path = wr_text_get(&clip->path);
+    if (path[0] == '/' && wr_path_is_file(path)) return true;
+    wr_text_fini(&clip->path);
+    return false;
+}
+
+static bool take_bytes(Clip *clip, const char *bytes, size_t length, const char *ending,
+                       WrError *err)
+{
+    if (strcmp(ending, "svg") == 0) return take_drawing(clip, bytes, length, err);
+    if (strcmp(ending, "uri") == 0)
+        return take_path(clip, bytes, length) ||
+               wr_fail(err, "the file on the clipboard is not here");
+    return new_path(&clip->path, "", ending, err) &&
+           wr_file_write(wr_text_get(&clip->path), bytes, length, err);
+}
+
+/* Take the system clipboard's content: a picture or a drawing of another program, which is written to a file, or a file's
+   name. *none: it holds nothing that can be pasted. */
+static bool find_picture(Clip *clip, bool *none, WrError *err)
 {
     char *bytes = NULL, *text;
     *none = false;
     const char *ending;
     size_t length;
     if (wr_clip_picture(&bytes, &length, &ending)) {
-        bool good =
-            new_path(path, "", ending, err) && wr_file_write(wr_text_get(path), bytes, length, err);
+        bool good = take_bytes(clip, bytes, length, ending, err);
         wr_free(bytes);
         return good;
     }
     text = SDL_GetClipboardText();
-    bool is_path = text && text[0] == '/' && !strchr(text, '\n') && wr_path_is_file(text);
-    if (is_path) wr_text_add(path, text);
+    length = text ? strlen(text) : 0;
+    char *path = text ? wr_svg_one_path(text) : NULL;
+    bool good = true;
+    if (path || (text && wr_svg_is_text(text))) good = take_drawing(clip, text, length, err);
+    else *none = !text || !take_path(clip, text, length);
+    wr_free(path);
     SDL_free(text);
-    *none = !is_path;
-    return is_path || wr_fail(err, "the clipboard holds neither heights nor a picture");
+    if (*none) return wr_fail(err, "the clipboard holds neither heights nor a picture");
+    return good;
 }
 
 /* Position of the copy; else the centre of the visible canvas. */
 static void add_at(const WrApp *app, const char *path, WrText *line)
 {
     double at[2];
-    const WrCanvasView *v = app->view;
     if (!find_place(path, at)) {
-        double x, y;
-        wr_view_to_texel(v, v->x + v->w / 2.0, v->y + v->h / 2.0, &x, &y);
-        at[0] = wr_line_round(x / v->table_w - floor(x / v->table_w), 6);
-        at[1] = 1.0 - y / v->table_h;
-        at[1] = wr_line_round(at[1] - floor(at[1]), 6);
+        wr_view_middle(app->view, at);
+        for (int k = 0; k < 2; k++) at[k] = wr_line_round(at[k], 6);
     }
     wr_line_number(line, "at", at[0]);
     wr_text_add(line, ",");
@@ -241,13 +302,17 @@ static bool paste_layer(WrApp *app, const char *path, WrError *err)
 
 void wr_act_paste(WrApp *app)
 {
-    WrText path = { 0 };
+    Clip clip = { .data = NULL };
     WrError err;
     const WrDocument *document = wr_app_document(app);
-    bool none, good = find_picture(&path, &none, &err);
-    if (good && document->layers[document->active].on_mask) paste_on_mask(app, wr_text_get(&path));
-    else good = good && paste_layer(app, wr_text_get(&path), &err);
+    bool none, good = find_picture(&clip, &none, &err);
+    const char *path = wr_text_get(&clip.path);
+    if (good && (clip.data || wr_svg_named(path)))
+        wr_app_add_drawing(app, clip.data ? NULL : path, clip.data, clip.name);
+    else if (good && document->layers[document->active].on_mask) paste_on_mask(app, path);
+    else good = good && paste_layer(app, path, &err);
     if (none) wr_app_say_why(app, &err);
     else if (!good) wr_app_fail(app, &err);
-    wr_text_fini(&path);
+    wr_text_fini(&clip.path);
+    wr_free(clip.data);
 }

@@ -17,6 +17,7 @@
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/dialog.h"
 #include "ui/app/state/document.h"
+#include "ui/app/state/drawing.h"
 #include "ui/app/state/pointer_state.h"
 #include "ui/app/state/keys.h"
 #include "ui/app/state/action.h"
@@ -33,6 +34,7 @@
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
 #include "ui/panels/help/guide.h"
+#include "ui/panels/missing_files.h"
 #include "ui/panels/panel_layers.h"
 #include "ui/panels/panel_status.h"
 #include "ui/panels/panel_dynamics.h"
@@ -171,6 +173,7 @@ void wr_app_end(WrApp *app)
     wr_generate_free(app);
     wr_guide_free(app);
     if (app->renderer) wr_panel_layers_forget(app);
+    wr_missing_files_free(app);
     wr_canvas_free(app->canvas);
     wr_canvas_map_free(app->canvas_map);
     wr_canvas_map_free(app->canvas_second);
@@ -231,7 +234,7 @@ static void handle(WrApp *app, const SDL_Event *event)
     } else if (event->type == SDL_WINDOWEVENT) {
         wr_window_event(app, event);
     } else if (event->type == SDL_DROPFILE) {
-        if (event->drop.file) wr_app_open_path(app, event->drop.file);
+        if (event->drop.file) wr_app_drop(app, event->drop.file);
         SDL_free(event->drop.file);
     } else if (event->type == SDL_RENDER_TARGETS_RESET || event->type == SDL_RENDER_DEVICE_RESET) {
         for (const WrPart *const *p = app->registry->parts; *p; p++)

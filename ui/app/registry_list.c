@@ -20,6 +20,7 @@
 #include "ui/panels/panel_search.h"
 #include "ui/panels/panel_tablet.h"
 #include "ui/panels/panel_objects.h"
+#include "ui/panels/missing_files.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/panel_presets.h"
 #include "ui/panels/panel_sheet.h"
@@ -100,6 +101,7 @@ static WrFileTake *const takes[] = {
     [WR_ROW(WR_FILE_HISTORY)] = wr_file_take_history,
     [WR_ROW(WR_FILE_STAMP)] = wr_stamp_file_chosen,
     [WR_ROW(WR_FILE_GENERATE)] = wr_generate_file,
+    [WR_ROW(WR_FILE_LOCATE)] = wr_missing_file_chosen,
     [WR_ROW(WR_FILE_TABLE)] = wr_object_table_file_chosen,
     [WR_ROW(WR_FILE_COLOUR)] = wr_map_take_colour,
     [WR_ROW(WR_FILE_NORMALS)] = wr_map_take_normals,

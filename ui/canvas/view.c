@@ -161,6 +161,12 @@ void wr_view_to_uv(const WrCanvasView *view, double px, double py, double *u, do
     *v = 1.0 - y / view->table_h;
 }
 
+void wr_view_middle(const WrCanvasView *view, double at[2])
+{
+    wr_view_to_uv(view, view->x + view->w / 2.0, view->y + view->h / 2.0, &at[0], &at[1]);
+    for (int k = 0; k < 2; k++) at[k] -= floor(at[k]);
+}
+
 /* Move the centre so that the position `x`, `y`, ignoring the tiling's shifts, is under the pixel. */
 static void put_under(WrCanvasView *view, double px, double py, double x, double y)
 {

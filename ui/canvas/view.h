@@ -41,6 +41,8 @@ void wr_view_to_texel(const WrCanvasView *view, double px, double py, double *x,
 void wr_view_to_pixel(const WrCanvasView *view, double x, double y, double *px, double *py);
 /* u = x/W, v = 1 - y/H: unwrapped parameters under a pixel. */
 void wr_view_to_uv(const WrCanvasView *view, double px, double py, double *u, double *v);
+/* u, v of the middle of the visible part, moved into the cell by whole cells. */
+void wr_view_middle(const WrCanvasView *view, double at[2]);
 
 /* Position of a texel without the tiling's shifts: for shapes across the cell's edges, which the shifts would tear
    apart. */

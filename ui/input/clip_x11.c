@@ -89,13 +89,13 @@ static bool ask(Asking *ask)
 static const struct {
     const char *type, *ending, *magic;
     int length; /* length of magic */
-} formats[] = { { "image/png", "png", "\x89PNG\r\n\x1a\n", 8 },
-                { "image/tiff", "tif", "II*\0", 4 },
-                { "image/tiff", "tif", "MM\0*", 4 },
-                { "image/bmp", "bmp", "BM", 2 },
-                { "image/x-bmp", "bmp", "BM", 2 },
-                { "image/x-MS-bmp", "bmp", "BM", 2 },
-                { "image/jpeg", "jpg", "\xff\xd8\xff", 3 } };
+} formats[] = {
+    { "image/svg+xml", "svg", "<", 1 },      { "image/png", "png", "\x89PNG\r\n\x1a\n", 8 },
+    { "image/tiff", "tif", "II*\0", 4 },     { "image/tiff", "tif", "MM\0*", 4 },
+    { "image/bmp", "bmp", "BM", 2 },         { "image/x-bmp", "bmp", "BM", 2 },
+    { "image/x-MS-bmp", "bmp", "BM", 2 },    { "image/jpeg", "jpg", "\xff\xd8\xff", 3 },
+    { "text/uri-list", "uri", "file://", 7 }
+};
 
 #define FORMATS ((int)(sizeof formats / sizeof *formats))
 

@@ -16,6 +16,7 @@
 #include "ui/app/jobs/edit_preview.h"
 #include "ui/panels/layer_choice.h"
 #include "ui/panels/layer_drag.h"
+#include "ui/panels/missing_files.h"
 #include "ui/panels/panels.h"
 #include "ui/toolkit/focus.h"
 
@@ -233,12 +234,25 @@ static void edit_values(WrApp *app, int i)
 static void row_generator(WrApp *app, int i, double *x)
 {
     const double side = wr_gui_px(13);
+    const char *missing = wr_missing_file(app, i);
     wr_gui_row_set_cursor(*x, side);
     const bool links = wr_line_links(wr_app_document(app)->layers[i].line);
-    if (wr_gui_glyph("generator", links ? WR_ICON_LINK : WR_ICON_TUNE, 13, WR_COLOUR_CELL))
-        edit_values(app, i);
-    wr_gui_tip(links ? "A linked copy, which follows its layer. Click to change its values"
-                     : "A generator layer. Click to change its values");
+    const char *icon = missing ? WR_ICON_ALERT : links ? WR_ICON_LINK : WR_ICON_TUNE;
+    if (wr_gui_glyph("generator", icon, 13, missing ? WR_COLOUR_BAD : WR_COLOUR_CELL)) {
+        if (missing) wr_missing_file_locate(app, i);
+        else edit_values(app, i);
+    }
+    if (missing) {
+        char tip[300];
+        snprintf(tip, sizeof tip, wr_words("Its file %.200s is missing: click to locate it"),
+                 missing);
+        wr_gui_as_it_is(true);
+        wr_gui_tip(tip);
+        wr_gui_as_it_is(false);
+    } else {
+        wr_gui_tip(links ? "A linked copy, which follows its layer. Click to change its values"
+                         : "A generator layer. Click to change its values");
+    }
     *x += side + wr_gui_px(2);
     wr_gui_row_set_cursor(*x, wr_gui_px(THUMB_UNITS));
 }

@@ -28,6 +28,11 @@ typedef struct WrLayersState {
     char variant[WR_VARIANT_NAME_MAX + 1]; /* the name in that dialog */
     WrThumbList thumbs;                    /* two per layer: heights, mask */
     WrThumbList steps;                     /* one per state of the history */
+    char *missing
+        [WR_LAYERS_MAX]; /* missing_files.h: a missing file of each layer's line; owned; NULL: none */
+    const WrDocument *missing_of; /* looked up for this document, borrowed, */
+    uint64_t missing_at;          /* at this revision */
+    char *located;                /* the missing file that is being located; owned; NULL: none */
 } WrLayersState;
 
 void wr_panel_layers(WrApp *app, SDL_Rect room);

@@ -120,6 +120,9 @@ static bool into_active(WrDocument *document, const WrCall *call, WrGenerateJob 
     WrRelief relief = { NULL, NULL };
     WrStandIn stand_in = { .index = 0 };
     WrLayer *layer = wr_document_edit_begin(document, &stand_in);
+    WrLayersBelow layers = { document, document->active };
+    job->layer = wr_layers_below_find;
+    job->layer_ctx = &layers;
     job->like = layer->heights;
     job->selection = document->selection;
     job->mask = document->layers[document->active].mask;
@@ -147,8 +150,12 @@ static bool as_layer(WrDocument *document, const WrCall *call, WrGenerateJob *jo
     WrField *below = wr_call_generator(call)->reads
                          ? wr_document_below(document, document->active, job->pool)
                          : NULL;
+    WrLayersBelow layers = { document, document->active };
+    job->layer = wr_layers_below_find;
+    job->layer_ctx = &layers;
     job->like = below ? below : layer->heights;
     job->mask = layer->mask;
+    if (wr_family_find(call->command->name)->beyond) job->selection = document->selection;
     const bool good = make(call, job, &relief, err) &&
                       wr_call_lay(call, &relief, layer, job->pool, job->progress, err);
     wr_field_free(below);

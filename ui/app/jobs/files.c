@@ -73,6 +73,7 @@ static const struct {
     [WR_ROW(WR_FILE_HISTORY)] = { "Save the history as a script", "Save", ".wrinkle" },
     [WR_ROW(WR_FILE_STAMP)] = { "Open a picture as a stamp", "Open", NULL },
     [WR_ROW(WR_FILE_GENERATE)] = { "Choose a file", "Choose", NULL },
+    [WR_ROW(WR_FILE_LOCATE)] = { "Locate the missing file", "Locate", NULL },
     [WR_ROW(WR_FILE_TABLE)] = { "A table for the object", "Choose", NULL },
     [WR_ROW(WR_FILE_COLOUR)] = { "Choose a picture of colours", "Choose", NULL },
     [WR_ROW(WR_FILE_NORMALS)] = { "Choose a normal map", "Choose", NULL },
@@ -503,18 +504,21 @@ static const char *const *file_endings(WrFilePurpose purpose)
 {
     static const char *const pictures[] = { PICTURES, NULL };
     static const char *const stamps[] = { PICTURES, "gbr", "gih", "pat", NULL };
-    static const char *const documents[] = { PICTURES, "wrinkle", "ora", NULL };
+    static const char *const documents[] = { PICTURES, "wrinkle", "ora", "svg", "svgz", NULL };
+    static const char *const tables[] = { PICTURES, "wrinkle", "ora", NULL };
     static const char *const models[] = { "gltf", "glb", NULL };
     static const char *const patches[] = { "bpt", "txt", NULL };
     static const char *const grounds[] = { PICTURES, "r16", "r32", "raw", "hgt", "fits", NULL };
-    if (wr_file_purpose_writes(purpose) || purpose == WR_FILE_GENERATE || purpose == WR_FILE_PRESET)
+    if (wr_file_purpose_writes(purpose) || purpose == WR_FILE_GENERATE ||
+        purpose == WR_FILE_LOCATE || purpose == WR_FILE_PRESET)
         return NULL;
     if (purpose == WR_FILE_STAMP) return stamps;
     if (purpose == WR_FILE_GLTF) return models;
     if (purpose == WR_FILE_MESH || purpose == WR_FILE_BAKE) return wr_mesh_endings;
     if (purpose == WR_FILE_PATCHES) return patches;
     if (purpose == WR_FILE_TERRAIN) return grounds;
-    return purpose == WR_FILE_OPEN || purpose == WR_FILE_TABLE ? documents : pictures;
+    if (purpose == WR_FILE_TABLE) return tables;
+    return purpose == WR_FILE_OPEN ? documents : pictures;
 }
 
 bool wr_file_fits(WrFilePurpose purpose, const char *name)

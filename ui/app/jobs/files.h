@@ -16,6 +16,7 @@ typedef enum WrFilePurpose {
     WR_FILE_HISTORY,
     WR_FILE_STAMP,
     WR_FILE_GENERATE,
+    WR_FILE_LOCATE,
     WR_FILE_TABLE, /* table of the active object */
     WR_FILE_COLOUR,
     WR_FILE_NORMALS,

@@ -4,6 +4,7 @@
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/dialog.h"
 #include "ui/app/state/document.h"
+#include "ui/app/state/drawing.h"
 #include "ui/app/state/pointer_state.h"
 #include "ui/app/state/messages.h"
 #include "ui/app/state/registry.h"
@@ -247,7 +248,7 @@ void wr_busy_update(WrApp *app)
 
 static void open_late(WrApp *app, const char *path, bool dropped)
 {
-    if (!dropped) wr_app_open_path(app, path);
+    if (!dropped) wr_app_drop(app, path);
 }
 
 static void drop_file(WrApp *app, char *path)

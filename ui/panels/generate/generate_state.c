@@ -75,7 +75,7 @@ int wr_generate_find(const WrGenerateState *hand, const char *const *names, WrPa
 int wr_generate_written(const WrGenerator *generator)
 {
     for (int i = 0; generator->params[i].name; i++)
-        if (generator->params[i].kind == WR_PARAM_TEXT) return i;
+        if (generator->params[i].kind == WR_PARAM_TEXT && !generator->params[i].layer) return i;
     return -1;
 }
 
@@ -365,6 +365,7 @@ void wr_generate_take(WrApp *app, const WrGenerator *generator)
     hand->generator = generator;
     hand->seconds = 0.0;
     hand->held = WR_POSE_NONE;
+    hand->point = -1;
     wr_generate_defaults(app);
 }
 
@@ -444,8 +445,7 @@ void wr_generate_file(WrApp *app, const char *path)
 WrLineTarget wr_generate_target(const WrGenerateState *hand)
 {
     if (hand->layer >= 0) return WR_LINE_OF_LAYER;
-    const bool once = hand->into_active || wr_family_find(hand->generator->family)->beyond;
-    return once ? WR_LINE_INTO_ACTIVE : WR_LINE_NEW_LAYER;
+    return hand->into_active ? WR_LINE_INTO_ACTIVE : WR_LINE_NEW_LAYER;
 }
 
 /* True if the preview shows this line in the present document. */

@@ -82,7 +82,7 @@ typedef struct WrGenerateState {
     WrPosePart held; /* handle being dragged */
     double first[3], first_number[3];
     bool placed; /* the press placed the object there */
-    int point;   /* index of the dragged point; -1: none */
+    int point;   /* index of the dragged point, or of the last one; -1: none */
     WrSelectPoint point_first;
 } WrGenerateState;
 
@@ -121,7 +121,7 @@ bool wr_generate_param_is_default(const WrGenerateState *hand, int param);
 void wr_generate_blame(WrGenerateState *hand);
 /* Set a text value, truncated if too long. */
 void wr_generate_set_text(WrGenerateValue *value, const char *text);
-/* Destination of the result. An edge (rim) is made once: that of a selection or a mask cannot be followed. */
+/* Destination of the result. */
 WrLineTarget wr_generate_target(const WrGenerateState *hand);
 /* To be called after a change of a value. */
 void wr_generate_changed(WrApp *app);

@@ -170,6 +170,27 @@ static bool text(WrApp *app, WrGenerateValue *value)
     return changed && !done;
 }
 
+/* The layers below the edited or the new one; a name that is not among them stays. */
+static bool layer_choice(WrApp *app, WrGenerateValue *value)
+{
+    const WrDocument *document = wr_app_document(app);
+    const int edited = app->generate->layer;
+    const int count = edited >= 0 ? edited : document->active + !app->generate->into_active;
+    const char *names[WR_LAYERS_MAX + 2] = { "none" };
+    int index = value->text[0] ? -1 : 0, last = 1;
+    for (int i = count - 1; i >= 0; i--) {
+        if (strcmp(document->layers[i].name, value->text) == 0) index = last;
+        names[last++] = document->layers[i].name;
+    }
+    if (index < 0) {
+        index = last;
+        names[last++] = value->text;
+    }
+    if (!wr_gui_choice("layer", 0, names, last, &index)) return false;
+    wr_generate_set_text(value, index > 0 ? names[index] : "");
+    return true;
+}
+
 static bool field(WrApp *app, int i, const WrParam *p, WrGenerateValue *value)
 {
     switch (p->kind) {
@@ -181,6 +202,7 @@ static bool field(WrApp *app, int i, const WrParam *p, WrGenerateValue *value)
     case WR_PARAM_SWITCH: return turn_switch(value);
     case WR_PARAM_FILE: return file(app, i, p, value);
     case WR_PARAM_TEXT:
+        if (p->layer) return layer_choice(app, value);
         return i == wr_generate_written(app->generate->generator)
                    ? text(app, value)
                    : wr_gui_hint_field("##text", "none", 0, value->text, WR_GENERATE_TEXT);
@@ -540,17 +562,13 @@ static void destination(WrApp *app)
         return;
     }
     static const char *const labels[] = { "New layer", "Active layer" };
-    const bool once = wr_family_find(hand->generator->family)->beyond;
     int index = wr_generate_target(hand) == WR_LINE_INTO_ACTIVE;
-    wr_gui_disable(once);
     if (wr_gui_choice("destination", wr_gui_available(), labels, 2, &index)) {
         hand->into_active = index == 1;
         wr_generate_changed(app);
     }
-    wr_gui_disable_end();
-    wr_gui_tip(index == 1 || once
-                   ? "It becomes heights of the active layer, inside the selection"
-                   : "It becomes a generator layer: its values can be changed at any time");
+    wr_gui_tip(index == 1 ? "It becomes heights of the active layer, inside the selection"
+                          : "It becomes a generator layer: its values can be changed at any time");
 }
 
 static void foot(WrApp *app)

@@ -6,6 +6,7 @@
 #include "ui/app/state/line.h"
 #include "ui/app/state/session_view.h"
 #include "ui/panels/generate/generate_state.h"
+#include "ui/panels/generate/pose_path.h"
 #include "ui/toolkit/gui.h"
 #include "ui/canvas/overlays/marks.h"
 #include "ui/app/state/action_list.h"
@@ -109,6 +110,13 @@ static WrSelectPoint place(const WrApp *app, const Points *points, const WrPoint
     return (WrSelectPoint){ at->u + home.u, at->v + home.v };
 }
 
+static void take_point(Points *points, int i)
+{
+    memmove(points->at + i, points->at + i + 1,
+            (size_t)(points->count - i - 1) * sizeof *points->at);
+    points->count--;
+}
+
 static bool pose_points_press(WrApp *app, const WrPointer *at)
 {
     WrGenerateState *hand = app->generate;
@@ -119,9 +127,7 @@ static bool pose_points_press(WrApp *app, const WrPointer *at)
     int i = find(app, &points, at);
     if (at->mods & WR_MOD_CTRL) {
         if (i >= 0) {
-            memmove(points.at + i, points.at + i + 1,
-                    (size_t)(points.count - i - 1) * sizeof *points.at);
-            points.count--;
+            take_point(&points, i);
         } else if (points.count < POINTS_MAX) {
             points.at[points.count] = place(app, &points, at);
             hand->point_first = points.at[points.count];
@@ -317,7 +323,7 @@ static void press(WrApp *app, const WrPointer *at)
     app->hints = false;
     if (!hand->generator) return;
     Pose pose = pose_of(hand);
-    bool took = pose_points_press(app, at);
+    bool took = pose_points_press(app, at) || wr_pose_path_press(app, at);
     hand->held = took ? WR_POSE_POINT : WR_POSE_NONE;
     if (took || pose.place < 0) return;
     double x, y;
@@ -375,7 +381,8 @@ static void drag(WrApp *app, const WrPointer *at)
     if (!hand->generator || hand->held == WR_POSE_NONE || !moved) return;
     Pose pose = pose_of(hand);
     if (hand->held == WR_POSE_POINT) {
-        pose_points_drag(app, at);
+        if (points_param(hand) >= 0) pose_points_drag(app, at);
+        else wr_pose_path_drag(app, at);
         return;
     }
     if (hand->held == WR_POSE_SIZE) resize(app, &pose, at);
@@ -395,9 +402,24 @@ static void release(WrApp *app, const WrPointer *at)
     bool point = hand->held == WR_POSE_POINT;
     if (hand->generator && !moved && !point && wr_generate_written(hand->generator) >= 0)
         wr_generate_focus_text(app);
-    hand->held = WR_POSE_NONE;
-    hand->point = -1;
+    hand->held = WR_POSE_NONE; /* the point stays the one that Delete removes */
     wr_app_redraw(app);
+}
+
+/* Delete removes the point touched last. */
+static bool remove_point(WrApp *app)
+{
+    WrGenerateState *hand = app->generate;
+    Points points;
+    const int param = points_param(hand);
+    if (param < 0) return wr_pose_path_remove(app);
+    if (!read_points(hand->value[param].text, &points) || hand->point < 0 ||
+        hand->point >= points.count)
+        return false;
+    take_point(&points, hand->point);
+    hand->point = -1;
+    write_points(app, param, &points);
+    return true;
 }
 
 static bool key(WrApp *app, SDL_Keycode key)
@@ -417,6 +439,8 @@ static bool key(WrApp *app, SDL_Keycode key)
         wr_generate_cancel(app);
     } else if (key == SDLK_RETURN || key == SDLK_KP_ENTER) {
         wr_generate_commit(app);
+    } else if (key == SDLK_DELETE || key == SDLK_BACKSPACE) {
+        return remove_point(app);
     } else {
         return false;
     }
@@ -447,6 +471,7 @@ static void marks(WrApp *app)
     double x, y;
     if (!is_shown(app)) return;
     bool points = pose_points_marks(app); /* the points then set the position */
+    wr_pose_path_marks(app);
     Pose pose = pose_of(hand);
     if (pose.place < 0 || points) return;
     middle(app, &pose, &x, &y);
@@ -492,10 +517,12 @@ static void options(WrApp *app)
                 pose.turn >= 0   ? "Drag it on the table; the corner sizes it, the ring turns it"
                 : pose.size >= 0 ? "Drag it on the table; the corner sizes it"
                                  : "Drag it on the table");
-    bool path = pose_points_taken(hand);
-    if (!path || app->width < wr_gui_px(1400)) return;
+    const bool list = pose_points_taken(hand), data = wr_pose_path_param(hand) >= 0;
+    if (!(list || data) || app->width < wr_gui_px(1400)) return;
     wr_gui_same_line(0);
-    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "; Ctrl and a click begins a path");
+    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL,
+                list ? "; Ctrl and a click begins a path"
+                     : "; its points move, Ctrl and a click adds one, Delete removes it");
 }
 
 /* ---- the row ---- */
