@@ -391,7 +391,7 @@ static bool layer_move(WrSession *session, WrCall *call, WrError *err)
     if (!find(session, call, "N", &from, err)) return false;
     if (to > document->layer_count)
         return wr_fail(err, "to=%g: must be 1..%d", to, document->layer_count);
-    wr_document_move(document, from, (int)to - 1);
+    wr_document_move(document, from, (int)to - 1, 0);
     return true;
 }
 

@@ -220,3 +220,52 @@ void wr_blend_tile(WrBlend mode, float opacity, float radius, const WrBlendTile 
         blend->span(n, tile->heights ? tile->heights + at : level, w, k, below + at);
     }
 }
+
+/* One span onto heights of partial coverage, by weights w (blend.h). */
+static void span_partial(const WrBlendMode *blend, size_t count, const float *h, const float *w,
+                         float radius, float *b, float *cover)
+{
+    float full[SPAN], one[SPAN];
+    memcpy(full, b, count * sizeof *b);
+    fill(count, 1.0f, one);
+    blend->span(count, h, one, radius, full);
+#pragma omp simd
+    for (size_t i = 0; i < count; i++) {
+        float a = cover[i], all = toward(a, 1.0f, w[i]);
+        float t = (1.0f - a) * h[i] + a * full[i];
+        t = a > 0.0f ? t : h[i];
+        t = a >= 1.0f || full[i] == h[i] ? full[i] : t;
+        b[i] = toward(b[i], t, w[i] > 0.0f ? w[i] / all : 0.0f);
+        cover[i] = all;
+    }
+}
+
+static void span_cover(size_t count, const float *w, float *cover)
+{
+#pragma omp simd
+    for (size_t i = 0; i < count; i++) cover[i] = toward(cover[i], 1.0f, w[i]);
+}
+
+void wr_blend_tile_partial(WrBlend mode, bool on_ground, float opacity, float radius,
+                           const WrBlendTile *tile, size_t count, float *below, float *cover)
+{
+    const bool adds = mode == WR_BLEND_ADD || mode == WR_BLEND_SUBTRACT;
+    float o = unit(opacity), k = radius > 0.0f ? bounded(radius) : 0.0f;
+    if (!(o > 0.0f)) return;
+    if (adds)
+        wr_blend_tile(on_ground && mode == WR_BLEND_ADD ? WR_BLEND_MIX : mode, opacity, radius,
+                      tile, count, below);
+    float w[SPAN], level[SPAN];
+    if (!tile->heights) fill(SPAN, tile->level, level);
+    for (size_t at = 0; at < count; at += SPAN) {
+        size_t n = count - at < SPAN ? count - at : SPAN;
+        fill(n, o, w);
+        weigh(n, tile->mask ? tile->mask + at : NULL, tile->mask_level, w);
+        if (mode != WR_BLEND_MIX)
+            weigh(n, tile->cover ? tile->cover + at : NULL, tile->cover_level, w);
+        if (adds) span_cover(n, w, cover + at);
+        else
+            span_partial(&wr_blends[mode], n, tile->heights ? tile->heights + at : level, w, k,
+                         below + at, cover + at);
+    }
+}

@@ -73,3 +73,16 @@ typedef struct WrBlendTile {
    [count] finite heights below, then the result, finite */
 void wr_blend_tile(WrBlend mode, float opacity, float radius, const WrBlendTile *tile, size_t count,
                    float *below);
+
+/* Blends onto heights that cover only a part, in place: `cover` is the coverage of `below`. Where it is 0, the layer's
+   height itself is the result; between, the usual rule of colours with alpha. With weight w (o m c; of mix: o m) and
+   coverage a below:
+
+     a' = a + w (1 - a)    b' = b + (w / a') (t - b),   t = (1 - a) h + a blend(h, b) at weight 1
+
+   add and subtract change b as above, whatever a is. Where a = 1, b' has the bits of wr_blend_tile.
+
+   on_ground: nothing is below; then add takes h for b, as mix does
+   cover    [count] 0..1 below, then of both */
+void wr_blend_tile_partial(WrBlend mode, bool on_ground, float opacity, float radius,
+                           const WrBlendTile *tile, size_t count, float *below, float *cover);

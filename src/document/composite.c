@@ -125,8 +125,10 @@ static WrBlendTile part_level(const Part *part)
 static bool is_idle(const Part *part, const WrBlendTile *tile)
 {
     const WrBlendMode *mode = &wr_blends[part->layer.mode];
+    const bool covers = tile->cover || tile->cover_level > 0.0f;
     if (!tile->mask && !(tile->mask_level > 0.0f)) return true;
-    if (mode->uses_cover && !tile->cover && !(tile->cover_level > 0.0f)) return true;
+    if (mode->uses_cover && !covers) return true;
+    if (part->layer.backdrop == WR_BACKDROP_PARTIAL && covers) return false; /* changes coverage */
     return !tile->heights && same_bits(tile->level, mode->neutral);
 }
 
@@ -140,24 +142,31 @@ static WrBlend mode_of(const Part *part)
 static bool is_opaque(const Part *part, const WrBlendTile *tile)
 {
     const WrBlendMode *mode = &wr_blends[mode_of(part)];
+    if (part->layer.backdrop == WR_BACKDROP_FILTER) return false; /* coverage is of those below */
     if (!mode->takes || part->layer.opacity < 1.0f) return false;
     if (tile->mask || tile->mask_level < 1.0f) return false;
     return !mode->uses_cover || (!tile->cover && tile->cover_level >= 1.0f);
 }
 
-static void blend(const Part *part, const WrBlendTile *tile, size_t count, float *below)
+/* cover: coverage of `below`, changed by parts on a partial backdrop */
+static void blend(const Part *part, const WrBlendTile *tile, size_t count, float *below,
+                  float *cover)
 {
-    wr_blend_tile(mode_of(part), part->layer.opacity, part->layer.radius, tile, count, below);
+    const WrBlendLayer *l = &part->layer;
+    if (l->backdrop == WR_BACKDROP_PARTIAL)
+        wr_blend_tile_partial(l->mode, part->on_ground, l->opacity, l->radius, tile, count, below,
+                              cover);
+    else wr_blend_tile(mode_of(part), l->opacity, l->radius, tile, count, below);
 }
 
 /* Level of the composite where all parts are empty. A field's absent tile has its level everywhere, so blending one texel of
    levels through the same code yields the bits that blending such a whole tile would. */
 static float composite_level(const Part *parts, int count)
 {
-    float level = 0.0f;
+    float level = 0.0f, cover = 0.0f;
     for (int i = 0; i < count; i++) {
         WrBlendTile tile = part_level(&parts[i]);
-        blend(&parts[i], &tile, 1, &level);
+        blend(&parts[i], &tile, 1, &level, &cover);
     }
     return level;
 }
@@ -223,7 +232,8 @@ static bool same_settings(const Part *a, const Part *b)
 {
     return a->layer.mode == b->layer.mode && a->layer.opacity == b->layer.opacity &&
            a->layer.radius == b->layer.radius && a->on_ground == b->on_ground &&
-           !a->layer.cover == !b->layer.cover && !a->layer.mask == !b->layer.mask;
+           a->layer.backdrop == b->layer.backdrop && !a->layer.cover == !b->layer.cover &&
+           !a->layer.mask == !b->layer.mask;
 }
 
 static bool same_key(const WrField *a, const WrField *b)
@@ -294,10 +304,13 @@ static void run_job(int index, int worker, void *ctx)
         WrBlendTile tile = part_tile(&update->parts[first], job.tx, job.ty);
         if (is_opaque(&update->parts[first], &tile)) break;
     }
+    float cover[TEXELS];
     memset(job.out, 0, sizeof *job.out * TEXELS);
+    memset(cover, 0, sizeof cover);
     for (int i = first < 0 ? 0 : first; i < update->count; i++) {
         WrBlendTile tile = part_tile(&update->parts[i], job.tx, job.ty);
-        if (!is_idle(&update->parts[i], &tile)) blend(&update->parts[i], &tile, TEXELS, job.out);
+        if (!is_idle(&update->parts[i], &tile))
+            blend(&update->parts[i], &tile, TEXELS, job.out, cover);
     }
 }
 
@@ -409,7 +422,9 @@ static void pick_parts(Update *update, const WrBlendLayer *layers, int count)
         if (layers[i].hidden || !(layers[i].opacity > 0.0f)) continue;
         Part *part = &update->parts[update->count];
         *part = (Part){ .layer = layers[i], .on_ground = update->count == 0 };
-        if (!wr_blends[part->layer.mode].uses_cover) part->layer.cover = NULL;
+        const bool covers =
+            layers[i].backdrop == WR_BACKDROP_PARTIAL && layers[i].mode != WR_BLEND_MIX;
+        if (!wr_blends[part->layer.mode].uses_cover && !covers) part->layer.cover = NULL;
         if (!wr_blends[part->layer.mode].uses_radius) part->layer.radius = 0.0f;
         update->count++;
     }
@@ -491,11 +506,16 @@ const WrField *wr_compositor_update(WrCompositor *compositor, const WrBlendLayer
     return compositor->result;
 }
 
-/* ---- the composite, divided by filters ---- */
+/* ---- the composite, divided by filters and groups ---- */
 
 /* A filter divides the stack: the layers below it are composited separately, the operation is applied, and the
    rest is composited on top. So each part of the stack has its own compositor. Each filter stores its input and
-   its output, and recomputes only the part that an edit may have changed. */
+   its output, and recomputes only the part that an edit may have changed.
+
+   A group is a stack of its own, composited first; its result is then blended as a layer's heights and coverage are. An
+   update of the group changes only the tiles that differ, and so does the update of the stack that it is in.
+
+   The coverage of a stack is a composite too: of flat heights 1 that replace by the layers' coverage. */
 
 /* A filter, or none, and the layers from there up to the next filter. */
 typedef struct Stage {
@@ -503,11 +523,20 @@ typedef struct Stage {
     WrField *given;      /* input of `made`; NULL: not computed; owned */
     WrField *made;       /* owned */
     WrCompositor *above; /* compositor of `made`, or of `given`, with the layers; owned */
+    WrCompositor
+        *cover; /* compositor of the coverage up to there; empty if it is not needed; owned */
 } Stage;
+
+/* The stack of one group, or of the top level. */
+typedef struct Chain {
+    WR_ARRAY(Stage) stages;
+} Chain;
 
 struct WrComposite {
     WrMutex lock;
-    WR_ARRAY(Stage) stages;
+    Chain top;
+    WR_ARRAY(Chain) groups; /* [groups] in the order of their rows */
+    WrField *one;           /* height 1 everywhere; NULL: not needed yet */
 };
 
 /* Error of the last filter that failed; "" if none did. */
@@ -525,12 +554,6 @@ bool wr_filters_carried(WrError *err)
     return false;
 }
 
-/* The layers of the current stage. */
-typedef struct Stack {
-    WrBlendLayer of[WR_LAYERS_MAX + 2];
-    int count;
-} Stack;
-
 WrComposite *wr_composite_new(void)
 {
     WrComposite *composite = wr_alloc(1, sizeof *composite);
@@ -538,46 +561,69 @@ WrComposite *wr_composite_new(void)
     return composite;
 }
 
+static Chain share_chain(const Chain *chain)
+{
+    Chain copy = { 0 };
+    for (int i = 0; i < chain->stages.count; i++) {
+        const Stage *stage = &chain->stages.data[i];
+        wr_array_push(&copy.stages,
+                      ((Stage){ stage->filter, share_or_null(stage->given),
+                                share_or_null(stage->made), wr_compositor_snapshot(stage->above),
+                                wr_compositor_snapshot(stage->cover) }));
+    }
+    return copy;
+}
+
 WrComposite *wr_composite_share(const WrComposite *composite)
 {
     /* the cast is only for locking */
     WrComposite *from = (WrComposite *)composite, *copy = wr_composite_new();
     wr_mutex_lock(&from->lock);
-    for (int i = 0; i < from->stages.count; i++) {
-        const Stage *stage = &from->stages.data[i];
-        wr_array_push(&copy->stages, ((Stage){ stage->filter, share_or_null(stage->given),
-                                               share_or_null(stage->made),
-                                               wr_compositor_snapshot(stage->above) }));
-    }
+    copy->top = share_chain(&from->top);
+    for (int i = 0; i < from->groups.count; i++)
+        wr_array_push(&copy->groups, share_chain(&from->groups.data[i]));
+    copy->one = share_or_null(from->one);
     wr_mutex_unlock(&from->lock);
     return copy;
 }
 
-static void drop_stages(WrComposite *composite, int first)
+static void drop_stages(Chain *chain, int first)
 {
-    for (int i = first; i < composite->stages.count; i++) {
-        Stage *stage = &composite->stages.data[i];
+    for (int i = first; i < chain->stages.count; i++) {
+        Stage *stage = &chain->stages.data[i];
         wr_field_free(stage->given);
         wr_field_free(stage->made);
         wr_compositor_free(stage->above);
+        wr_compositor_free(stage->cover);
     }
-    if (composite->stages.count > first) composite->stages.count = first;
+    if (chain->stages.count > first) chain->stages.count = first;
+    if (first == 0) wr_array_free(&chain->stages);
+}
+
+static void drop_groups(WrComposite *composite, int first)
+{
+    for (int i = first; i < composite->groups.count; i++)
+        drop_stages(&composite->groups.data[i], 0);
+    if (composite->groups.count > first) composite->groups.count = first;
 }
 
 void wr_composite_free(WrComposite *composite)
 {
     if (!composite) return;
-    drop_stages(composite, 0);
-    wr_array_free(&composite->stages);
+    drop_stages(&composite->top, 0);
+    drop_groups(composite, 0);
+    wr_array_free(&composite->groups);
+    wr_field_free(composite->one);
     wr_mutex_fini(&composite->lock);
     wr_free(composite);
 }
 
-static Stage *stage_at(WrComposite *composite, int index)
+static Stage *stage_at(Chain *chain, int index)
 {
-    if (index == composite->stages.count)
-        wr_array_push(&composite->stages, ((Stage){ .above = wr_compositor_new() }));
-    return &composite->stages.data[index];
+    if (index == chain->stages.count)
+        wr_array_push(&chain->stages,
+                      ((Stage){ .above = wr_compositor_new(), .cover = wr_compositor_new() }));
+    return &chain->stages.data[index];
 }
 
 /* The filter applied to a composite. If it fails or is cancelled: the composite itself. */
@@ -610,66 +656,185 @@ static const WrField *filtered(Stage *stage, const WrLayer *layer, const WrField
     return made;
 }
 
-static WrBlendLayer blended(const WrLayer *layer, const WrField *heights)
+/* State of one update of the composite. */
+typedef struct Pass {
+    WrComposite *composite;
+    const WrLayer *layers;
+    int solo;
+    WrPool *pool;
+} Pass;
+
+/* Heights and coverage of rows; borrowed. */
+typedef struct Made {
+    const WrField *heights, *cover; /* cover NULL: not wanted */
+    bool shown;                     /* false: no row is visible */
+} Made;
+
+/* The layers of the current stage. */
+typedef struct Stack {
+    Chain *chain;
+    int at; /* index of the stage */
+    bool partial, wants_cover;
+    WR_ARRAY(WrBlendLayer) of;
+    WR_ARRAY(WrBlendLayer) covers; /* empty unless wants_cover */
+} Stack;
+
+static void push(Stack *stack, WrBlendLayer layer)
+{
+    if (stack->partial && layer.backdrop == WR_BACKDROP_GROUND)
+        layer.backdrop = WR_BACKDROP_PARTIAL;
+    wr_array_push(&stack->of, layer);
+}
+
+static void push_cover(const Pass *pass, Stack *stack, WrBlendLayer layer)
+{
+    if (!stack->wants_cover) return;
+    layer.heights = pass->composite->one;
+    layer.mode = layer.mode == WR_BLEND_MIX ? WR_BLEND_MIX : WR_BLEND_REPLACE;
+    layer.radius = 0.0f;
+    wr_array_push(&stack->covers, layer);
+}
+
+/* Composites the layers of the current stage. like: an empty table */
+static Made finish(const Pass *pass, const Stack *stack, const WrField *like)
+{
+    const WrBlendLayer ground = { .heights = like, .hidden = true };
+    const Stage *stage = stage_at(stack->chain, stack->at);
+    const WrBlendLayer *of = stack->of.count ? stack->of.data : &ground;
+    const WrBlendLayer *covers = stack->covers.count ? stack->covers.data : &ground;
+    const int count = stack->of.count ? stack->of.count : 1;
+    const int cover_count = stack->covers.count ? stack->covers.count : 1;
+    Made made = { .heights = wr_compositor_update(stage->above, of, count, pass->pool) };
+    if (stack->wants_cover)
+        made.cover = wr_compositor_update(stage->cover, covers, cover_count, pass->pool);
+    return made;
+}
+
+static WrBlendLayer blended(const WrLayer *layer, const WrField *heights, const WrField *cover)
 {
     return (WrBlendLayer){ .heights = heights,
-                           .cover = layer->cover,
+                           .cover = cover,
                            .mask = layer->mask,
                            .mode = layer->blend,
                            .opacity = layer->opacity,
                            .radius = layer->radius };
 }
 
-/* First layer of a stage. It is omitted if the filter is shown alone. */
-static void begin_stack(Stack *stack, const WrLayer *layer, const WrField *below,
+/* Begins the stage above a filter with the heights below, which are omitted if the filter is shown alone, and the filter's.
+   The lowest layer with mode add is its heights everywhere, with its coverage (wr_blend_tile_partial). */
+static void begin_stage(const Pass *pass, Stack *stack, const WrLayer *layer, const Made *below,
                         const WrField *made)
 {
     const bool alone = wr_blends[layer->blend].takes && layer->opacity >= 1.0f && !layer->mask;
-    stack->count = 0;
-    if (!alone)
-        stack->of[stack->count++] =
-            (WrBlendLayer){ .heights = below, .mode = WR_BLEND_MIX, .opacity = 1.0f };
-    stack->of[stack->count++] = blended(layer, made);
+    const WrBlend mode = stack->partial ? WR_BLEND_ADD : WR_BLEND_MIX;
+    stack->of.count = stack->covers.count = 0;
+    const WrBlendLayer first = {
+        .heights = below->heights, .cover = below->cover, .mode = mode, .opacity = 1.0f
+    };
+    push_cover(pass, stack, first);
+    if (stack->covers.count) stack->covers.data[0].mode = WR_BLEND_REPLACE;
+    if (!alone || stack->partial) push(stack, first);
+    if (alone && stack->partial) stack->of.data[0].heights = made;
+    if (alone && stack->partial) return;
+    WrBlendLayer filter = blended(layer, made, NULL);
+    filter.backdrop = stack->partial ? WR_BACKDROP_FILTER : WR_BACKDROP_GROUND;
+    push(stack, filter);
 }
 
-/* True if the layer is visible, with layer `solo` alone, or all (-1). A solo filter is shown over its input. */
-static bool is_shown(const WrLayer *layers, int i, int solo)
+/* Frees the caches of hidden groups. */
+static void drop_rows(const Pass *pass, int from, int to, int group)
 {
-    if (solo < 0) return layers[i].visible;
-    return i == solo || (layers[solo].filter.op && i < solo && layers[i].visible);
+    for (int i = from; i < to; i++)
+        if (pass->layers[i].is_group) drop_stages(&pass->composite->groups.data[group++], 0);
 }
 
-static const WrField *update(WrComposite *composite, const WrLayer *layers, int count, int solo,
-                             WrPool *pool)
+static int groups_in(const WrLayer *layers, int from, int to)
 {
-    Stack stack = { .count = 0 };
-    int at = 0;
-    for (int i = 0; i < count; i++) {
-        const WrLayer *layer = &layers[i];
-        const bool shown = is_shown(layers, i, solo);
-        if (!layer->filter.op || !shown || !(layer->opacity > 0.0f)) {
-            WrBlendLayer *next = &stack.of[stack.count++];
-            *next = blended(layer, layer->heights);
-            next->hidden = !shown || layer->filter.op;
-            continue;
-        }
-        if (stack.count == 0) /* over the ground, heights 0 */
-            stack.of[stack.count++] = (WrBlendLayer){ .heights = layer->heights, .hidden = true };
-        const WrField *below =
-            wr_compositor_update(stage_at(composite, at)->above, stack.of, stack.count, pool);
-        const WrField *made = filtered(stage_at(composite, ++at), layer, below, pool);
-        begin_stack(&stack, layer, below, made);
+    int count = 0;
+    for (int i = from; i < to; i++) count += layers[i].is_group;
+    return count;
+}
+
+static Made composite_rows(const Pass *pass, Stack stack, int from, int to, int group);
+
+/* Pushes a layer. group: index of the first group among it and its members */
+static bool push_row(const Pass *pass, Stack *stack, int first, int index, int group)
+{
+    const WrLayer *layer = &pass->layers[index];
+    Made own = { .heights = layer->heights, .cover = layer->cover, .shown = true };
+    if (layer->is_group) {
+        const bool uses = wr_blends[layer->blend].uses_cover;
+        Chain *chain = &pass->composite->groups.data[group + groups_in(pass->layers, first, index)];
+        const Stack inner = { .chain = chain,
+                              .partial = uses,
+                              .wants_cover = uses || stack->wants_cover };
+        own = composite_rows(pass, inner, first, index, group);
     }
-    drop_stages(composite, at + 1);
-    return wr_compositor_update(stage_at(composite, at)->above, stack.of, stack.count, pool);
+    if (!own.shown) return false;
+    const WrBlendLayer next = blended(layer, own.heights, own.cover);
+    push(stack, next);
+    push_cover(pass, stack, next);
+    return true;
 }
 
-const WrField *wr_composite_update(WrComposite *composite, const WrLayer *layers, int count,
-                                   int solo, WrPool *pool)
+/* Composites the rows from..to - 1. The stack is empty; ownership of its arrays passes. group: index of the first group
+   among the rows */
+static Made composite_rows(const Pass *pass, Stack stack, int from, int to, int group)
 {
-    WR_ASSERT(count >= 1 && count <= WR_LAYERS_MAX);
+    const WrLayer *layers = pass->layers;
+    bool any = false;
+    for (int i = from, first = from; i < to; i++) {
+        const WrLayer *layer = &layers[i];
+        if (layer->depth > layers[to - 1].depth) continue; /* comes with its group */
+        const bool shown = (layer->visible || i == pass->solo) && layer->opacity > 0.0f;
+        if (!shown) {
+            drop_rows(pass, first, i + 1, group);
+        } else if (!layer->filter.op) {
+            any |= push_row(pass, &stack, first, i, group);
+        } else {
+            const Made below = finish(pass, &stack, layer->heights);
+            Stage *stage = stage_at(stack.chain, ++stack.at);
+            begin_stage(pass, &stack, layer, &below,
+                        filtered(stage, layer, below.heights, pass->pool));
+            any = true;
+        }
+        group += groups_in(layers, first, i + 1);
+        first = i + 1;
+    }
+    Made made = { .shown = false };
+    drop_stages(stack.chain, any || stack.chain == &pass->composite->top ? stack.at + 1 : 0);
+    if (any || stack.chain == &pass->composite->top)
+        made = finish(pass, &stack, layers[from].heights);
+    made.shown = any;
+    wr_array_free(&stack.of);
+    wr_array_free(&stack.covers);
+    return made;
+}
+
+static void make_room(WrComposite *composite, const WrRows *rows)
+{
+    const int groups = groups_in(rows->layers, rows->from, rows->to);
+    drop_groups(composite, groups);
+    while (composite->groups.count < groups) wr_array_push(&composite->groups, ((Chain){ 0 }));
+    const WrField *like = rows->layers[rows->from].heights;
+    if (composite->one && wr_field_alike(composite->one, like)) return;
+    wr_field_free(composite->one);
+    composite->one = wr_field_new(wr_field_width(like), wr_field_height(like),
+                                  wr_field_wrap_u(like), wr_field_wrap_v(like), 1.0f, NULL);
+}
+
+const WrField *wr_composite_update(WrComposite *composite, const WrRows *rows, int solo,
+                                   WrPool *pool, const WrField **cover)
+{
+    WR_ASSERT(rows->from < rows->to && rows->to - rows->from <= WR_LAYERS_MAX);
     wr_mutex_lock(&composite->lock);
-    const WrField *result = update(composite, layers, count, solo, pool);
+    make_room(composite, rows);
+    const Pass pass = { composite, rows->layers, solo, pool };
+    const Stack stack = { .chain = &composite->top,
+                          .partial = rows->partial,
+                          .wants_cover = cover || rows->partial };
+    const Made made = composite_rows(&pass, stack, rows->from, rows->to, 0);
+    if (cover) *cover = made.cover;
     wr_mutex_unlock(&composite->lock);
-    return result;
+    return made.heights;
 }

@@ -16,17 +16,51 @@ WrComposite *wr_composite_new(void);
 WrComposite *wr_composite_share(const WrComposite *composite);
 void wr_composite_free(WrComposite *composite); /* NULL is fine */
 
-/* Updates it to layers[0..count-1], bottom first; solo: index of the layer that is shown alone, or -1. Any
+/* How a group's members are composited. On what they act is decided by the group's own blend:
+
+     add, subtract, mix   on a ground at height 0, as a document is. The group's result H is that composite.
+     all others           on nothing: heights of partial coverage (wr_blend_tile_partial). So a group of one member,
+                          with its blend, is the member itself, bit for bit: a soft edge shows what is below the
+                          group, not a ground at 0.
+
+   The coverage C of a group is the union of its members': from 0, C + w (1 - C) for each from the bottom up, with w =
+   opacity x mask x coverage of the member, whatever its blend; only mix fills its mask, so w is opacity x mask. An add or
+   subtract member without content leaves H and C at 0. A filter changes H alone, everywhere, not C. A member that is a
+   group counts with its own C. The group's blend, opacity, mask and radius then apply to H and C as those of a layer do to
+   its heights and coverage. A group without visible members has no effect, whatever its blend.
+
+   A group with blend add, opacity 1 and no mask, whose members are all add or subtract, changes the composite as its
+   members alone would: bit for bit if it has one member or if nothing is visible below it, else by the rounding of sums
+   in another order: up to 2^-23 of the sum of all absolute heights there for each member. Groups with blend and members all
+   max, or all min, opacities 1 and coverages and masks 0 or 1 equal their members bit for bit. */
+
+/* What is composited: rows of a document's layers. */
+typedef struct WrRows {
+    const WrLayer *layers;
+    int from,
+        to; /* members of one group, or layers of the top level, from..to - 1; with all of their members */
+    bool partial; /* on nothing instead of the ground */
+} WrRows;
+
+/* Updates it to the rows, bottom first; solo: index of one that is shown even if it is hidden, or -1. Any
    number of threads may call it at once, as long as nobody edits the layers. Borrowed: valid until the next call
-   after an edit. */
-const WrField *wr_composite_update(WrComposite *composite, const WrLayer *layers, int count,
-                                   int solo, WrPool *pool);
+   after an edit.
+   cover: gets their coverage, which is borrowed likewise and 0 if none is visible; NULL: not wanted */
+const WrField *wr_composite_update(WrComposite *composite, const WrRows *rows, int solo,
+                                   WrPool *pool, const WrField **cover);
 
 /* ---- incremental compositor of a stack of layers, tile by tile ---- */
 
 /* Works on fields and blend modes only; the caller owns the layers. */
 
 typedef struct WrError WrError;
+
+/* On what a layer is blended. */
+typedef enum WrBackdrop {
+    WR_BACKDROP_GROUND,  /* heights everywhere: wr_blend_tile */
+    WR_BACKDROP_PARTIAL, /* heights of partial coverage: wr_blend_tile_partial */
+    WR_BACKDROP_FILTER   /* the same, but the coverage stays, and heights are changed everywhere */
+} WrBackdrop;
 
 /* One layer, bottom first in the stack. Fields are borrowed for the call and may be edited in place between
    calls; the heights of a stack have one size and one wrap. */
@@ -37,6 +71,7 @@ typedef struct WrBlendLayer {
     WrBlend mode;
     float opacity; /* 0..1; exactly 0 is equivalent to hidden */
     float radius;  /* of the smooth modes, height units, >= 0 */
+    WrBackdrop backdrop;
     bool hidden;
 } WrBlendLayer;
 

@@ -155,10 +155,82 @@ bool wr_document_generates(const WrDocument *document)
     return any;
 }
 
+bool wr_layer_holds(const WrLayer *layer)
+{
+    return !layer->filter.op && !layer->is_group;
+}
+
+/* ---- groups ---- */
+
+int wr_layers_first(const WrLayer *layers, int index)
+{
+    int first = index;
+    while (first > 0 && layers[first - 1].depth > layers[index].depth) first--;
+    return first;
+}
+
+int wr_layers_first_sibling(const WrLayer *layers, int index)
+{
+    int first = index;
+    while (first > 0 && layers[first - 1].depth >= layers[index].depth) first--;
+    return first;
+}
+
+int wr_document_parent(const WrDocument *document, int index)
+{
+    const int depth = document->layers[index].depth;
+    if (depth == 0) return -1;
+    while (document->layers[index].depth >= depth) index++;
+    return index;
+}
+
+bool wr_document_is_within(const WrDocument *document, int index, int group)
+{
+    return index < group && index >= wr_layers_first(document->layers, group);
+}
+
+int wr_document_height(const WrDocument *document, int index)
+{
+    const WrLayer *layers = document->layers;
+    int height = layers[index].is_group;
+    for (int i = wr_layers_first(layers, index); i < index; i++) {
+        const int here = layers[i].depth + layers[i].is_group - layers[index].depth;
+        height = here > height ? here : height;
+    }
+    return height;
+}
+
+bool wr_document_check_groups(const WrDocument *document, WrError *err)
+{
+    for (int i = document->layer_count - 1, most = 0; i >= 0; i--) {
+        const WrLayer *layer = &document->layers[i];
+        if (layer->depth < 0 || layer->depth + layer->is_group > WR_DEPTH_MAX)
+            return wr_fail(err, "layer %d is in %d groups: up to %d can be nested", i + 1,
+                           layer->depth + layer->is_group, WR_DEPTH_MAX);
+        if (layer->depth > most)
+            return wr_fail(err, "layer %d is %d groups deep, where %d are open: a group is missing",
+                           i + 1, layer->depth, most);
+        most = layer->depth + layer->is_group;
+    }
+    return true;
+}
+
+/* True if layer `index` and all groups that it is in, up to `top`, are visible. */
+static bool is_visible_up_to(const WrDocument *document, int index, int top)
+{
+    while (index >= 0 && index != top) {
+        if (!document->layers[index].visible) return false;
+        index = wr_document_parent(document, index);
+    }
+    return true;
+}
+
 bool wr_document_shows(const WrDocument *document, int index)
 {
-    if (document->solo >= 0) return document->solo == index;
-    return document->layers[index].visible;
+    const int solo = document->solo;
+    if (solo < 0) return is_visible_up_to(document, index, -1);
+    if (index == solo) return true;
+    return wr_document_is_within(document, index, solo) && is_visible_up_to(document, index, solo);
 }
 
 /* ---- documents ---- */
@@ -230,15 +302,22 @@ static bool is_plain(const WrDocument *document)
     const WrLayer *layer = &document->layers[0];
     const WrBlendMode *mode = &wr_blends[layer->blend];
     return document->layer_count == 1 && wr_document_shows(document, 0) && layer->opacity == 1.0f &&
-           !layer->mask && !layer->filter.op &&
+           !layer->mask && wr_layer_holds(layer) &&
            (layer->blend == WR_BLEND_ADD || (mode->takes && !(mode->uses_cover && layer->cover)));
 }
 
 const WrField *wr_document_composite(const WrDocument *document, WrPool *pool)
 {
+    const int solo = document->solo;
     if (is_plain(document)) return document->layers[0].heights;
-    return wr_composite_update(document->composite, document->layers, document->layer_count,
-                               document->solo, pool);
+    WrRows rows = { .layers = document->layers, .to = document->layer_count };
+    if (solo >= 0) { /* the layers up to it, if it is a filter; else it alone, with its members */
+        const bool filters = document->layers[solo].filter.op;
+        rows.from = filters ? wr_layers_first_sibling(rows.layers, solo)
+                            : wr_layers_first(rows.layers, solo);
+        rows.to = solo + 1;
+    }
+    return wr_composite_update(document->composite, &rows, solo, pool, NULL);
 }
 
 const WrField *wr_document_field(const WrDocument *document)
@@ -259,6 +338,7 @@ void wr_document_insert(WrDocument *document, int index, WrLayer layer)
 {
     int count = document->layer_count;
     WR_ASSERT(index >= 0 && index <= count && count < WR_LAYERS_MAX);
+    layer.depth = index > 0 ? document->layers[index - 1].depth : 0;
     document->layers =
         wr_realloc(document->layers, (size_t)count, (size_t)count + 1, sizeof *document->layers);
     memmove(document->layers + index + 1, document->layers + index,
@@ -278,41 +358,150 @@ void wr_document_add_filter(WrDocument *document, const char *name, const WrFilt
     document->active = place;
 }
 
-/* Closes the gap of a removed layer. */
-static void close_gap(WrDocument *document, int index)
+/* Index after `count` rows from `first` were removed; of one of these, `gone`. */
+static int closed(int index, int first, int count, int gone)
 {
-    document->layer_count--;
-    memmove(document->layers + index, document->layers + index + 1,
-            (size_t)(document->layer_count - index) * sizeof *document->layers);
-    if (document->solo == index) document->solo = -1;
-    document->solo -= document->solo > index;
-    document->active -= document->active >= index && document->active > 0;
+    if (index < first) return index;
+    return index < first + count ? gone : index - count;
+}
+
+static void remove_rows(WrDocument *document, int first, int count)
+{
+    WrLayer *layers = document->layers;
+    for (int i = first; i < first + count; i++) wr_layer_fini(&layers[i]);
+    document->layer_count -= count;
+    memmove(layers + first, layers + first + count,
+            (size_t)(document->layer_count - first) * sizeof *layers);
+    document->solo = closed(document->solo, first, count, -1);
+    document->active = closed(document->active, first, count, first > 0 ? first - 1 : 0);
 }
 
 void wr_document_remove(WrDocument *document, int index)
 {
-    WR_ASSERT(document->layer_count > 1);
-    wr_layer_fini(&document->layers[index]);
-    close_gap(document, index);
+    const int first = wr_layers_first(document->layers, index);
+    WR_ASSERT(document->layer_count > index + 1 - first);
+    remove_rows(document, first, index + 1 - first);
 }
 
-/* New index of a layer after another one moves. */
-static int moved(int index, int from, int to)
+/* Puts the layers in the order of order[layer_count], old indices from the bottom up. */
+static void reorder(WrDocument *document, const int order[])
 {
-    if (index == from) return to;
-    if (from < index && index <= to) return index - 1;
-    if (to <= index && index < from) return index + 1;
-    return index;
+    const int count = document->layer_count, active = document->active, solo = document->solo;
+    WrLayer *layers = wr_alloc((size_t)count, sizeof *layers);
+    for (int i = 0; i < count; i++) {
+        layers[i] = document->layers[order[i]];
+        if (order[i] == active) document->active = i;
+        if (order[i] == solo) document->solo = i;
+    }
+    wr_free(document->layers);
+    document->layers = layers;
 }
 
-void wr_document_move(WrDocument *document, int from, int to)
+/* Lists the rows that are not in first..last. */
+static int list_rest(const WrDocument *document, int first, int last, int rest[])
 {
-    WrLayer layer = document->layers[from], *layers = document->layers;
-    if (from < to) memmove(layers + from, layers + from + 1, (size_t)(to - from) * sizeof layer);
-    else memmove(layers + to + 1, layers + to, (size_t)(from - to) * sizeof layer);
-    layers[to] = layer;
-    document->active = moved(document->active, from, to);
-    if (document->solo >= 0) document->solo = moved(document->solo, from, to);
+    int count = 0;
+    for (int i = 0; i < document->layer_count; i++)
+        if (i < first || i > last) rest[count++] = i;
+    return count;
+}
+
+void wr_document_move_depths(const WrDocument *document, int from, int to, int *least, int *most)
+{
+    const WrLayer *layers = document->layers;
+    int rest[WR_LAYERS_MAX];
+    const int first = wr_layers_first(layers, from);
+    const int count = list_rest(document, first, from, rest), place = to - (from - first);
+    WR_ASSERT(place >= 0 && place <= count);
+    *least = place > 0 ? layers[rest[place - 1]].depth : 0;
+    *most = place < count ? layers[rest[place]].depth + layers[rest[place]].is_group : 0;
+}
+
+void wr_document_move(WrDocument *document, int from, int to, int depth)
+{
+    WrLayer *layers = document->layers;
+    int order[WR_LAYERS_MAX], least, most;
+    const int first = wr_layers_first(layers, from), moving = from + 1 - first;
+    wr_document_move_depths(document, from, to, &least, &most);
+    WR_ASSERT(depth >= least && depth <= most &&
+              depth + wr_document_height(document, from) <= WR_DEPTH_MAX);
+    const int deeper = depth - layers[from].depth, place = to + 1 - moving;
+    const int count = list_rest(document, first, from, order);
+    memmove(order + place + moving, order + place, (size_t)(count - place) * sizeof *order);
+    for (int i = 0; i < moving; i++) {
+        order[place + i] = first + i;
+        layers[first + i].depth += deeper;
+    }
+    reorder(document, order);
+}
+
+/* The chosen layer that row `index` belongs to: itself, or the outermost group that it is in; -1: none. */
+static int chosen_over(const WrDocument *document, const bool chosen[], int index)
+{
+    int found = -1;
+    for (int i = index; i >= 0; i = wr_document_parent(document, i))
+        if (chosen[i]) found = i;
+    return found;
+}
+
+/* Blend and radius with which a group of one such layer is that layer. */
+static void take_blend(const WrLayer *lowest, WrLayer *group)
+{
+    const bool same = !lowest->filter.op && lowest->blend != WR_BLEND_SUBTRACT;
+    const bool mixes = same && lowest->blend == WR_BLEND_MIX;
+    group->blend = mixes ? WR_BLEND_REPLACE : same ? lowest->blend : WR_BLEND_ADD;
+    group->radius = same ? lowest->radius : 0.0f;
+}
+
+/* Lists the rows in the order that they have with a group of the chosen ones, without the group's row, and what each is
+   deeper by. Returns the number of rows up to the highest chosen one; lowest: gets the place of the lowest chosen one. */
+static int list_grouped(const WrDocument *document, const bool chosen[], int order[], int deeper[],
+                        int *lowest)
+{
+    const WrLayer *layers = document->layers;
+    int over[WR_LAYERS_MAX], top = 0, count = 0;
+    for (int i = 0; i < document->layer_count; i++) {
+        over[i] = chosen_over(document, chosen, i);
+        if (over[i] >= 0) top = i;
+    }
+    for (int i = 0; i < document->layer_count; i++) {
+        deeper[i] = over[i] < 0 ? 0 : layers[top].depth + 1 - layers[over[i]].depth;
+        if (over[i] < 0 && i < top) order[count++] = i;
+    }
+    *lowest = -1;
+    for (int i = 0; i <= top; i++) {
+        if (over[i] < 0) continue;
+        if (*lowest < 0 && over[i] == i) *lowest = count;
+        order[count++] = i;
+    }
+    for (int i = top + 1; i < document->layer_count; i++) order[i] = i;
+    return count;
+}
+
+int wr_document_group(WrDocument *document, const bool chosen[], const char *name)
+{
+    WrLayer *layers = document->layers;
+    int order[WR_LAYERS_MAX], deeper[WR_LAYERS_MAX], lowest;
+    const int place = list_grouped(document, chosen, order, deeper, &lowest);
+    const int depth = layers[order[place - 1]].depth;
+    for (int i = 0; i < document->layer_count; i++)
+        if (layers[i].depth + deeper[i] + layers[i].is_group > WR_DEPTH_MAX) return -1;
+    for (int i = 0; i < document->layer_count; i++) layers[i].depth += deeper[i];
+    reorder(document, order);
+    WrLayer group = layer_of(name, empty_like(document->layers[0].heights, 0.0f));
+    group.is_group = true;
+    take_blend(&document->layers[lowest], &group);
+    wr_document_insert(document, place, group);
+    document->layers[place].depth = depth;
+    document->active = place;
+    return place;
+}
+
+void wr_document_ungroup(WrDocument *document, int index)
+{
+    const int first = wr_layers_first(document->layers, index);
+    for (int i = first; i < index; i++) document->layers[i].depth--;
+    remove_rows(document, index, 1);
 }
 
 void wr_document_start_over(WrDocument *document, WrField *heights)
@@ -354,6 +543,10 @@ static WrHash hash_layer(const WrLayer *layer, WrHash hash)
     hash = wr_hash_bytes(numbers, sizeof numbers, hash);
     if (layer->on_mask) hash = wr_hash_bytes("mask", 4, hash);
     if (layer->filter.op) hash = hash_filter(&layer->filter, hash);
+    if (layer->is_group || layer->depth) {
+        int32_t place[3] = { layer->depth, layer->is_group, layer->collapsed };
+        hash = wr_hash_bytes(place, sizeof place, hash);
+    }
     if (layer->line) hash = wr_hash_bytes(layer->line, strlen(layer->line) + 1, hash);
     if (layer->mask_line)
         hash = wr_hash_bytes(layer->mask_line, strlen(layer->mask_line) + 1, hash);
@@ -375,13 +568,24 @@ WrHash wr_document_hash(const WrDocument *document, const char *scene_text)
 
 #define TEXELS (WR_TILE * WR_TILE)
 
-/* The composite of `count` layers on the ground; owned by the caller. */
-static WrField *composite_of(const WrLayer *layers, int count, int solo, WrPool *pool)
+/* The composite of rows; owned by the caller, and so is their coverage, unless it is not wanted. */
+static WrField *composite_of(const WrRows *rows, WrPool *pool, WrField **cover)
 {
     WrComposite *composite = wr_composite_new();
-    WrField *field = wr_field_share(wr_composite_update(composite, layers, count, solo, pool));
+    const WrField *covered = NULL;
+    WrField *field =
+        wr_field_share(wr_composite_update(composite, rows, -1, pool, cover ? &covered : NULL));
+    if (cover) *cover = wr_field_share(covered);
     wr_composite_free(composite);
     return field;
+}
+
+/* The rows from..to - 1 of the group that layer `index` is in. */
+static WrRows rows_beside(const WrDocument *document, int index, int from, int to)
+{
+    const int group = wr_document_parent(document, index);
+    const bool partial = group >= 0 && wr_blends[document->layers[group].blend].uses_cover;
+    return (WrRows){ document->layers, from, to, partial };
 }
 
 static float bounded(double x)
@@ -413,7 +617,7 @@ static double unit(double x)
 
 static bool is_additive(const WrLayer *layer)
 {
-    if (layer->filter.op) return false;
+    if (!wr_layer_holds(layer)) return false;
     return layer->blend == WR_BLEND_ADD || layer->blend == WR_BLEND_SUBTRACT;
 }
 
@@ -511,33 +715,73 @@ static WrField *cover_of(const WrLayer *a, const WrLayer *b)
 
 WrField *wr_document_below(const WrDocument *document, int index, WrPool *pool)
 {
-    const WrField *like = document->layers[index].heights;
-    if (index > 0) return composite_of(document->layers, index, -1, pool);
-    return wr_field_new(wr_field_width(like), wr_field_height(like), wr_field_wrap_u(like),
-                        wr_field_wrap_v(like), 0.0f, NULL);
+    const WrLayer *layers = document->layers;
+    const WrRows rows = rows_beside(document, index, wr_layers_first_sibling(layers, index),
+                                    wr_layers_first(layers, index));
+    if (rows.from < rows.to) return composite_of(&rows, pool, NULL);
+    return empty_like(layers[index].heights, 0.0f);
+}
+
+int wr_document_rasterize_group(WrDocument *document, int index, WrPool *pool)
+{
+    WrLayer *group = &document->layers[index];
+    const WrRows rows = { document->layers, wr_layers_first(document->layers, index), index,
+                          wr_blends[group->blend].uses_cover };
+    bool any = false;
+    for (int i = rows.from; i < rows.to; i++)
+        any |= !document->layers[i].is_group && is_visible_up_to(document, i, index);
+    group->is_group = group->collapsed = false;
+    if (!any) { /* nothing, as before: a layer of mode mix would show its heights, 0 */
+        if (group->blend == WR_BLEND_MIX) group->blend = WR_BLEND_ADD;
+        group->cover = empty_like(group->heights, 0.0f);
+    } else {
+        wr_field_free(group->heights);
+        group->heights = composite_of(&rows, pool, &group->cover);
+    }
+    const bool active = document->active >= rows.from && document->active <= index;
+    remove_rows(document, rows.from, rows.to - rows.from);
+    if (active) document->active = rows.from;
+    return rows.from;
+}
+
+/* Heights of a layer with mode add that does what layers index - 1 and index do. */
+static WrField *joined(const WrDocument *document, int index, WrPool *pool)
+{
+    const WrLayer *layers = document->layers;
+    if (is_additive(&layers[index]) && is_additive(&layers[index - 1]))
+        return sum_of(&layers[index], &layers[index - 1]);
+    WrRows rows = rows_beside(document, index, wr_layers_first_sibling(layers, index), index - 1);
+    WrProgressPart part;
+    const WrProgress *whole = wr_progress_enter(&part, 0.0, 0.45);
+    WrField *below = composite_of(&rows, pool, NULL);
+    part.from = part.to;
+    part.to = 0.9;
+    rows.to = index + 1;
+    WrField *with = composite_of(&rows, pool, NULL);
+    wr_progress_set(whole);
+    WrField *made = change_of(below, with);
+    wr_field_free(below);
+    wr_field_free(with);
+    return made;
 }
 
 void wr_document_merge(WrDocument *document, int index, WrPool *pool)
 {
+    int other = wr_layers_first(document->layers, index) - 1;
+    if (document->layers[index].is_group) wr_document_rasterize_group(document, index, pool);
+    if (document->layers[other].is_group)
+        other = wr_document_rasterize_group(document, other, pool);
+    index = other + 1;
     WrLayer *layers = document->layers, *upper = &layers[index], *lower = &layers[index - 1];
-    WrLayer made = { .name = wr_strdup(lower->name), .opacity = 1.0f, .visible = true };
-    if (index == 1) {
-        made.heights = composite_of(layers, 2, -1, pool);
-    } else if (is_additive(upper) && is_additive(lower)) {
-        made.heights = sum_of(upper, lower);
-    } else {
-        WrProgressPart part;
-        const WrProgress *whole = wr_progress_enter(&part, 0.0, 0.45);
-        WrField *below = composite_of(layers, index - 1, -1, pool);
-        part.from = part.to;
-        part.to = 0.9;
-        WrField *with = composite_of(layers, index + 1, -1, pool);
-        wr_progress_set(whole);
-        made.heights = change_of(below, with);
-        wr_field_free(below);
-        wr_field_free(with);
-    }
-    if (index > 1) made.cover = cover_of(upper, lower);
+    WrLayer made = {
+        .name = wr_strdup(lower->name), .opacity = 1.0f, .visible = true, .depth = lower->depth
+    };
+    const WrRows both = rows_beside(document, index, index - 1, index + 1);
+    const bool lowest = wr_layers_first_sibling(layers, index) == index - 1;
+    if (lowest) made.heights = composite_of(&both, pool, made.depth > 0 ? &made.cover : NULL);
+    else made.heights = joined(document, index, pool);
+    if (!lowest && made.depth == 0) made.cover = cover_of(upper, lower);
+    if (!lowest && made.depth > 0) wr_field_free(composite_of(&both, pool, &made.cover));
     bool active = document->active == index;
     bool alone = document->solo == index;
     wr_layer_fini(lower);
@@ -549,8 +793,9 @@ void wr_document_merge(WrDocument *document, int index, WrPool *pool)
 
 void wr_document_flatten(WrDocument *document, WrPool *pool)
 {
-    WrField *heights = composite_of(document->layers, document->layer_count, -1, pool);
-    while (document->layer_count > 1) wr_document_remove(document, document->layer_count - 1);
+    const WrRows all = { .layers = document->layers, .to = document->layer_count };
+    WrField *heights = composite_of(&all, pool, NULL);
+    remove_rows(document, 1, document->layer_count - 1);
     WrLayer *layer = &document->layers[0];
     WrLayer made = {
         .name = wr_strdup(layer->name), .heights = heights, .opacity = 1.0f, .visible = true

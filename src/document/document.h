@@ -16,11 +16,14 @@ typedef struct WrScene WrScene;
 
 #define WR_LAYERS_MAX 256     /* maximum layers of a document */
 #define WR_LAYER_NAME_MAX 255 /* maximum bytes of a layer's name */
+#define WR_DEPTH_MAX 8        /* maximum groups that a layer is in, one in another */
 
 /* One layer. A filter's own heights are empty: it contributes the result of its operation on the composite of
    the layers below, which is updated incrementally. A generator layer keeps the command line that its heights and
    coverage come from; they are generated again when the line changes, or the layers below if the line reads them. A live
-   mask keeps its terms and is made again in the same way. All fields of a document have one size and one wrap. */
+   mask keeps its terms and is made again in the same way. A group's own heights are empty: its members are the rows
+   directly below it that are deeper than it, and their composite (composite.h) takes the place of its heights and
+   coverage. All fields of a document have one size and one wrap. */
 typedef struct WrLayer {
     char *name;         /* UTF-8, owned; not necessarily unique */
     char *line;         /* command line of a generator layer; NULL: a plain layer. Owned */
@@ -40,13 +43,18 @@ typedef struct WrLayer {
     bool locked;        /* edits are refused */
     bool on_mask;       /* edits change its mask, which then exists */
     WrFilter filter;    /* op NULL: not a filter */
+    int depth;          /* 0..WR_DEPTH_MAX, the number of groups that it is in */
+    bool is_group;      /* then its depth is below WR_DEPTH_MAX */
+    bool collapsed;     /* of a group: lists of layers omit its members */
 } WrLayer;
 
 typedef struct WrComposite WrComposite; /* private to the module */
 
 /* Commands edit the active layer's fields in place, replace `selection` and replace `scene`. */
 typedef struct WrDocument {
-    WrLayer *layers; /* [layer_count], bottom first, owned; at least one */
+    /* [layer_count], bottom first, owned; at least one. The top row has depth 0, every other at most that of the row above
+       it, or one more if that is a group. */
+    WrLayer *layers;
     int layer_count;
     int active;             /* index of the layer that edits change */
     int solo;               /* index of the layer that is shown alone, even if hidden; -1: none */
@@ -68,7 +76,7 @@ void wr_document_swap_composites(WrDocument *document, WrDocument *from);
 void wr_document_free(WrDocument *document); /* NULL is fine */
 
 /* The composited F: the visible layers blended from the bottom up (composite.h), or the solo layer alone on the
-   ground (for a solo filter: the layers up to it). A document of one plain layer (visible, opacity 1, no mask,
+   ground (for a solo filter: the layers up to it in its group; for a group: with its members). A document of one plain layer (visible, opacity 1, no mask,
    mode equivalent to mix) returns that layer's heights themselves; otherwise tiles that changed since the last
    call are computed again. Borrowed until the next edit. Any number of threads may call it as long as nobody
    edits. */
@@ -84,8 +92,8 @@ bool wr_filters_carried(WrError *err);
 /* The composite; NULL and the error if a filter failed. pool: as above. */
 const WrField *wr_document_whole(const WrDocument *document, WrPool *pool, WrError *err);
 
-/* The composite of the visible layers below layer `index` (0..layer_count - 1); 0 where there are none. A new
-   table, owned by the caller. */
+/* The composite of the visible layers below layer `index` (0..layer_count - 1) in its own group, as a filter there reads
+   it (composite.h); 0 where there are none. A new table, owned by the caller. */
 WrField *wr_document_below(const WrDocument *document, int index, WrPool *pool);
 
 /* Hash of everything that a document file stores: layers with their names, settings and fields, the selection,
@@ -124,23 +132,59 @@ void wr_document_edit_end(WrDocument *document, WrStandIn *stand_in);
 bool wr_document_filters(const WrDocument *document); /* true if any layer is a filter */
 /* true if any is a generator layer or has a live mask */
 bool wr_document_generates(const WrDocument *document);
-/* True if the layer is shown: visible, and no other layer is solo. */
+/* True if the layer is shown: it and all groups that it is in are visible, and no other layer is solo. A solo group shows its
+   visible members. */
 bool wr_document_shows(const WrDocument *document, int index);
+/* True if the layer has heights of its own: it is neither a filter nor a group. */
+bool wr_layer_holds(const WrLayer *layer);
+
+/* ---- groups ---- */
+
+/* The lowest row of a layer with its members: `index` itself unless it is a group with members. */
+int wr_layers_first(const WrLayer *layers, int index);
+/* The lowest row of the group that the layer is in, or 0. */
+int wr_layers_first_sibling(const WrLayer *layers, int index);
+/* The group that layer `index` is in; -1: none. */
+int wr_document_parent(const WrDocument *document, int index);
+/* True if layer `index` is among the members of `group`, at any depth. */
+bool wr_document_is_within(const WrDocument *document, int index, int group);
+/* Fails if a layer is in more than WR_DEPTH_MAX groups, or in one that does not exist. */
+bool wr_document_check_groups(const WrDocument *document, WrError *err);
+
+/* Makes a group of the chosen layers and their members, in the place of the highest of them, and returns its index.
+   It is active, and has the blend and the radius of its lowest layer, so that the composite changes as little as possible; if
+   that is a filter or subtracts: add; for mix: replace. Returns -1, and changes nothing, if more than
+   WR_DEPTH_MAX groups would be nested. chosen: [layer_count], at least one */
+int wr_document_group(WrDocument *document, const bool chosen[], const char *name);
+/* Removes the group but not its members. It must not be an empty one that is the last layer. */
+void wr_document_ungroup(WrDocument *document, int index);
+/* Makes a plain layer of a group, which leaves every bit of the composite, and returns its index. Its hidden members are
+   lost. */
+int wr_document_rasterize_group(WrDocument *document, int index, WrPool *pool);
+
+/* ---- order ---- */
 
 /* Structural changes keep `active` and `solo` at the same layers. If one of these is removed, active moves to
    the layer below (else above), solo to none. */
-/* takes ownership of the layer */
+/* takes ownership of the layer, which gets the depth of the one below it, so that it joins that one's group; 0 at the bottom */
 void wr_document_insert(WrDocument *document, int index, WrLayer layer);
 /* Adds a filter above the active layer and makes it active. The selection becomes its mask. */
 void wr_document_add_filter(WrDocument *document, const char *name, const WrFilter *filter);
-void wr_document_remove(WrDocument *document, int index); /* not the last one */
-void wr_document_move(WrDocument *document, int from, int to);
+/* removes it with its members; these must not be all layers */
+void wr_document_remove(WrDocument *document, int index);
+/* The least and the largest depth that layer `from`, moved with its members, could have with the index `to`. to: from the
+   number of its members to layer_count - 1 */
+void wr_document_move_depths(const WrDocument *document, int from, int to, int *least, int *most);
+/* Moves it there with its members. depth: in that range; with the members at most WR_DEPTH_MAX */
+void wr_document_move(WrDocument *document, int from, int to, int depth);
+/* Number of groups nested in the layer: 0 for a layer, 1 for a group with layers ... */
+int wr_document_height(const WrDocument *document, int index);
 /* Replaces all layers by one layer "base" of these heights (takes ownership); clears the selection. */
 void wr_document_start_over(WrDocument *document, WrField *heights);
 
-/* Merges layer index (1 or more) and the one below into one layer, which keeps the lower one's name and
-   position; both must be visible. The composite is unchanged up to rounding:
-     - onto the bottom layer: exact; the new layer has the composite of the two and mode add;
+/* Merges layer index and the one below in its group, which exists, into one layer, which keeps the lower one's name and
+   position; both must be visible; groups among them become layers first. The composite is unchanged up to rounding:
+     - onto the bottom layer, or that of a group: exact; the new layer has the composite of the two and mode add;
      - add or subtract onto add or subtract: the new layer has the sum of both;
      - any others: the new layer has the change that the two make to the composite of the layers below, with mode
        add, so later edits below no longer interact with the old layers' blends.

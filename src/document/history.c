@@ -371,7 +371,7 @@ const WrField *wr_history_heights(const WrHistory *history, int state)
     const WrDocument *document = state_at(history, state);
     if (!document) return NULL;
     int layer = document->active;
-    while (layer > 0 && document->layers[layer].filter.op) layer--;
+    while (layer > 0 && !wr_layer_holds(&document->layers[layer])) layer--;
     return document->layers[layer].heights;
 }
 

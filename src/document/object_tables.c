@@ -19,7 +19,7 @@ int wr_layer_named(const WrDocument *document, const char *name)
 /* True if the layer alone equals its own heights: all of them are shown unchanged. */
 static bool is_plain(const WrLayer *layer)
 {
-    return !layer->cover && !layer->mask && !layer->filter.op && layer->opacity == 1.0f &&
+    return !layer->cover && !layer->mask && wr_layer_holds(layer) && layer->opacity == 1.0f &&
            layer->blend == WR_BLEND_ADD;
 }
 
@@ -43,7 +43,8 @@ WrField *wr_document_layer_alone(const WrDocument *document, int index, WrPool *
 
 static uint64_t key_of(const WrLayer *layer, uint64_t key)
 {
-    uint32_t how[3] = { (uint32_t)layer->blend | (uint32_t)layer->visible << 8 };
+    uint32_t how[3] = { (uint32_t)layer->blend | (uint32_t)layer->visible << 8 |
+                        (uint32_t)layer->is_group << 9 | (uint32_t)layer->depth << 10 };
     memcpy(how + 1, &layer->opacity, sizeof *how);
     memcpy(how + 2, &layer->radius, sizeof *how);
     const uint64_t part[] = { wr_field_key(layer->heights),
@@ -57,11 +58,12 @@ static uint64_t key_of(const WrLayer *layer, uint64_t key)
     return key;
 }
 
-/* A filter also depends on the layers below it. */
+/* A filter also depends on the layers below it in its group, a group on its members. */
 uint64_t wr_layer_key(const WrDocument *document, int index)
 {
     const WrFilter *filter = &document->layers[index].filter;
-    const int first = filter->op ? 0 : index;
+    const int first = filter->op ? wr_layers_first_sibling(document->layers, index)
+                                 : wr_layers_first(document->layers, index);
     uint64_t key = 1;
     for (int i = first; i <= index; i++) {
         key = key_of(&document->layers[i], key);

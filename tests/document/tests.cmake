@@ -1,6 +1,7 @@
 wr_test(blend document)
 wr_test(compositor document)
 wr_test(filters document)
+wr_test(groups document)
 wr_test(document document)
 wr_test(import document)
 wr_test(ora document)
