@@ -147,6 +147,13 @@ bool wr_document_filters(const WrDocument *document)
     return any;
 }
 
+bool wr_document_groups(const WrDocument *document)
+{
+    bool any = false;
+    for (int i = 0; i < document->layer_count; i++) any |= document->layers[i].is_group;
+    return any;
+}
+
 bool wr_document_generates(const WrDocument *document)
 {
     bool any = false;
@@ -210,6 +217,8 @@ bool wr_document_check_groups(const WrDocument *document, WrError *err)
         if (layer->depth > most)
             return wr_fail(err, "layer %d is %d groups deep, where %d are open: a group is missing",
                            i + 1, layer->depth, most);
+        if (layer->is_group && (layer->filter.op || layer->line))
+            return wr_fail(err, "layer %d is a group and a filter or generator layer", i + 1);
         most = layer->depth + layer->is_group;
     }
     return true;
@@ -338,7 +347,10 @@ void wr_document_insert(WrDocument *document, int index, WrLayer layer)
 {
     int count = document->layer_count;
     WR_ASSERT(index >= 0 && index <= count && count < WR_LAYERS_MAX);
-    layer.depth = index > 0 ? document->layers[index - 1].depth : 0;
+    const WrLayer *above = index < count ? &document->layers[index] : NULL;
+    const int least = index > 0 ? document->layers[index - 1].depth : 0;
+    const int most = above ? above->depth + above->is_group : 0;
+    layer.depth = layer.depth < least ? least : layer.depth > most ? most : layer.depth;
     document->layers =
         wr_realloc(document->layers, (size_t)count, (size_t)count + 1, sizeof *document->layers);
     memmove(document->layers + index + 1, document->layers + index,

@@ -130,6 +130,7 @@ WrLayer *wr_document_edit_begin(WrDocument *document, WrStandIn *stand_in);
 /* Stores the edited mask, clamped to 0..1. No effect without edit_begin. */
 void wr_document_edit_end(WrDocument *document, WrStandIn *stand_in);
 bool wr_document_filters(const WrDocument *document); /* true if any layer is a filter */
+bool wr_document_groups(const WrDocument *document);  /* true if any is a group */
 /* true if any is a generator layer or has a live mask */
 bool wr_document_generates(const WrDocument *document);
 /* True if the layer is shown: it and all groups that it is in are visible, and no other layer is solo. A solo group shows its
@@ -148,7 +149,8 @@ int wr_layers_first_sibling(const WrLayer *layers, int index);
 int wr_document_parent(const WrDocument *document, int index);
 /* True if layer `index` is among the members of `group`, at any depth. */
 bool wr_document_is_within(const WrDocument *document, int index, int group);
-/* Fails if a layer is in more than WR_DEPTH_MAX groups, or in one that does not exist. */
+/* Fails if a layer is in more than WR_DEPTH_MAX groups, or in one that does not exist, or is a group and a filter or
+   generator layer. */
 bool wr_document_check_groups(const WrDocument *document, WrError *err);
 
 /* Makes a group of the chosen layers and their members, in the place of the highest of them, and returns its index.
@@ -166,7 +168,8 @@ int wr_document_rasterize_group(WrDocument *document, int index, WrPool *pool);
 
 /* Structural changes keep `active` and `solo` at the same layers. If one of these is removed, active moves to
    the layer below (else above), solo to none. */
-/* takes ownership of the layer, which gets the depth of the one below it, so that it joins that one's group; 0 at the bottom */
+/* Takes ownership of the layer. Its depth is limited to that of the row below, or 0, and to that of the row above, or one
+   more if that is a group: so a layer with depth 0 joins the group of the row below. */
 void wr_document_insert(WrDocument *document, int index, WrLayer layer);
 /* Adds a filter above the active layer and makes it active. The selection becomes its mask. */
 void wr_document_add_filter(WrDocument *document, const char *name, const WrFilter *filter);

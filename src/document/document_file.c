@@ -89,7 +89,7 @@ void wr_image_rows_out(const WrImage *image, int channels, int y, int rows, floa
    attributes of the document; then for each layer from the bottom "layer:NAME", "cover:N", "mask:N"; "selection"; pictures of
    objects, 3 channels; the mesh, packed as a picture of one channel. Absent tables have no part: cover and mask NULL mean 1. */
 #define FILE_ATTRIBUTES 8
-#define LAYER_ATTRIBUTES 12
+#define LAYER_ATTRIBUTES 15
 #define PARTS_MAX                                                                                  \
     (3 + WR_OBJECT_PICTURES * WR_OBJECTS_MAX +                                                     \
      3 * WR_LAYERS_MAX) /* F, selection, mesh, pictures; heights, cover, mask of a layer */
@@ -218,7 +218,8 @@ static int version_of(const Saving *to)
 {
     const WrScene *scene = to->document->scene;
     const WrSceneAge age = wr_scene_age(scene);
-    if (wr_document_generates(to->document)) return WR_DOCUMENT_VERSION;
+    if (wr_document_groups(to->document)) return WR_DOCUMENT_VERSION;
+    if (wr_document_generates(to->document)) return WR_DOCUMENT_VERSION_GENERATES;
     if (age == WR_SCENE_OF_PROJECTION) return WR_DOCUMENT_VERSION_PROJECTION;
     if (wr_document_filters(to->document)) return WR_DOCUMENT_VERSION_FILTERS;
     if (age == WR_SCENE_OF_FACETS) return WR_DOCUMENT_VERSION_FACETS;
@@ -304,6 +305,10 @@ static int describe_layer(Saving *to, int index, WrImageAttribute out[LAYER_ATTR
         out[count++] = (WrImageAttribute){ "wrinkle:mask-line", layer->mask_line };
         out[count++] = (WrImageAttribute){ "wrinkle:mask-read", keep_hash(to, layer->mask_read) };
     }
+    if (layer->depth)
+        out[count++] = (WrImageAttribute){ "wrinkle:depth", keep_whole(to, "", layer->depth) };
+    if (layer->is_group) out[count++] = (WrImageAttribute){ "wrinkle:group", "on" };
+    if (layer->collapsed) out[count++] = (WrImageAttribute){ "wrinkle:collapsed", "on" };
     return count;
 }
 
@@ -386,7 +391,7 @@ static bool has_pictures(const WrScene *scene)
 static bool fits_one_part(const WrDocument *document)
 {
     const WrLayer *layer = &document->layers[0];
-    return document->layer_count == 1 && !layer->filter.op && !layer->cover && !layer->mask &&
+    return document->layer_count == 1 && wr_layer_holds(layer) && !layer->cover && !layer->mask &&
            !document->selection && !has_pictures(document->scene) && !document->scene->triangles &&
            same_bits(wr_document_field(document), layer->heights);
 }
@@ -809,6 +814,18 @@ static bool read_mask_line(Loading *in, int part, WrLayer *layer, WrError *err)
     return true;
 }
 
+/* Reads the place of a layer in groups; whether they exist is checked when all are read. */
+static bool read_place(Loading *in, int part, WrLayer *layer, WrError *err)
+{
+    float depth = 0.0f;
+    if (!read_number(in, part, "wrinkle:depth", WR_DEPTH_MAX, &depth, err) ||
+        !read_switch(in, part, "wrinkle:group", &layer->is_group, err) ||
+        !read_switch(in, part, "wrinkle:collapsed", &layer->collapsed, err))
+        return false;
+    layer->depth = (int)depth;
+    return true;
+}
+
 static bool read_layer(Loading *in, int index, WrLayer *out, WrError *err)
 {
     Slot slot = in->slots[index];
@@ -820,6 +837,7 @@ static bool read_layer(Loading *in, int index, WrLayer *out, WrError *err)
                 read_number(in, slot.heights, "wrinkle:radius", 3.4028234663852886e38,
                             &layer.radius, err) &&
                 read_filter(in, slot.heights, &layer.filter, err) &&
+                read_place(in, slot.heights, &layer, err) &&
                 read_switch(in, slot.heights, "wrinkle:visible", &layer.visible, err) &&
                 read_switch(in, slot.heights, "wrinkle:locked", &layer.locked, err) &&
                 read_switch(in, slot.heights, "wrinkle:on-mask", &layer.on_mask, err) &&
@@ -856,7 +874,11 @@ static bool read_document(Loading *in, WrDocument *document, WrError *err)
         if (!read_layer(in, i, &layer, err)) return false;
         wr_document_insert(document, document->layer_count, layer);
         if (i == 0) wr_document_remove(document, 0);
+        document->layers[i].depth = layer.depth; /* of a group that is yet to come */
     }
+    WrError why;
+    if (!wr_document_check_groups(document, &why))
+        return wr_fail(err, "%s: damaged: %s", in->path, wr_error_message(&why));
     if (in->selection && !(document->selection = read_field(in, in->selection, false, err)))
         return false;
     return read_index(in, "wrinkle:active", 1, &document->active, err) &&

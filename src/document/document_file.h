@@ -14,7 +14,8 @@
    wrinkle:locked ("on", "off"); of a filter layer, whose heights are 0, wrinkle:filter, its operation and values
    ("blur sigma=3"); of a generator layer wrinkle:line, its command line, and wrinkle:below, the hash of the
    composite that the line read; of a layer with a live mask wrinkle:mask-line, its terms, and wrinkle:mask-read, the hash
-   of all that they read.
+   of all that they read; of a layer in a group wrinkle:depth, the number of groups that it is in; of a group, whose heights
+   are 0 and whose members are the deeper layers directly below, wrinkle:group and wrinkle:collapsed ("on").
 
    A document of one layer that equals F bit for bit, without coverage, mask, selection, pictures or mesh, is a
    file of only that part, with the layer's attributes beside the file's: many programs open no file of several
@@ -26,7 +27,7 @@
      5  environments
      6  size of the cell, solid textures, tone, relief shadows, displaced surfaces
      7  roughness and metalness pictures, occlusion, parallax, area lamps, colours of hollows and sheets
-     8  filter layers
+     8  filter layers                              11 groups
    A file with several parts and none of the later features is still written as version 2. */
 #pragma once
 #include "field/wrap.h"
@@ -43,7 +44,8 @@ typedef struct WrField WrField;
 typedef struct WrImage WrImage;
 typedef struct WrImageRows WrImageRows;
 
-#define WR_DOCUMENT_VERSION 11
+#define WR_DOCUMENT_VERSION 12
+#define WR_DOCUMENT_VERSION_GENERATES 11  /* for a file without groups */
 #define WR_DOCUMENT_VERSION_PROJECTION 10 /* for a file without generator layers */
 #define WR_DOCUMENT_VERSION_FILTERS                                                                \
     9                                /* for a file without the features of WR_SCENE_OF_PROJECTION */

@@ -189,6 +189,9 @@ static bool layer_agrees(const WrLayer *layer, const WrOraRange *range)
 {
     if (layer->opacity <= 0.0f) return true;
     if (layer->filter.op || layer->opacity < 1.0f || !is_whole(layer->mask)) return false;
+    /* a factor on nothing would be a height; masks of groups are not in the file's pictures */
+    if ((layer->depth > 0 || layer->is_group) && layer->blend == WR_BLEND_MULTIPLY) return false;
+    if (layer->is_group && (layer->mask || !wr_blends[layer->blend].uses_cover)) return false;
     if (wr_blends[layer->blend].uses_cover && !is_whole(layer->cover)) return false;
     switch (layer->blend) {
     case WR_BLEND_MAX:
@@ -206,9 +209,12 @@ static bool layer_agrees(const WrLayer *layer, const WrOraRange *range)
 }
 
 /* True if every program that blends the layers from `lowest` on, the lowest visible one (-1: none), gets our
-   composite, on any scale of greys, as far as its operations equal ours. */
+   composite, on any scale of greys, as far as its operations equal ours. The layers of a group with coverage are blended by
+   the same rule everywhere. */
 static bool ora_agrees(const WrDocument *document, int lowest, const WrOraRange *range)
 {
+    if (document->solo >= 0 && document->layers[document->solo].depth > 0) return false;
+    if (lowest >= 0 && document->layers[lowest].is_group) return false;
     for (int i = lowest < 0 ? document->layer_count : lowest + 1; i < document->layer_count; i++)
         if (wr_document_shows(document, i) && !layer_agrees(&document->layers[i], range))
             return false;
@@ -256,7 +262,7 @@ static int count_pictures(const WrOraStack *stack)
         for (int k = 0; k < WR_OBJECT_PICTURES; k++) count += stack->pictures[i][k] != NULL;
     for (int i = 0; i < stack->layers.count; i++) {
         const WrOraLayer *layer = &stack->layers.data[i];
-        count += 1 + (layer->cover != NULL) + (layer->mask != NULL);
+        count += !layer->is_group + (layer->cover != NULL) + (layer->mask != NULL);
     }
     return count;
 }
@@ -498,7 +504,11 @@ static bool read_layer(Loading *in, const WrOraLayer *from, int number, WrLayer 
 {
     WrLayer layer = { .name = find_name(from, number) };
     bool good = read_settings(in, from, &layer, err);
-    if (good && from->heights) {
+    if (good && from->is_group) {
+        layer.is_group = true;
+        layer.collapsed = from->collapsed;
+        good = (layer.heights = new_field(in, 0.0f, err)) != NULL;
+    } else if (good && from->heights) {
         good = (layer.heights = read_field(in, from->heights, true, err)) &&
                read_line(in, from, &layer, err) &&
                (!from->cover || (layer.cover = read_field(in, from->cover, false, err)));
@@ -528,9 +538,12 @@ static bool read_layers(Loading *in, WrDocument *document, WrError *err)
         } else {
             wr_document_insert(document, i, layer);
         }
+        document->layers[i].depth = in->stack.layers.data[count - 1 - i].depth;
         if (in->stack.layers.data[count - 1 - i].selected) document->active = i;
     }
-    return true;
+    WrError why;
+    return wr_document_check_groups(document, &why) ||
+           wr_fail(err, "%s: damaged: %s", in->path, wr_error_message(&why));
 }
 
 /* ---- whole file ---- */
@@ -616,12 +629,32 @@ static int layer_number(const char *text, int count, int otherwise)
     return (int)value - 1;
 }
 
+/* Groups that are not isolated, in which a layer is not simply laid over the others: only these look different here. */
+static int count_passing(const WrOraStack *stack)
+{
+    int count = 0;
+    for (int i = 0; i < stack->layers.count; i++) {
+        const WrOraLayer *group = &stack->layers.data[i];
+        bool blends = false;
+        for (int k = i + 1; k < stack->layers.count; k++) {
+            const WrOraLayer *layer = &stack->layers.data[k];
+            if (layer->depth <= group->depth) break;
+            blends |= layer->operation && strcmp(layer->operation, "svg:src-over") != 0;
+        }
+        count += group->passes && blends;
+    }
+    return count;
+}
+
 static void add_notes(Loading *in)
 {
     if (!in->notes) return;
-    if (in->stack.groups)
-        wr_text_addf(in->notes, "%s: %d groups of layers were dissolved\n", in->path,
-                     in->stack.groups);
+    const int passing = count_passing(&in->stack);
+    if (passing)
+        wr_text_addf(in->notes,
+                     "%s: the layers of %d groups blend with those below the group in other "
+                     "programs, but only with each other here\n",
+                     in->path, passing);
     if (in->stack.unknown)
         wr_text_addf(in->notes, "%s: %d elements that are no layers were passed over\n", in->path,
                      in->stack.unknown);
@@ -700,8 +733,9 @@ typedef struct Saving {
     WrText stack, scene;
     WrImage *mesh;      /* the scene's meshes, as a picture; owned; or NULL */
     bool composite;     /* there is a topmost layer with the composite for other programs */
-    int lowest;         /* index of the lowest visible layer, -1: none */
-    WrField *ground;    /* that layer blended onto the empty ground; owned */
+    int lowest;         /* index of the lowest visible layer of those in no group, -1: none */
+    WrField *ground;    /* that layer blended onto the empty ground, unless it is a group; owned */
+    int open;           /* number of groups whose elements are open */
     int packed;         /* entries encoded so far */
     uint8_t *thumbnail; /* RGBA */
     uint8_t profile[WR_SRGB_PROFILE_SIZE];
@@ -947,16 +981,13 @@ static bool add_scene_images(Saving *to, const WrScene *scene, WrError *err)
 /* Finds the lowest visible layer, and blends it onto the ground. */
 static void find_ground(Saving *to)
 {
-    int count = to->document->layer_count;
+    const WrDocument *document = to->document;
     to->lowest = -1;
-    for (int i = count - 1; i >= 0; i--)
-        if (wr_document_shows(to->document, i)) to->lowest = i;
-    if (to->lowest < 0) return;
-    WrDocument *alone = wr_document_snapshot(to->document);
-    for (int i = count - 1; i >= 0; i--)
-        if (i != to->lowest) wr_document_remove(alone, i);
-    alone->layers[0].visible = true;
-    alone->solo = -1;
+    for (int i = document->layer_count - 1; i >= 0; i--)
+        if (document->layers[i].depth == 0 && wr_document_shows(document, i)) to->lowest = i;
+    if (to->lowest < 0 || document->layers[to->lowest].is_group) return;
+    WrDocument *alone = wr_document_snapshot(document);
+    alone->solo = to->lowest;
     to->ground = wr_field_share(wr_document_field(alone));
     wr_document_free(alone);
 }
@@ -967,12 +998,21 @@ static bool add_field(Saving *to, const char *attribute, char *name, const WrFie
     return add_floats(to, name, f, err);
 }
 
+/* True if the element itself is visible: in a hidden group it may be. */
+static bool is_shown(const WrDocument *document, int index)
+{
+    const int solo = document->solo;
+    if (solo < 0 || wr_document_is_within(document, index, solo))
+        return document->layers[index].visible;
+    return index == solo || wr_document_is_within(document, solo, index);
+}
+
 /* Attributes for other programs, and our own if the values differ. */
 static void add_looks(Saving *to, int index)
 {
     const WrLayer *layer = &to->document->layers[index];
     WrText *xml = &to->stack;
-    bool lowest = index == to->lowest, shown = wr_document_shows(to->document, index);
+    bool lowest = index == to->lowest && !layer->is_group, shown = is_shown(to->document, index);
     wr_ora_add_float(xml, "opacity", lowest ? 1.0f : layer->opacity);
     if (lowest && layer->opacity != 1.0f) wr_ora_add_float(xml, "wrinkle:opacity", layer->opacity);
     wr_ora_add_attribute(xml, "visibility", shown ? "visible" : "hidden");
@@ -983,7 +1023,6 @@ static void add_looks(Saving *to, int index)
                                 : wr_ora_operation(layer->blend));
 }
 
-/* Converts a layer's settings to attributes; the inverse of read_settings. */
 static void add_hash(WrText *xml, const char *name, WrHash hash)
 {
     char hex[WR_HASH_DIGITS + 1];
@@ -991,16 +1030,11 @@ static void add_hash(WrText *xml, const char *name, WrHash hash)
     wr_ora_add_attribute(xml, name, hex);
 }
 
-static bool add_layer(Saving *to, int index, WrError *err)
+/* Converts a layer's settings to attributes; the inverse of read_settings. */
+static void add_settings(Saving *to, int index)
 {
     const WrLayer *layer = &to->document->layers[index];
     WrText *xml = &to->stack;
-    int number = index + 1;
-    char *png = numbered("data/layer", number, ".png");
-    wr_text_add(xml, "    <layer");
-    wr_ora_add_name(xml, layer->name);
-    wr_ora_add_attribute(xml, "src", png);
-    wr_text_add(xml, " x=\"0\" y=\"0\"");
     add_looks(to, index);
     if (layer->locked) wr_ora_add_attribute(xml, "edit-locked", "true");
     if (index == to->document->active) wr_ora_add_attribute(xml, "selected", "true");
@@ -1016,14 +1050,65 @@ static bool add_layer(Saving *to, int index, WrError *err)
         wr_ora_add_attribute(xml, "wrinkle:mask-line", layer->mask_line);
         add_hash(xml, "wrinkle:mask-read", layer->mask_read);
     }
+}
+
+static void indent(WrText *xml, int depth)
+{
+    for (int i = 0; i < depth + 2; i++) wr_text_add(xml, "  ");
+}
+
+/* Closes the elements of groups down to that depth. */
+static void close_groups(Saving *to, int depth)
+{
+    while (to->open > depth) {
+        indent(&to->stack, --to->open);
+        wr_text_add(&to->stack, "</stack>\n");
+    }
+}
+
+static bool add_mask(Saving *to, int index, WrError *err)
+{
+    const WrField *mask = to->document->layers[index].mask;
+    return !mask ||
+           add_field(to, "wrinkle:mask", numbered("data/mask", index + 1, ".exr"), mask, err);
+}
+
+/* Opens the element of a group. */
+static bool begin_group(Saving *to, int index, WrError *err)
+{
+    const WrLayer *group = &to->document->layers[index];
+    wr_text_add(&to->stack, "<stack");
+    wr_ora_add_name(&to->stack, group->name);
+    wr_ora_add_attribute(&to->stack, "isolation", "isolate");
+    add_settings(to, index);
+    if (group->collapsed) wr_ora_add_attribute(&to->stack, "wrinkle:collapsed", "on");
+    const bool good = add_mask(to, index, err);
+    wr_text_add(&to->stack, ">\n");
+    to->open++;
+    return good;
+}
+
+static bool add_layer(Saving *to, int index, WrError *err)
+{
+    const WrLayer *layer = &to->document->layers[index];
+    WrText *xml = &to->stack;
+    int number = index + 1;
+    close_groups(to, layer->depth);
+    indent(xml, layer->depth);
+    if (layer->is_group) return begin_group(to, index, err);
+    char *png = numbered("data/layer", number, ".png");
+    wr_text_add(xml, "<layer");
+    wr_ora_add_name(xml, layer->name);
+    wr_ora_add_attribute(xml, "src", png);
+    wr_text_add(xml, " x=\"0\" y=\"0\"");
+    add_settings(to, index);
     bool good =
         add_layer_preview(to, png, index, err) &&
         add_field(to, "wrinkle:heights", numbered("data/layer", number, ".exr"), layer->heights,
                   err) &&
         (!layer->cover || add_field(to, "wrinkle:cover", numbered("data/cover", number, ".exr"),
                                     layer->cover, err)) &&
-        (!layer->mask ||
-         add_field(to, "wrinkle:mask", numbered("data/mask", number, ".exr"), layer->mask, err));
+        add_mask(to, index, err);
     wr_text_add(xml, "/>\n");
     return good;
 }
@@ -1085,6 +1170,7 @@ static bool fill_archive(Saving *to, WrError *err)
     if (to->composite) wr_text_add(&to->stack, COMPOSITE);
     for (int i = to->document->layer_count - 1; i >= 0; i--)
         if (!add_layer(to, i, err)) return false;
+    close_groups(to, 0);
     wr_text_add(&to->stack, "  </stack>\n</image>\n");
     return add_text(to, "stack.xml", to->stack.data, to->stack.length, err) &&
            add_text(to, "data/scene.wrinkle", wr_text_get(&to->scene), to->scene.length, err) &&

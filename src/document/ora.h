@@ -7,7 +7,8 @@
    that add, subtract and multiply are scaled as their operation needs). The lowest visible layer is opaque,
    combined with the ground, and svg:src-over. If some program would blend the layers to another picture (many
    blend in linear light; no composite-op smooths, filters, or multiplies by heights below 0), a topmost layer
-   contains the composite, as mergedimage.png does, and hides the others; this program ignores it. Our own
+   contains the composite, as mergedimage.png does, and hides the others; so it is if the lowest visible layer is a
+   group, since groups lie on nothing there, and for masks of groups; this program ignores it. Our own
    heights are stored beside them as float32 EXR files, named by attributes of the namespace WR_ORA_NAMESPACE,
    which other programs ignore:
 
@@ -18,6 +19,7 @@
              wrinkle:heights  wrinkle:cover  wrinkle:mask (names of entries)  wrinkle:blend  wrinkle:radius
              wrinkle:name (bytes in hex, if XML cannot represent the name)  wrinkle:opacity  wrinkle:visible (for
              the lowest layer and with a solo layer, if the standard attributes differ)
+     stack   a group, with the attributes of a layer that it needs, isolation="isolate" and wrinkle:collapsed (on)
 
    So a saved document is restored bit for bit. The same document produces the same bytes. Source: OpenRaster
    baseline specification 0.0.5; PKWARE APPNOTE for the archive. */
@@ -30,7 +32,8 @@
 typedef struct WrText WrText;
 
 #define WR_ORA_NAMESPACE "urn:wrinkle:openraster"
-#define WR_ORA_VERSION 8
+#define WR_ORA_VERSION 9
+#define WR_ORA_VERSION_GENERATES 8  /* for a file without groups */
 #define WR_ORA_VERSION_PROJECTION 7 /* for a file without generator layers */
 #define WR_ORA_VERSION_COMPOSITE 6  /* for a file without projected meshes */
 #define WR_ORA_VERSION_FILTERS 5    /* for a file without a composite */
@@ -52,13 +55,13 @@ bool wr_ora_recognise(const char *path);
 
    For a file of another program: the table is the canvas, periodic; each layer's heights are the Rec. 709 luma
    of its codes, 0..1, and its alpha becomes the coverage (none if it is opaque and fills the canvas); areas
-   outside the canvas are cropped; groups are dissolved, their opacity, visibility and offset applied to their
-   layers; composite-op becomes the nearest blend mode.
+   outside the canvas are cropped; the offsets of groups are applied to their layers; composite-op becomes the nearest
+   blend mode.
 
    out       as wr_document_load; scene_text is "" for a file of another program
    replaced  heights that were not finite and became 0
    notes     receives one line for each property that could not be kept; may be NULL Errors    name the file.
    Outputs are untouched on failure
-   Limits    WR_LAYERS_MAX layers, 16384 pixels a side, 10000 entries, groups 64 deep, no document type and
+   Limits    WR_LAYERS_MAX layers, 16384 pixels a side, 10000 entries, groups WR_DEPTH_MAX deep, no document type and
              so no entities, entries stored or deflated by less than 200:1, 2 GB each and 16 GB in all */
 bool wr_ora_load(const char *path, WrLoaded *out, int64_t *replaced, WrText *notes, WrError *err);

@@ -204,7 +204,8 @@ zip_t *wr_ora_sink_open(WrOraSink *sink, WrError *err)
 
 /* ---- stack.xml ---- */
 
-#define DEPTH_MAX 64
+#define DEPTH_MAX (WR_DEPTH_MAX + 1) /* with the element of all layers */
+#define ELEMENTS_MAX 128             /* nested elements of any kind */
 #define OURS WR_ORA_NAMESPACE "|"
 
 /* ---- blend modes ---- */
@@ -290,16 +291,15 @@ bool wr_ora_add_attribute(WrText *xml, const char *name, const char *value)
 
 /* ---- reading ---- */
 
-typedef struct Group {
+/* Where the top left pixel of a group is. */
+typedef struct Offset {
     int x, y;
-    double opacity;
-    bool visible;
-} Group;
+} Offset;
 
 typedef struct Reading {
     WrOraStack *stack;
     XML_Parser parser;
-    Group groups[DEPTH_MAX];
+    Offset groups[DEPTH_MAX];
     int depth;   /* number of open groups; the root stack counts as one */
     int element; /* nesting depth of elements of any kind */
     int skip;    /* depth at which an unknown element began, or 0 */
@@ -337,32 +337,17 @@ static bool is(const char *text, const char *word)
     return text && strcmp(text, word) == 0;
 }
 
-/* Attributes of a group or layer, combined with those of its group. */
-static Group read_group(Reading *reading, const char **attributes)
+/* Offset of a group or layer, added to that of its group. */
+static Offset read_offset(Reading *reading, const char **attributes)
 {
-    Group outer = { 0, 0, 1.0, true };
+    Offset outer = { 0, 0 };
     if (reading->depth > 0) outer = reading->groups[reading->depth - 1];
-    double limit = 1e6; /* sums of 64 are far inside int */
-    return (Group){
-        outer.x + (int)number(reading, attributes, "x", 0.0, -limit, limit),
-        outer.y + (int)number(reading, attributes, "y", 0.0, -limit, limit),
-        outer.opacity * number(reading, attributes, "opacity", 1.0, 0.0, 1.0),
-        outer.visible && !is(find(attributes, "visibility"), "hidden"),
-    };
+    double limit = 1e6; /* sums of a few are far inside int */
+    return (Offset){ outer.x + (int)number(reading, attributes, "x", 0.0, -limit, limit),
+                     outer.y + (int)number(reading, attributes, "y", 0.0, -limit, limit) };
 }
 
-static void begin_group(Reading *reading, const char **attributes)
-{
-    if (reading->depth >= DEPTH_MAX) {
-        stop(reading, "its groups are nested more than 64 deep");
-        return;
-    }
-    Group group = read_group(reading, attributes);
-    if (reading->depth > 0) reading->stack->groups++;
-    reading->groups[reading->depth++] = group;
-}
-
-static void add_layer(Reading *reading, const char **attributes)
+static void add_layer(Reading *reading, const char **attributes, bool group)
 {
     /* the composite of all the others, for other programs */
     if (is(find(attributes, OURS "composite"), "on")) return;
@@ -372,14 +357,18 @@ static void add_layer(Reading *reading, const char **attributes)
         stop(reading, why);
         return;
     }
-    Group joined = read_group(reading, attributes);
-    WrOraLayer layer = { .x = joined.x,
-                         .y = joined.y,
-                         .opacity = joined.opacity,
-                         .visible = joined.visible,
+    const Offset at = read_offset(reading, attributes);
+    WrOraLayer layer = { .x = at.x,
+                         .y = at.y,
+                         .opacity = number(reading, attributes, "opacity", 1.0, 0.0, 1.0),
+                         .visible = !is(find(attributes, "visibility"), "hidden"),
                          .locked = is(find(attributes, "edit-locked"), "true"),
                          .on_mask = is(find(attributes, OURS "on-mask"), "on"),
                          .selected = is(find(attributes, "selected"), "true"),
+                         .depth = reading->depth - 1,
+                         .is_group = group,
+                         .collapsed = group && is(find(attributes, OURS "collapsed"), "on"),
+                         .passes = group && !is(find(attributes, "isolation"), "isolate"),
                          .name = wr_strdup(find(attributes, "name")),
                          .src = wr_strdup(find(attributes, "src")),
                          .operation = wr_strdup(find(attributes, "composite-op")),
@@ -399,13 +388,27 @@ static void add_layer(Reading *reading, const char **attributes)
     wr_array_push(&reading->stack->layers, layer);
 }
 
+static void begin_group(Reading *reading, const char **attributes)
+{
+    if (reading->depth >= DEPTH_MAX) {
+        char why[64];
+        snprintf(why, sizeof why, "its groups are nested more than %d deep", WR_DEPTH_MAX);
+        stop(reading, why);
+        return;
+    }
+    const Offset offset = read_offset(reading, attributes);
+    if (reading->depth > 0) add_layer(reading, attributes, true);
+    reading->groups[reading->depth++] = offset;
+}
+
 int wr_ora_version(const WrDocument *document, bool composite)
 {
     const WrScene *scene = document->scene;
     const bool new =
         wr_object_any_picture(scene, WR_OBJECT_NORMALS) || wr_scene_several_meshes(scene);
     const WrSceneAge age = wr_scene_age(scene);
-    if (wr_document_generates(document)) return WR_ORA_VERSION;
+    if (wr_document_groups(document)) return WR_ORA_VERSION;
+    if (wr_document_generates(document)) return WR_ORA_VERSION_GENERATES;
     if (age == WR_SCENE_OF_PROJECTION) return WR_ORA_VERSION_PROJECTION;
     if (composite) return WR_ORA_VERSION_COMPOSITE;
     if (wr_document_filters(document)) return WR_ORA_VERSION_FILTERS;
@@ -455,7 +458,7 @@ static void XMLCALL on_start(void *ctx, const char *name, const char **attribute
     Reading *reading = ctx;
     name = local(name);
     reading->element++;
-    if (reading->element > 2 * DEPTH_MAX) stop(reading, "its list of layers is nested too deep");
+    if (reading->element > ELEMENTS_MAX) stop(reading, "its list of layers is nested too deep");
     else if (reading->skip) return;
     else if (reading->element == 1 && is(name, "image")) read_image(reading, attributes);
     else if (reading->element == 1)
@@ -463,7 +466,7 @@ static void XMLCALL on_start(void *ctx, const char *name, const char **attribute
     else if (is(name, "stack") && reading->element == reading->depth + 2)
         begin_group(reading, attributes);
     else if (is(name, "layer") && reading->depth > 0 && reading->element == reading->depth + 2)
-        add_layer(reading, attributes);
+        add_layer(reading, attributes, false);
     else {
         reading->stack->unknown++;
         reading->skip = reading->element;

@@ -21,9 +21,11 @@ typedef struct WrText WrText;
 typedef struct WrOraLayer {
     char *name, *src; /* src: the PNG's entry */
     int x, y;         /* of its top left pixel on the canvas; includes the groups' offsets */
-    double opacity;   /* 0..1, multiplied by the groups' */
-    bool visible;     /* of the layer and all its groups */
-    bool locked, selected;
+    double opacity;   /* 0..1 */
+    bool visible, locked, selected;
+    int depth;                                                  /* number of groups that it is in */
+    bool is_group, collapsed;                                   /* its layers follow, deeper */
+    bool passes;                                                /* a group that is not isolated */
     char *operation;                                            /* composite-op */
     char *heights, *cover, *mask, *blend, *radius, *name_bytes; /* our attributes */
     char *filter, *line, *below, *mask_line, *mask_read;        /* our attributes */
@@ -34,7 +36,6 @@ typedef struct WrOraLayer {
 typedef struct WrOraStack {
     int width, height;           /* canvas; unchecked */
     WR_ARRAY(WrOraLayer) layers; /* topmost first */
-    int groups;                  /* number of dissolved groups */
     int unknown;                 /* number of elements that are neither layers nor groups */
     /* our attributes */
     char *version, *wrap, *active, *solo, *scene, *selection, *mesh,

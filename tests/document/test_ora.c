@@ -354,11 +354,14 @@ static void a_strangers_layers_become_heights_and_coverage(void **state)
     WrText notes = { 0 };
     WrLoaded loaded = load("foreign.ora", &notes);
     const WrDocument *document = loaded.document;
-    assert_int_equal(document->layer_count, 3);
+    assert_int_equal(document->layer_count, 4);
     assert_string_equal(loaded.scene_text, "");
     assert_int_equal(document->active, 0);
     const WrLayer *bottom = &document->layers[0], *in = &document->layers[1],
-                  *top = &document->layers[2];
+                  *group = &document->layers[2], *top = &document->layers[3];
+    assert_true(group->is_group && group->depth == 0 && in->depth == 1 && !in->is_group);
+    assert_string_equal(group->name, "group");
+    assert_true(!group->visible && group->opacity == 0.5f && group->blend == WR_BLEND_REPLACE);
     assert_int_equal(wr_field_width(bottom->heights), 6);
     assert_int_equal(wr_field_height(bottom->heights), 4);
     assert_null(bottom->cover); /* opaque and as large as the canvas */
@@ -367,7 +370,7 @@ static void a_strangers_layers_become_heights_and_coverage(void **state)
     for (int i = 0; i < 24; i++)
         assert_near(wr_field_get(bottom->heights, i % 6, i / 6), i * 10 / 255.0, 1e-6);
     /* x = -2 + 1: the first of two pixels is cut off; y = 0 + 1. */
-    assert_true(!in->visible && in->opacity == 0.25f && in->blend == WR_BLEND_REPLACE);
+    assert_true(in->visible && in->opacity == 0.5f && in->blend == WR_BLEND_REPLACE);
     assert_non_null(in->cover);
     for (int i = 0; i < 24; i++) {
         bool there = i == 6;
@@ -382,7 +385,7 @@ static void a_strangers_layers_become_heights_and_coverage(void **state)
         assert_near(wr_field_get(top->heights, i % 6, i / 6), i == 4 ? 0.7152 : 0.0, 1e-6);
     }
     assert_non_null(strstr(wr_text_get(&notes), "layer 'in': its blend mode is not known"));
-    assert_non_null(strstr(wr_text_get(&notes), "1 groups of layers were dissolved"));
+    assert_non_null(strstr(wr_text_get(&notes), "the layers of 1 groups blend with those below"));
     assert_non_null(strstr(wr_text_get(&notes), "1 elements that are no layers were passed over"));
     wr_text_fini(&notes);
     drop(&loaded);
@@ -528,7 +531,7 @@ static void lists_of_layers_that_are_hostile_are_refused(void **state)
     WrText xml = { 0 };
     wr_text_add(&xml, "<image w='1' h='1'><stack>");
     for (int i = 0; i < 100; i++) wr_text_add(&xml, "<stack>");
-    refuse_stack(xml.data, "nested more than 64 deep");
+    refuse_stack(xml.data, "nested more than 8 deep");
     wr_text_clear(&xml);
     wr_text_add(&xml, "<image w='1' h='1'><stack>");
     for (int i = 0; i < 300; i++) wr_text_add(&xml, "<layer src='data/a.png'/>");
@@ -624,7 +627,7 @@ static void damaged_files_never_crash_and_leave_nothing_behind(void **state)
     wr_document_free(document);
 }
 
-#define NEXT_VERSION "9"
+#define NEXT_VERSION "10"
 
 static void a_newer_version_loads_and_says_so(void **state)
 {
