@@ -176,6 +176,9 @@ static void add_layer_json(WrText *text, const WrDocument *document, int index)
     if (layer->filter.op) wr_filter_print(&layer->filter, &filter);
     if (layer->filter.op) wr_text_add(text, ",\"filter\":");
     if (layer->filter.op) wr_text_add_json_string(text, filter.data);
+    if (layer->is_group || layer->depth)
+        wr_text_addf(text, ",\"depth\":%d,\"group\":%s", layer->depth,
+                     layer->is_group ? "true" : "false");
     if (layer->line) wr_text_add(text, ",\"line\":");
     if (layer->line) wr_text_add_json_string(text, layer->line);
     if (layer->mask_line) wr_text_add(text, ",\"mask_line\":");
@@ -184,14 +187,14 @@ static void add_layer_json(WrText *text, const WrDocument *document, int index)
     wr_text_fini(&filter);
 }
 
-/* Print "  2 moss  max, opacity 0.5, hidden", top first, in stacking order. */
+/* Print "  2 moss  max, opacity 0.5, hidden", top first, in stacking order; members of groups are indented. */
 static void add_layer_text(WrText *text, const WrDocument *document, int index)
 {
     const WrLayer *layer = &document->layers[index];
     char number[WR_NUMBER_SIZE];
-    wr_text_addf(text, "%c %-10d %s  %s, opacity %s", document->active == index ? '>' : ' ',
-                 index + 1, layer->name, wr_blends[layer->blend].name,
-                 wr_number_print_float(layer->opacity, number));
+    wr_text_addf(text, "%c %-10d %*s%s  %s%s, opacity %s", document->active == index ? '>' : ' ',
+                 index + 1, 2 * layer->depth, "", layer->name, layer->is_group ? "group, " : "",
+                 wr_blends[layer->blend].name, wr_number_print_float(layer->opacity, number));
     if (wr_blends[layer->blend].uses_radius)
         wr_text_addf(text, ", radius %s", wr_number_print_float(layer->radius, number));
     if (layer->filter.op) {

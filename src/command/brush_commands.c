@@ -8,6 +8,7 @@
 #include "command/commands.h"
 #include "document/blend.h"
 #include "document/document.h"
+#include "document/object_tables.h"
 #include "field/field.h"
 #include "field/ramp.h"
 #include "field/select.h"
@@ -230,7 +231,10 @@ static bool run_project(WrSession *session, WrCall *call, WrError *err)
         !wr_painting_begin(session, call, &painting, err))
         return false;
     const WrBrushGround *ground = &painting.ground;
-    WrField *source = wr_field_share(document->layers[index].heights);
+    const WrLayer *from = &document->layers[index];
+    WrField *source = wr_layer_holds(from)
+                          ? wr_field_share(from->heights)
+                          : wr_document_layer_alone(document, index, session->options.pool);
     WrField *cover = slide_of(call, source, &slide, err)
                          ? slide_cover(ground->mesh, &slide, ground->field, err)
                          : NULL;

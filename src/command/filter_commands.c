@@ -185,13 +185,14 @@ static bool run_on_part(Adjusting *adjusting, WrField **field, WrError *err)
 static int tables_of(const WrOpInfo *op, const WrLayer *layer)
 {
     const bool parts = op->moves || op->reshapes;
-    return (!layer->filter.op || op->reshapes) + (parts && layer->cover) + (parts && layer->mask);
+    return (wr_layer_holds(layer) || op->reshapes) + (parts && layer->cover) +
+           (parts && layer->mask);
 }
 
 static bool run_on_layer(Adjusting *adjusting, WrLayer *layer, WrError *err)
 {
     const WrOpInfo *op = adjusting->op;
-    const bool holds = !layer->filter.op || op->reshapes; /* a filter has no heights to change */
+    const bool holds = wr_layer_holds(layer) || op->reshapes; /* else none to change */
     if (holds && !run_on(adjusting, &layer->heights, err)) return false;
     return !(op->moves || op->reshapes) || (run_on_part(adjusting, &layer->cover, err) &&
                                             run_on_part(adjusting, &layer->mask, err));

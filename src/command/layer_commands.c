@@ -10,6 +10,7 @@
 #include "command/session_internal.h"
 #include "document/blend.h"
 #include "document/document.h"
+#include "document/object_tables.h"
 #include "field/field.h"
 #include "field/select.h"
 #include "generate/generator.h"
@@ -237,9 +238,32 @@ static bool find_unlocked(const WrSession *session, const WrCall *call, int *ind
     return find(session, call, "N", index, err) && wr_session_check_unlocked(session, *index, err);
 }
 
-static bool check_room(const WrDocument *document, WrError *err)
+/* The layer with its members. */
+static bool check_all_unlocked(const WrSession *session, int index, WrError *err)
 {
-    if (document->layer_count < WR_LAYERS_MAX) return true;
+    for (int i = wr_layers_first(session->state.document->layers, index); i <= index; i++)
+        if (!wr_session_check_unlocked(session, i, err)) return false;
+    return true;
+}
+
+/* The group of argument `in`; -1: none is given, or "none". */
+static bool find_group(const WrSession *session, const WrCall *call, int *group, WrError *err)
+{
+    const char *word = wr_call_arg(call, "in")->text;
+    *group = -1;
+    if (!word || strcmp(word, "none") == 0) return true;
+    if (!wr_session_find_layer(session, word, group, err)) return false;
+    if (session->state.document->layers[*group].is_group) return true;
+    WrText name = { 0 };
+    wr_fail(err, "%s is no group: `layer group` makes one of layers",
+            wr_session_layer_name(session, *group, &name));
+    wr_text_fini(&name);
+    return false;
+}
+
+static bool check_room(const WrDocument *document, int rows, WrError *err)
+{
+    if (document->layer_count + rows <= WR_LAYERS_MAX) return true;
     return wr_fail(err, "a document has up to %d layers", WR_LAYERS_MAX);
 }
 
@@ -276,12 +300,18 @@ static bool layer_add(WrSession *session, WrCall *call, WrError *err)
 {
     WrDocument *document = session->state.document;
     const char *name = wr_call_arg(call, "NAME")->text;
-    int below;
+    int below, group;
     WrText made = { 0 };
-    if (!check_room(document, err) || !find(session, call, "above", &below, err)) return false;
+    if (!check_room(document, 1, err) || !find(session, call, "above", &below, err) ||
+        !find_group(session, call, &group, err))
+        return false;
+    if (wr_call_given(call, "in") && wr_call_given(call, "above"))
+        return wr_fail(err, "above= and in= do not go together: above= a layer of the group");
+    if (wr_call_given(call, "in")) below = group < 0 ? document->layer_count - 1 : group - 1;
     free_name(document, &made);
     WrLayer layer = wr_layer_make(name ? name : wr_text_get(&made), document->layers[0].heights);
     wr_text_fini(&made);
+    if (group >= 0) layer.depth = WR_DEPTH_MAX; /* the deepest possible there: in the group */
     bool good = true;
     if (wr_call_given(call, "from"))
         good = wr_session_add_generator_layer(session, call, below + 1, layer, err);
@@ -292,9 +322,11 @@ static bool layer_add(WrSession *session, WrCall *call, WrError *err)
 
 static bool layer_delete(WrSession *session, WrCall *call, WrError *err)
 {
+    const WrDocument *document = session->state.document;
     int index;
-    if (!find_unlocked(session, call, &index, err)) return false;
-    if (session->state.document->layer_count == 1)
+    if (!find(session, call, "N", &index, err) || !check_all_unlocked(session, index, err))
+        return false;
+    if (index + 1 - wr_layers_first(document->layers, index) == document->layer_count)
         return wr_fail(err, "the last layer stays: a document has at least one");
     wr_document_remove(session->state.document, index);
     return true;
@@ -319,13 +351,19 @@ static bool layer_duplicate(WrSession *session, WrCall *call, WrError *err)
 {
     WrDocument *document = session->state.document;
     int index;
-    if (!check_room(document, err) || !find(session, call, "N", &index, err)) return false;
-    WrLayer layer = wr_layer_share(&document->layers[index]);
-    wr_free(layer.name);
-    layer.name = copy_name(document->layers[index].name);
-    layer.locked = false;
-    wr_document_insert(document, index + 1, layer);
-    document->active = index + 1;
+    if (!find(session, call, "N", &index, err)) return false;
+    const int first = wr_layers_first(document->layers, index);
+    if (!check_room(document, index + 1 - first, err)) return false;
+    for (int i = index; i >= first; i--) {
+        WrLayer layer = wr_layer_share(&document->layers[i]);
+        if (i == index) {
+            wr_free(layer.name);
+            layer.name = copy_name(document->layers[index].name);
+            layer.locked = false;
+        }
+        wr_document_insert(document, index + 1, layer);
+    }
+    document->active = 2 * index + 1 - first;
     return true;
 }
 
@@ -341,15 +379,39 @@ static bool check_visible(const WrSession *session, int index, WrError *err)
     return false;
 }
 
+static void note_hidden(WrSession *session, int from, int to)
+{
+    int hidden = 0;
+    for (int i = from; i < to; i++) hidden += !session->state.document->layers[i].visible;
+    if (hidden) wr_session_note(session, "%d hidden layers are gone", hidden);
+}
+
+static bool join_group(WrSession *session, int index)
+{
+    WrDocument *document = session->state.document;
+    note_hidden(session, wr_layers_first(document->layers, index), index);
+    wr_document_rasterize_group(document, index, session->options.pool);
+    return true;
+}
+
 static bool layer_merge(WrSession *session, WrCall *call, WrError *err)
 {
+    WrDocument *document = session->state.document;
     int index;
-    if (!find_unlocked(session, call, &index, err)) return false;
-    if (index == 0) return wr_fail(err, "layer 1 has none below that it could be merged into");
-    if (!wr_session_check_unlocked(session, index - 1, err) ||
-        !check_visible(session, index, err) || !check_visible(session, index - 1, err))
+    if (!find(session, call, "N", &index, err) || !check_all_unlocked(session, index, err))
         return false;
-    wr_document_merge(session->state.document, index, session->options.pool);
+    if (document->layers[index].is_group) return join_group(session, index);
+    if (index == wr_layers_first_sibling(document->layers, index))
+        return wr_fail(err,
+                       document->layers[index].depth
+                           ? "layer %d has none below in its group that it could be merged into"
+                           : "layer %d has none below that it could be merged into",
+                       index + 1);
+    if (!check_all_unlocked(session, index - 1, err) || !check_visible(session, index, err) ||
+        !check_visible(session, index - 1, err))
+        return false;
+    note_hidden(session, wr_layers_first(document->layers, index - 1), index - 1);
+    wr_document_merge(document, index, session->options.pool);
     return true;
 }
 
@@ -357,12 +419,9 @@ static bool layer_flatten(WrSession *session, WrCall *call, WrError *err)
 {
     (void)call;
     WrDocument *document = session->state.document;
-    int hidden = 0;
-    for (int i = 0; i < document->layer_count; i++) {
+    for (int i = 0; i < document->layer_count; i++)
         if (!wr_session_check_unlocked(session, i, err)) return false;
-        hidden += !document->layers[i].visible;
-    }
-    if (hidden) wr_session_note(session, "%d hidden layers are gone", hidden);
+    note_hidden(session, 0, document->layer_count);
     wr_document_flatten(document, session->options.pool);
     return true;
 }
@@ -383,16 +442,45 @@ static bool layer_use(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
+/* Place of layer `from` without to=: the top of the group, or above the one that it leaves. */
+static int place_in(const WrDocument *document, int from, int group)
+{
+    const int size = from + 1 - wr_layers_first(document->layers, from);
+    if (group >= 0 && !wr_document_is_within(document, from, group))
+        return group > from ? group - 1 : group + size - 1;
+    int place = from;
+    for (int i = from; i != group && i >= 0; i = wr_document_parent(document, i)) place = i;
+    return place;
+}
+
 static bool layer_move(WrSession *session, WrCall *call, WrError *err)
 {
     WrDocument *document = session->state.document;
-    int from;
-    double to = wr_call_number(call, "to");
-    if (!find(session, call, "N", &from, err)) return false;
-    if (to > document->layer_count)
-        return wr_fail(err, "to=%g: must be 1..%d", to, document->layer_count);
-    wr_document_move(document, from, (int)to - 1, 0);
-    return true;
+    const WrLayer *layers = document->layers;
+    int from, group, least, most;
+    if (!find(session, call, "N", &from, err) || !find_group(session, call, &group, err))
+        return false;
+    const bool in = wr_call_given(call, "in"), to_given = wr_call_given(call, "to");
+    const int members = from - wr_layers_first(layers, from);
+    const int to = to_given ? (int)wr_call_number(call, "to") - 1 : place_in(document, from, group);
+    if (!in && !to_given)
+        return wr_fail(err, "where to? give to=, its new number, or in=, a group");
+    if (to < members || to >= document->layer_count)
+        return wr_fail(err, "to=%d: must be %d..%d", to + 1, members + 1, document->layer_count);
+    if (group == from || (group >= 0 && wr_document_is_within(document, group, from)))
+        return wr_fail(err, "layer %d cannot go into itself", from + 1);
+    wr_document_move_depths(document, from, to, &least, &most);
+    int depth = !in ? layers[from].depth : group < 0 ? 0 : layers[group].depth + 1;
+    const int possible = depth < least ? least : depth > most ? most : depth;
+    if (!in) depth = possible;
+    if (depth + wr_document_height(document, from) > WR_DEPTH_MAX)
+        return wr_fail(err, "up to %d groups can be nested", WR_DEPTH_MAX);
+    const char *name = group < 0 ? NULL : layers[group].name; /* it moves with the group */
+    wr_document_move(document, from, to, possible);
+    const int into = wr_document_parent(document, to);
+    if (depth == possible && (!in || (into < 0 ? NULL : document->layers[into].name) == name))
+        return true;
+    return wr_fail(err, name ? "to=%d is not in that group" : "to=%d is in a group", to + 1);
 }
 
 static bool layer_rename(WrSession *session, WrCall *call, WrError *err)
@@ -416,9 +504,11 @@ static bool layer_set(WrSession *session, WrCall *call, WrError *err)
     bool any = false;
     for (int i = 0; i < call->count; i++) any |= call->args[i].given && !call->specs[i].positional;
     if (!any)
-        return wr_fail(err, "nothing to set: give blend=, opacity=, radius=, visible= or lock=, or "
-                            "of a generator layer change= or from=");
+        return wr_fail(err, "nothing to set: give blend=, opacity=, radius=, visible= or lock=, "
+                            "of a generator layer change= or from=, or of a group collapsed=");
     if (!find(session, call, "N", &index, err)) return false;
+    if (wr_call_given(call, "collapsed") && !session->state.document->layers[index].is_group)
+        return wr_fail(err, "layer %d is no group that could be collapsed", index + 1);
     const bool generates = wr_call_given(call, "change") || wr_call_given(call, "from");
     if (generates && (!wr_session_check_unlocked(session, index, err) ||
                       !wr_session_change_generator_layer(session, call, index,
@@ -427,6 +517,7 @@ static bool layer_set(WrSession *session, WrCall *call, WrError *err)
     if (!settle(session, call, index, err)) return false;
     WrLayer *layer = &session->state.document->layers[index];
     if (wr_call_given(call, "visible")) layer->visible = wr_call_choice(call, "visible") == 1;
+    if (wr_call_given(call, "collapsed")) layer->collapsed = wr_call_choice(call, "collapsed") == 1;
     if (wr_call_given(call, "lock")) layer->locked = wr_call_choice(call, "lock") == 1;
     return true;
 }
@@ -434,12 +525,82 @@ static bool layer_set(WrSession *session, WrCall *call, WrError *err)
 static bool layer_rasterize(WrSession *session, WrCall *call, WrError *err)
 {
     int index;
-    if (!find_unlocked(session, call, &index, err)) return false;
+    if (!find(session, call, "N", &index, err) || !check_all_unlocked(session, index, err))
+        return false;
     WrLayer *layer = &session->state.document->layers[index];
+    if (layer->is_group) return join_group(session, index);
     if (!layer->line)
-        return wr_fail(err, "layer %d is no generator layer: there is nothing to rasterize",
+        return wr_fail(err,
+                       "layer %d is no generator layer and no group: there is nothing to rasterize",
                        index + 1);
     wr_layer_set_line(layer, NULL, (WrHash){ 0, 0 });
+    return true;
+}
+
+/* ---- groups ---- */
+
+/* Splits the next word off a list such as "2,4..6,moss". */
+static bool next_word(const char **list, WrText *word)
+{
+    if (!**list) return false;
+    const size_t length = strcspn(*list, ",");
+    wr_text_clear(word);
+    wr_text_add_n(word, *list, length);
+    *list += length + ((*list)[length] == ',');
+    return true;
+}
+
+static bool choose(const WrSession *session, char *word, bool chosen[], WrError *err)
+{
+    char *dots = strstr(word, "..");
+    int first, last;
+    if (dots) *dots = '\0';
+    if (!wr_session_find_layer(session, word, &first, err)) return false;
+    last = first;
+    if (dots && !wr_session_find_layer(session, dots + 2, &last, err)) return false;
+    for (int i = first < last ? first : last; i <= first || i <= last; i++) chosen[i] = true;
+    return true;
+}
+
+static bool check_layer_list(const void *ctx, const char *name, const char *value, WrError *err)
+{
+    (void)ctx;
+    const size_t length = strlen(value);
+    if (length && value[0] != ',' && value[length - 1] != ',' && !strstr(value, ",,")) return true;
+    return wr_fail(err, "%s=\"%.60s\": must be layers, such as 2,4..6", name, value);
+}
+
+static bool layer_group(WrSession *session, WrCall *call, WrError *err)
+{
+    WrDocument *document = session->state.document;
+    bool chosen[WR_LAYERS_MAX] = { false }, good = check_room(document, 1, err);
+    const char *list = wr_call_arg(call, "of")->text, *name = wr_call_arg(call, "NAME")->text;
+    WrText text = { 0 };
+    if (!list) chosen[document->active] = true;
+    while (good && list && next_word(&list, &text)) good = choose(session, text.data, chosen, err);
+    int number = 1;
+    do {
+        wr_text_clear(&text);
+        wr_text_addf(&text, "group %d", number++);
+    } while (!name && wr_layer_named(document, wr_text_get(&text)) >= 0);
+    if (good && wr_document_group(document, chosen, name ? name : wr_text_get(&text)) < 0)
+        good = wr_fail(err, "up to %d groups can be nested", WR_DEPTH_MAX);
+    wr_text_fini(&text);
+    return good;
+}
+
+static bool layer_ungroup(WrSession *session, WrCall *call, WrError *err)
+{
+    WrDocument *document = session->state.document;
+    int index;
+    if (!find_unlocked(session, call, &index, err)) return false;
+    const WrLayer *layer = &document->layers[index];
+    if (!layer->is_group) return wr_fail(err, "layer %d is no group", index + 1);
+    if (document->layer_count == 1)
+        return wr_fail(err, "the last layer stays: a document has at least one");
+    if (layer->mask || layer->opacity < 1.0f)
+        wr_session_note(session, "the group's mask and opacity are gone");
+    wr_document_ungroup(document, index);
     return true;
 }
 
@@ -468,8 +629,11 @@ static bool layer_clear(WrSession *session, WrCall *call, WrError *err)
     int index;
     if (!find_unlocked(session, call, &index, err)) return false;
     WrLayer *layer = &document->layers[index];
-    if (layer->filter.op)
-        return wr_fail(err, "layer %d is a filter, without heights that could be cleared",
+    if (!wr_layer_holds(layer))
+        return wr_fail(err,
+                       layer->is_group
+                           ? "layer %d is a group, without heights that could be cleared"
+                           : "layer %d is a filter, without heights that could be cleared",
                        index + 1);
     wr_session_put_field(session, &layer->heights, uniform(layer, 0.0f));
     if (layer->cover) wr_session_put_field(session, &layer->cover, uniform(layer, 0.0f));
@@ -480,7 +644,7 @@ static bool layer_paste(WrSession *session, WrCall *call, WrError *err)
 {
     WrDocument *document = session->state.document;
     WrText name = { 0 };
-    if (!check_room(document, err)) return false;
+    if (!check_room(document, 1, err)) return false;
     free_name(document, &name);
     const WrLayer layer = wr_layer_make(wr_text_get(&name), document->layers[0].heights);
     wr_text_fini(&name);
@@ -508,6 +672,8 @@ enum {
     LAYER_SOLO,
     LAYER_MASK,
     LAYER_PASTE,
+    LAYER_GROUP,
+    LAYER_UNGROUP,
     LAYER_FORMS
 };
 
@@ -527,6 +693,8 @@ static LayerHandler *const handlers[] = {
     [WR_ROW(LAYER_SOLO)] = layer_solo,
     [WR_ROW(LAYER_MASK)] = layer_mask,
     [WR_ROW(LAYER_PASTE)] = layer_paste,
+    [WR_ROW(LAYER_GROUP)] = layer_group,
+    [WR_ROW(LAYER_UNGROUP)] = layer_ungroup,
 };
 WR_ROWS_END(handlers, LAYER_FORMS);
 
@@ -583,7 +751,10 @@ static const WrForm layer_forms[] = {
                                   LAYER_SETTINGS,
                                   { .name = "above",
                                     .type = WR_ARG_LAYER,
-                                    .help = "where it goes; left out, above the active one" } } },
+                                    .help = "where it goes; left out, above the active one" },
+                                  { .name = "in",
+                                    .type = WR_ARG_LAYER,
+                                    .help = "or a group: it becomes its topmost layer" } } },
     [WR_ROW(LAYER_DELETE)] = { .name = "delete", .help = "remove a layer", .args = { LAYER_N } },
     [WR_ROW(LAYER_USE)] = { .name = "use",
                             .help = "edits go to this layer from now on",
@@ -595,15 +766,21 @@ static const WrForm layer_forms[] = {
                                             "what of it strokes, fills, generators and `adjust` "
                                             "change; left out, as it was" } } },
     [WR_ROW(LAYER_MOVE)] = { .name = "move",
-                             .help = "bring a layer to another place in the stack",
+                             .help = "bring a layer, a group with its layers, to another place in "
+                                     "the stack",
                              .args = { LAYER_N,
                                        { .name = "to",
                                          .type = WR_ARG_NUMBER,
-                                         .required = true,
                                          .whole = true,
                                          .low = 1,
                                          .high = WR_LAYERS_MAX,
-                                         .help = "its new number" } } },
+                                         .help = "its new number" },
+                                       { .name = "in",
+                                         .type = WR_ARG_LAYER,
+                                         .shape = "N|none",
+                                         .help = "the group that it goes into, or none; without "
+                                                 "to= it becomes the topmost layer there, or comes "
+                                                 "to lie above the group that it leaves" } } },
     [WR_ROW(LAYER_RENAME)] = { .name = "rename",
                                .help = "give a layer another name",
                                .args = { LAYER_N,
@@ -623,13 +800,18 @@ static const WrForm layer_forms[] = {
                                         .type = WR_ARG_CHOICE,
                                         .words = wr_off_on,
                                         .help = "whether it is in the composite" },
+                                      { .name = "collapsed",
+                                        .type = WR_ARG_CHOICE,
+                                        .words = wr_off_on,
+                                        .help = "of a group: whether the list in the window omits "
+                                                "its layers" },
                                       { .name = "lock",
                                         .type = WR_ARG_CHOICE,
                                         .words = wr_off_on,
                                         .help = "whether edits are refused" } } },
     [WR_ROW(LAYER_RASTERIZE)] = { .name = "rasterize",
-                                  .help = "make a generator layer a plain one, which can be "
-                                          "painted on",
+                                  .help = "make a generator layer, or a group, a plain layer, "
+                                          "which can be painted on",
                                   .args = { LAYER_N } },
     [WR_ROW(LAYER_DUPLICATE)] = { .name = "duplicate",
                                   .help = "a copy above it, active",
@@ -660,6 +842,22 @@ static const WrForm layer_forms[] = {
                               .help = "a picture as a new layer above the active one, which covers "
                                       "what lies below; nothing is selected then",
                               .args = { WR_PASTE_ARGS } },
+    [WR_ROW(LAYER_GROUP)] = { .name = "group",
+                              .help = "a group of layers, active, which are joined by themselves "
+                                      "first; its blend is that of the lowest",
+                              .args = { { .name = "NAME",
+                                          .type = WR_ARG_NAME,
+                                          .positional = true,
+                                          .help = "left out, \"group 1\" and so on" },
+                                        { .name = "of",
+                                          .type = WR_ARG_TEXT,
+                                          .shape = "N,N..N,NAME",
+                                          .check = check_layer_list,
+                                          .help = "the layers: numbers, ranges and names; left "
+                                                  "out, the active one" } } },
+    [WR_ROW(LAYER_UNGROUP)] = { .name = "ungroup",
+                                .help = "remove a group, but not its layers",
+                                .args = { LAYER_N } },
 };
 WR_ROWS_END(layer_forms, LAYER_FORMS);
 

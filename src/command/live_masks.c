@@ -427,8 +427,12 @@ static bool name_layer(const WrSession *session, int index, WrCall *term, WrErro
     else if (find_below(document, index, document->layers[found].name) != found)
         good =
             wr_fail(err, "%s has the name of another layer: rename it first", wr_text_get(&name));
-    else if (document->layers[found].filter.op && strcmp(term->form_name, "mask") != 0)
-        good = wr_fail(err, "%s is a filter, without heights of its own", wr_text_get(&name));
+    else if (!wr_layer_holds(&document->layers[found]) && strcmp(term->form_name, "mask") != 0)
+        good =
+            wr_fail(err,
+                    document->layers[found].is_group ? "%s is a group, without heights of its own"
+                                                     : "%s is a filter, without heights of its own",
+                    wr_text_get(&name));
     else wr_call_set_text(term, OF, document->layers[found].name);
     wr_text_fini(&name);
     return good;
@@ -569,7 +573,10 @@ static uint64_t layers_key(const MaskJob *job)
                                   layer->cover ? wr_field_key(layer->cover) : 0,
                                   layer->mask ? wr_field_key(layer->mask) : 0,
                                   (uint64_t)layer->blend << 1 | layer->visible };
-        const float numbers[] = { layer->opacity, layer->radius };
+        const int group = wr_document_parent(document, i);
+        const float numbers[] = { layer->opacity, layer->radius,
+                                  (float)(2 * layer->depth + layer->is_group),
+                                  group < 0 ? -1.0f : (float)document->layers[group].blend };
         hash = wr_hash_bytes(keys, sizeof keys, hash);
         hash = wr_hash_bytes(numbers, sizeof numbers, hash);
         hash = wr_hash_bytes(layer->name, strlen(layer->name) + 1, hash);

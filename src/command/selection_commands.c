@@ -401,10 +401,27 @@ static bool seen(void *ctx, int y, int count, const float *values, bool exact, W
     return same;
 }
 
+static bool run_copy(WrSession *session, WrCall *call, WrError *err);
+
+/* Copies the layer that the active group would become. */
+static bool copy_group(WrSession *session, WrCall *call, WrError *err)
+{
+    WrDocument *document = session->state.document;
+    session->state.document = wr_document_snapshot(document);
+    wr_filters_forget();
+    wr_document_rasterize_group(session->state.document, document->active, session->options.pool);
+    const bool good = wr_filters_carried(err) && run_copy(session, call, err);
+    wr_document_free(session->state.document);
+    session->state.document = document;
+    return good;
+}
+
 static bool run_copy(WrSession *session, WrCall *call, WrError *err)
 {
     WrDocument *document = session->state.document;
     const WrLayer *layer = &document->layers[document->active];
+    if (layer->is_group && !layer->on_mask && wr_call_choice(call, "of") != OF_COMPOSITE)
+        return copy_group(session, call, err);
     Copying copy = { .heights = layer->on_mask ? layer->mask : layer->heights,
                      .cover = layer->on_mask ? NULL : layer->cover,
                      .selection = document->selection,
@@ -597,14 +614,14 @@ static bool move_mask(Moving *m, WrLayer *layer, WrError *err)
 /* Number of tables that move_layer moves. */
 static int tables_of(const Moving *m, const WrLayer *layer)
 {
-    const bool holds = !layer->filter.op;
+    const bool holds = wr_layer_holds(layer);
     return holds + (holds && layer->cover) + (layer->mask && !m->selection && !m->leave);
 }
 
 static bool move_layer(Moving *m, WrLayer *layer, WrError *err)
 {
     WrRelief piece = { NULL, NULL }, cover = { NULL, NULL };
-    if (layer->filter.op) return move_mask(m, layer, err);
+    if (!wr_layer_holds(layer)) return move_mask(m, layer, err);
     bool good = place(m, layer->heights, &piece, err) &&
                 (!layer->cover || place(m, layer->cover, &cover, err));
     if (good && !m->leave) {
@@ -689,12 +706,14 @@ bool wr_call_transform(const WrCall *call, WrDocument *document, WrLayer *active
     WrField *like = wr_field_share(document->layers[0].heights);
     bool good = set_up(&moving, call, document, pool, like, progress, err);
     moving.tables = moving.selection != NULL;
-    for (int i = 0; i < document->layer_count; i++)
-        if (!active || i == document->active)
-            moving.tables += tables_of(&moving, active ? active : &document->layers[i]);
-    for (int i = 0; good && i < document->layer_count; i++)
-        if (!active || i == document->active)
-            good = move_layer(&moving, active ? active : &document->layers[i], err);
+    const int at = document->active;
+    const bool group = active && active->is_group; /* moves with its members */
+    const int last = active ? at : document->layer_count - 1;
+    const int first = group ? wr_layers_first(document->layers, at) : active ? at : 0;
+    for (int i = first; i <= last; i++)
+        moving.tables += tables_of(&moving, active && i == at ? active : &document->layers[i]);
+    for (int i = first; good && i <= last; i++)
+        good = move_layer(&moving, active && i == at ? active : &document->layers[i], err);
     good = good && move_selection(&moving, document, err);
     wr_field_free(like);
     return good;
@@ -704,11 +723,17 @@ static bool run_transform(WrSession *session, WrCall *call, WrError *err)
 {
     WrDocument *document = session->state.document;
     WrLayer *active = NULL;
-    if (wr_call_choice(call, "layers") == 0) {
+    const bool all = wr_call_choice(call, "layers") == 1;
+    const WrLayer *layers = document->layers;
+    const bool group = layers[document->active].is_group && !layers[document->active].on_mask;
+    if (!all && group) {
+        active = &document->layers[document->active];
+    } else if (!all) {
         active = wr_session_layer(session, err);
         if (!active) return false;
     }
-    for (int i = 0; !active && i < document->layer_count; i++)
+    const int last = all ? document->layer_count - 1 : document->active;
+    for (int i = all ? 0 : wr_layers_first(layers, last); i <= last; i++)
         if (!wr_session_check_unlocked(session, i, err)) return false;
     return wr_call_transform(call, document, active, session->options.pool, wr_progress_here(),
                              err);

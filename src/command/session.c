@@ -92,7 +92,10 @@ const char *wr_session_layer_name(const WrSession *session, int index, WrText *b
 
 bool wr_session_check_unlocked(const WrSession *session, int index, WrError *err)
 {
-    if (!session->state.document->layers[index].locked) return true;
+    const WrDocument *document = session->state.document;
+    while (index >= 0 && !document->layers[index].locked)
+        index = wr_document_parent(document, index);
+    if (index < 0) return true; /* neither it nor a group that it is in */
     WrText name = { 0 };
     wr_fail(err, "%s is locked: `layer set %d lock=off` unlocks it",
             wr_session_layer_name(session, index, &name), index + 1);
@@ -104,7 +107,10 @@ bool wr_session_check_unlocked(const WrSession *session, int index, WrError *err
 static bool is_worn(const WrDocument *document, int index)
 {
     const char *name = document->layers[index].name;
-    return document->solo < 0 && wr_scene_uses_layer(document->scene, name);
+    if (document->solo >= 0) return false;
+    if (wr_scene_uses_layer(document->scene, name)) return true;
+    const int group = document->layers[index].visible ? wr_document_parent(document, index) : -1;
+    return group >= 0 && is_worn(document, group);
 }
 
 static bool check_shown(const WrSession *session, int index, WrError *err)
@@ -112,6 +118,8 @@ static bool check_shown(const WrSession *session, int index, WrError *err)
     const WrDocument *document = session->state.document;
     if (wr_document_shows(document, index) || is_worn(document, index)) return true;
     WrText name = { 0 };
+    while (document->solo < 0 && document->layers[index].visible)
+        index = wr_document_parent(document, index); /* a group that it is in is hidden */
     wr_session_layer_name(session, index, &name);
     if (document->solo >= 0)
         wr_fail(err, "%s is not shown while layer %d is alone: `layer solo off` shows all",
@@ -123,12 +131,12 @@ static bool check_shown(const WrSession *session, int index, WrError *err)
     return false;
 }
 
-/* Fails if that layer is a filter, which has no heights, or a generator layer, whose heights are its line's; or, if edits go
+/* Fails if that layer is a filter or a group, which have no heights, or a generator layer, whose heights are its line's; or, if edits go
    to its mask, if that is a live one. */
 static bool session_check_heights(const WrSession *session, int index, WrError *err)
 {
     const WrLayer *layer = &session->state.document->layers[index];
-    if (layer->on_mask ? !layer->mask_line : !layer->filter.op && !layer->line) return true;
+    if (layer->on_mask ? !layer->mask_line : wr_layer_holds(layer) && !layer->line) return true;
     WrText name = { 0 };
     wr_session_layer_name(session, index, &name);
     if (layer->on_mask)
@@ -136,6 +144,11 @@ static bool session_check_heights(const WrSession *session, int index, WrError *
                 "%s has a live mask: `layer mask %d live=off` makes a mask of it that can be "
                 "painted on",
                 wr_text_get(&name), index + 1);
+    else if (layer->is_group)
+        wr_fail(err,
+                "%s is a group, without heights of its own: `layer use` chooses one of its "
+                "layers, or its mask",
+                wr_text_get(&name));
     else if (layer->filter.op)
         wr_fail(err,
                 "%s is a filter, without heights of its own: `layer use` chooses another, or its "
