@@ -460,6 +460,8 @@ static bool layer_move(WrSession *session, WrCall *call, WrError *err)
     int from, group, least, most;
     if (!find(session, call, "N", &from, err) || !find_group(session, call, &group, err))
         return false;
+    if (group == from || (group >= 0 && wr_document_is_within(document, group, from)))
+        return wr_fail(err, "layer %d cannot go into itself", from + 1);
     const bool in = wr_call_given(call, "in"), to_given = wr_call_given(call, "to");
     const int members = from - wr_layers_first(layers, from);
     const int to = to_given ? (int)wr_call_number(call, "to") - 1 : place_in(document, from, group);
@@ -467,8 +469,6 @@ static bool layer_move(WrSession *session, WrCall *call, WrError *err)
         return wr_fail(err, "where to? give to=, its new number, or in=, a group");
     if (to < members || to >= document->layer_count)
         return wr_fail(err, "to=%d: must be %d..%d", to + 1, members + 1, document->layer_count);
-    if (group == from || (group >= 0 && wr_document_is_within(document, group, from)))
-        return wr_fail(err, "layer %d cannot go into itself", from + 1);
     wr_document_move_depths(document, from, to, &least, &most);
     int depth = !in ? layers[from].depth : group < 0 ? 0 : layers[group].depth + 1;
     const int possible = depth < least ? least : depth > most ? most : depth;

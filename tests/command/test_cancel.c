@@ -66,6 +66,7 @@ static const char *const instant[] = {
     "tolerance",    "script",
     "history",      "background",
     "ground",       "layer rasterize",
+    "layer group",  "layer ungroup",
     "grain",        "tone",
     "layer use",    "layer move",
     "layer rename", "layer set",

@@ -66,8 +66,12 @@ void wr_act_layer_rename(WrApp *app);
 void wr_act_layer_merge(WrApp *app);
 void wr_act_filter_edit(WrApp *app);
 void wr_act_layer_rasterize(WrApp *app);
-bool wr_is_generated(const WrApp *app); /* the active layer is a generator layer */
-bool wr_has_values(const WrApp *app);   /* it is a filter or a generator layer */
+void wr_act_layer_group(WrApp *app);
+void wr_act_layer_ungroup(WrApp *app);
+bool wr_is_group(const WrApp *app);
+bool wr_can_rasterize(const WrApp *app); /* the active layer is a generator layer or a group */
+bool wr_is_generated(const WrApp *app);  /* the active layer is a generator layer */
+bool wr_has_values(const WrApp *app);    /* it is a filter or a generator layer */
 void wr_act_layer_flatten(WrApp *app);
 void wr_act_layer_clear(WrApp *app);
 void wr_act_layer_solo(WrApp *app);
@@ -92,7 +96,8 @@ void wr_act_select_slope(WrApp *app);
 void wr_act_offset_half(WrApp *app);
 
 bool wr_can_several_layers(const WrApp *app);
-bool wr_can_lower(const WrApp *app); /* there is a layer below */
+bool wr_can_lower(const WrApp *app); /* there is a layer below the active one and its members */
+bool wr_has_below(const WrApp *app); /* there is a layer below */
 bool wr_can_merge_down(const WrApp *app);
 bool wr_can_flatten(const WrApp *app);
 bool wr_can_change_all(const WrApp *app); /* no layer is locked */

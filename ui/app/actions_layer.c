@@ -201,6 +201,26 @@ void wr_act_layer_rasterize(WrApp *app)
     wr_app_run_linef(app, "layer rasterize %d", number(app));
 }
 
+void wr_act_layer_group(WrApp *app)
+{
+    wr_app_run_linef(app, "layer group of=%d", number(app));
+}
+
+void wr_act_layer_ungroup(WrApp *app)
+{
+    wr_app_run_linef(app, "layer ungroup %d", number(app));
+}
+
+bool wr_is_group(const WrApp *app)
+{
+    return active(app)->is_group;
+}
+
+bool wr_can_rasterize(const WrApp *app)
+{
+    return wr_is_generated(app) || wr_is_group(app);
+}
+
 bool wr_is_generated(const WrApp *app)
 {
     return active(app)->line != NULL;
@@ -216,16 +236,26 @@ bool wr_can_several_layers(const WrApp *app)
     return count(app) > 1;
 }
 
-bool wr_can_lower(const WrApp *app)
+bool wr_has_below(const WrApp *app)
 {
     return number(app) > 1;
 }
 
-/* Both layers are visible, and the one below is unlocked. */
+bool wr_can_lower(const WrApp *app)
+{
+    const WrDocument *document = wr_app_document(app);
+    return wr_layers_first(document->layers, document->active) > 0;
+}
+
+/* Both layers are visible, and the one below, in the same group, is unlocked. */
 bool wr_can_merge_down(const WrApp *app)
 {
+    const WrDocument *document = wr_app_document(app);
     const WrLayer *layer = active(app);
-    return wr_can_lower(app) && layer->visible && layer[-1].visible && !layer[-1].locked;
+    if (layer->is_group) return true;
+    if (wr_layers_first_sibling(document->layers, document->active) == document->active)
+        return false;
+    return layer->visible && layer[-1].visible && !layer[-1].locked;
 }
 
 bool wr_can_change_all(const WrApp *app)
@@ -242,7 +272,7 @@ bool wr_can_flatten(const WrApp *app)
 
 bool wr_has_heights(const WrApp *app)
 {
-    return !is_filter(app);
+    return wr_layer_holds(active(app));
 }
 
 bool wr_can_raise(const WrApp *app)

@@ -71,9 +71,13 @@ static void forget_below(WrApp *app)
 /* Composite below a new filter above the active layer. */
 static WrField *below_new(const WrDocument *document)
 {
-    if (document->active + 1 < document->layer_count)
-        return wr_document_below(document, document->active + 1, NULL);
-    return wr_field_share(wr_document_field(document));
+    const int at = document->active + 1;
+    if (document->layer_count == WR_LAYERS_MAX) return wr_field_share(wr_document_field(document));
+    WrDocument *with = wr_document_snapshot(document);
+    wr_document_insert(with, at, wr_layer_make("", document->layers[0].heights));
+    WrField *below = wr_document_below(with, at, NULL);
+    wr_document_free(with);
+    return below;
 }
 
 /* layer: index of a filter layer, -1 for a new one. */

@@ -218,12 +218,35 @@ static void row_generator(WrApp *app, int i, double *x)
     wr_gui_row_set_cursor(*x, wr_gui_px(THUMB_UNITS));
 }
 
+/* True if the list of layers has changed. */
+static bool row_group(WrApp *app, int i, double *x)
+{
+    const WrLayer *group = &wr_app_document(app)->layers[i];
+    const double side = wr_gui_px(16), folder = wr_gui_px(22);
+    bool pressed = wr_gui_glyph("fold", group->collapsed ? WR_ICON_CLOSED : WR_ICON_OPENED, 16,
+                                WR_COLOUR_TEXT);
+    wr_gui_tip(group->collapsed ? "Show the layers of this group here"
+                                : "Leave the layers of this group out of the list");
+    wr_gui_row_set_cursor(*x + side, folder);
+    pressed |= wr_gui_glyph("group", WR_ICON_FOLDER, 22, WR_COLOUR_CELL);
+    wr_gui_tip("A group: its layers are joined by themselves first");
+    *x += side + folder + wr_gui_px(6);
+    return pressed && wr_app_run_linef(app, "layer set %d collapsed=%s", i + 1,
+                                       group->collapsed ? "off" : "on");
+}
+
 /* Pictures of heights and mask, with a frame around the target of edits. True if a command was run. */
 static bool row_pictures(WrApp *app, int i, bool active, double *x)
 {
     const WrLayer *layer = &wr_app_document(app)->layers[i];
     double side = wr_gui_px(THUMB_UNITS), gap = wr_gui_px(8);
     wr_gui_row_set_cursor(*x, side);
+    if (layer->is_group) {
+        if (row_group(app, i, x)) return true;
+        if (!layer->mask) return false;
+        wr_gui_row_set_cursor(*x, side);
+        return row_mask(app, i, active, x);
+    }
     if (layer->filter.op) {
         if (wr_gui_glyph("filter", WR_ICON_TUNE, THUMB_UNITS, WR_COLOUR_CELL)) edit_values(app, i);
         wr_gui_tip("A filter over the layers below. Click to change its values");
@@ -264,7 +287,7 @@ static bool row_parts(WrApp *app, int i, bool active)
     wr_gui_tip(document->solo == i ? "Shown alone"
                : layer->visible    ? "Hide this layer"
                                    : "Show this layer");
-    x += wr_gui_px(24) + gap;
+    x += wr_gui_px(24) + gap + wr_gui_px(12) * layer->depth;
     if (row_pictures(app, i, active, &x)) return true;
     wr_gui_row_set_cursor(right, wr_gui_px(24));
     const char *lock = layer->locked ? WR_ICON_LOCK : WR_ICON_UNLOCK;
@@ -333,6 +356,8 @@ static void menu(WrApp *app)
 {
     static const char *const names[] = { WR_ACT(filter_edit),
                                          WR_ACT(layer_rasterize),
+                                         WR_ACT(layer_group),
+                                         WR_ACT(layer_ungroup),
                                          WR_ACT(layer_rename),
                                          WR_ACT(layer_duplicate),
                                          WR_ACT(layer_delete),
@@ -412,9 +437,13 @@ void wr_dialog_rasterize(WrApp *app)
 static void list(WrApp *app)
 {
     wr_gui_space(-12); /* rows start at the panel's edge */
-    int count = wr_app_document(app)->layer_count;
-    for (int i = count - 1; i >= 0; i--)
+    const WrDocument *document = wr_app_document(app);
+    for (int i = document->layer_count - 1; i >= 0; i--) {
+        const bool collapsed = document->layers[i].is_group && document->layers[i].collapsed;
+        const int next = collapsed ? wr_layers_first(document->layers, i) : i;
         if (row(app, i)) break; /* the rest follows in the next frame */
+        i = next;
+    }
     menu(app);
 }
 

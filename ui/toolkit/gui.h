@@ -77,6 +77,8 @@ int wr_gui_px(double units); /* units rounded to whole pixels */
 #define WR_ICON_HELP "\xef\x8b\x97"      /* f2d7 */
 #define WR_ICON_ALERT "\xef\x80\xa6"     /* f026 */
 #define WR_ICON_FOLDER "\xef\x89\x8b"    /* f24b */
+#define WR_ICON_OPENED "\xef\x85\x80"    /* f140 chevron-down */
+#define WR_ICON_CLOSED "\xef\x85\x82"    /* f142 chevron-right */
 #define WR_ICON_FILE "\xef\x88\xa4"      /* f224 */
 #define WR_ICON_UP "\xef\x81\x9d"        /* f05d */
 #define WR_ICON_CHECK "\xef\x84\xac"     /* f12c */

@@ -247,7 +247,7 @@ static bool adjust_field(const Work *work, Runner *run, WrField **field, const W
 /* Apply an operation as in the adjust command: if texels only move, the layer's coverage moves with them. */
 static bool adjust_layer(const Work *work, WrLayer *layer, const WrOpOptions *options, WrError *err)
 {
-    if (!layer->filter.op && !adjust_field(work, wr_op_run, &layer->heights, options, err))
+    if (wr_layer_holds(layer) && !adjust_field(work, wr_op_run, &layer->heights, options, err))
         return false;
     return !work->ask.op->moves ||
            (adjust_field(work, wr_op_run_unit, &layer->cover, options, err) &&
@@ -277,6 +277,8 @@ static bool adjust(Work *work, WrPool *pool, const WrProgress *progress, WrError
     if (work->ask.filters) return filter(work, document, err);
     options.mask = document->selection;
     const WrLayer *active = &document->layers[document->active];
+    if (!work->ask.all_layers && active->is_group && !active->on_mask)
+        return wr_fail(err, "the active layer is a group, without heights of its own");
     if (!work->ask.all_layers && active->filter.op && !active->on_mask)
         return wr_fail(err, "the active layer is a filter, without heights of its own");
     if (!work->ask.all_layers) {

@@ -96,6 +96,8 @@
     X(layer_rename, "")                                                                            \
     X(filter_edit, "")                                                                             \
     X(layer_rasterize, "")                                                                         \
+    X(layer_group, "Ctrl+G")                                                                       \
+    X(layer_ungroup, "Ctrl+Shift+G")                                                               \
     X(layer_merge, "Ctrl+Alt+E")                                                                   \
     X(layer_flatten, "Ctrl+Shift+F")                                                               \
     X(layer_project, "")                                                                           \

@@ -43,7 +43,7 @@ const WrField *wr_app_canvas_field(const WrApp *app)
     }
     const bool worn = !app->trying && !wr_document_shows(document, document->active) &&
                       document->solo < 0 && wr_scene_uses_layer(document->scene, layer->name);
-    return worn ? layer->heights : wr_app_field(app);
+    return worn && wr_layer_holds(layer) ? layer->heights : wr_app_field(app);
 }
 
 void wr_app_try(WrApp *app, const WrEditPreviewRequest *ask)
