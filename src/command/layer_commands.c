@@ -401,11 +401,9 @@ static bool layer_merge(WrSession *session, WrCall *call, WrError *err)
     if (!find(session, call, "N", &index, err) || !check_all_unlocked(session, index, err))
         return false;
     if (document->layers[index].is_group) return join_group(session, index);
+    if (index == 0) return wr_fail(err, "layer 1 has none below that it could be merged into");
     if (index == wr_layers_first_sibling(document->layers, index))
-        return wr_fail(err,
-                       document->layers[index].depth
-                           ? "layer %d has none below in its group that it could be merged into"
-                           : "layer %d has none below that it could be merged into",
+        return wr_fail(err, "layer %d has none below in its group that it could be merged into",
                        index + 1);
     if (!check_all_unlocked(session, index - 1, err) || !check_visible(session, index, err) ||
         !check_visible(session, index - 1, err))
@@ -480,7 +478,8 @@ static bool layer_move(WrSession *session, WrCall *call, WrError *err)
     const int into = wr_document_parent(document, to);
     if (depth == possible && (!in || (into < 0 ? NULL : document->layers[into].name) == name))
         return true;
-    return wr_fail(err, name ? "to=%d is not in that group" : "to=%d is in a group", to + 1);
+    if (!name) return wr_fail(err, "to=%d is in a group", to + 1);
+    return wr_fail(err, "to=%d is not in that group", to + 1);
 }
 
 static bool layer_rename(WrSession *session, WrCall *call, WrError *err)
@@ -629,11 +628,11 @@ static bool layer_clear(WrSession *session, WrCall *call, WrError *err)
     int index;
     if (!find_unlocked(session, call, &index, err)) return false;
     WrLayer *layer = &document->layers[index];
-    if (!wr_layer_holds(layer))
-        return wr_fail(err,
-                       layer->is_group
-                           ? "layer %d is a group, without heights that could be cleared"
-                           : "layer %d is a filter, without heights that could be cleared",
+    if (layer->filter.op)
+        return wr_fail(err, "layer %d is a filter, without heights that could be cleared",
+                       index + 1);
+    if (layer->is_group)
+        return wr_fail(err, "layer %d is a group, without heights that could be cleared",
                        index + 1);
     wr_session_put_field(session, &layer->heights, uniform(layer, 0.0f));
     if (layer->cover) wr_session_put_field(session, &layer->cover, uniform(layer, 0.0f));

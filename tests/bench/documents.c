@@ -89,7 +89,8 @@ bool wr_bench_strokes(const WrCli *cli, bool quick, WrText *text, WrError *err)
 /* Medians for a dab 64 texels across and for its undo, each including the update of the composite. */
 typedef struct Edit {
     int table, layers;
-    const char *filter; /* command of a filter layer above; NULL: none */
+    const char *further; /* command of a filter layer above, or of a group of layers; NULL: none */
+    const char *use;     /* then the layer that is edited */
     double dab_ms, composite_ms, undo_ms, undo_composite_ms;
     double bytes; /* memory of the step */
 } Edit;
@@ -100,18 +101,19 @@ static bool run(WrSession *session, const char *line, WrError *err)
 }
 
 /* A grid on the bottom layer, and one dab on each further layer. */
-static bool make(WrSession *session, int size, int layers, const char *filter, WrError *err)
+static bool make(WrSession *session, const Edit *edit, WrError *err)
 {
+    const int size = edit->table;
     char line[96];
     snprintf(line, sizeof line, "table %dx%d", size, size);
     if (!run(session, line, err) || !run(session, "grid", err)) return false;
-    for (int i = 1; i < layers; i++) {
+    for (int i = 1; i < edit->layers; i++) {
         snprintf(line, sizeof line, "layer add blend=%s", i % 2 ? "add" : "max");
         if (!run(session, line, err)) return false;
         snprintf(line, sizeof line, "dab %g,0.5 radius=32", i / 32.0);
         if (!run(session, line, err)) return false;
     }
-    return !filter || (run(session, filter, err) && run(session, "layer use 1", err));
+    return !edit->further || (run(session, edit->further, err) && run(session, edit->use, err));
 }
 
 static double since(double start)
@@ -124,7 +126,7 @@ static bool time_edit(const WrCli *cli, Edit *edit, int rounds, WrError *err)
     WrSession *session = wr_cli_session(cli, false, err);
     double *times[4];
     for (int k = 0; k < 4; k++) times[k] = wr_alloc((size_t)rounds, sizeof *times[k]);
-    bool good = session && make(session, edit->table, edit->layers, edit->filter, err);
+    bool good = session && make(session, edit, err);
     if (good) wr_document_composite(wr_session_document(session), cli->pool);
     for (int i = 0; i < rounds && good; i++) {
         char line[96];
@@ -160,14 +162,19 @@ bool wr_bench_edits(const WrCli *cli, bool quick, WrText *text, WrError *err)
     static const int tables[] = { 512, 4096, 16384 }, layers[] = { 1, 20 };
     wr_text_addf(text, "\ndab of 64 texels       layers %9s %12s %9s %12s %9s\n", "dab ms",
                  "composite ms", "undo ms", "composite ms", "bytes");
-    static const char *const filters[] = { "filter blur sigma=3", "filter median radius=3",
-                                           "filter warp", "filter curves points=0,0;0.3,0.1;1,1" };
-    for (int i = 0; i < 10; i++) {
+    static const char *const further[] = { "filter blur sigma=3", "filter median radius=3",
+                                           "filter warp", "filter curves points=0,0;0.3,0.1;1,1",
+                                           "layer group G of=11..20" };
+    for (int i = 0; i < 11; i++) {
+        const bool group = i == 10;
         Edit edit = { .table = i < 6 ? tables[i / 2] : 4096,
-                      .layers = i < 6 ? layers[i % 2] : 1,
-                      .filter = i < 6 ? NULL : filters[i - 6] };
+                      .layers = i < 6   ? layers[i % 2]
+                                : group ? 20
+                                        : 1,
+                      .further = i < 6 ? NULL : further[i - 6],
+                      .use = group ? "layer use 20" : "layer use 1" };
         char table[32];
-        if (edit.filter) wr_text_addf(text, "    below %s\n", edit.filter);
+        if (edit.further) wr_text_addf(text, "    %s %s\n", group ? "in" : "below", edit.further);
         if (!time_edit(cli, &edit, quick ? 21 : 101, err)) return false;
         snprintf(table, sizeof table, "%dx%d", edit.table, edit.table);
         wr_text_addf(text, "  table %-13s %8d %9.3f %12.3f %9.3f %12.3f %9.0f\n", table,

@@ -1,4 +1,4 @@
-/* Groups of layers as commands: edits, order, transforms, what reads the layers below, and documents. */
+/* Groups of layers as commands: edits, order, transforms, live masks, and documents. */
 #include "test.h"
 #include "session_help.h"
 #include "test_folder.h"

@@ -413,7 +413,7 @@ static void groups_are_made_moved_and_removed_with_their_members(void **state)
     assert_rows(document, "base0 c0 b1 d1 G0 e0 ");
     assert_int_equal(document->active, 4);
     assert_int_equal(document->solo, 1);
-    /* one of its members and the layer above: the new group takes the place of the higher one */
+    /* one of its members and the layer above: the new group is put where the higher one was */
     wr_document_group(document, (bool[]){ false, false, false, true, false, true }, "H");
     assert_rows(document, "base0 c0 b1 G0 d1 e1 H0 ");
     wr_document_move(document, 6, 5, 1); /* H as the highest member of G */
@@ -503,7 +503,7 @@ static void solo_shows_a_group_alone(void **state)
     document->solo = -1;
     assert_float_equal((double)wr_field_get(wr_document_field(document), 3, 2), 21.0, 0);
     assert_false(wr_document_shows(document, 2));
-    /* what lies below d in its group is b; below G the two others */
+    /* below d in its group lies b; below G the two others */
     WrField *below = wr_document_below(document, 3, NULL);
     assert_float_equal((double)wr_field_get(below, 3, 2), 2.0, 0);
     wr_field_free(below);
