@@ -223,6 +223,7 @@ static bool row_group(WrApp *app, int i, double *x)
 {
     const WrLayer *group = &wr_app_document(app)->layers[i];
     const double side = wr_gui_px(16), folder = wr_gui_px(22);
+    wr_gui_row_set_cursor(*x, side);
     bool pressed = wr_gui_glyph("fold", group->collapsed ? WR_ICON_CLOSED : WR_ICON_OPENED, 16,
                                 WR_COLOUR_TEXT);
     wr_gui_tip(group->collapsed ? "Show the layers of this group here"
@@ -231,6 +232,7 @@ static bool row_group(WrApp *app, int i, double *x)
     pressed |= wr_gui_glyph("group", WR_ICON_FOLDER, 22, WR_COLOUR_CELL);
     wr_gui_tip("A group: its layers are joined by themselves first");
     *x += side + folder + wr_gui_px(6);
+    wr_gui_row_set_cursor(*x, wr_gui_px(THUMB_UNITS));
     return pressed && wr_app_run_linef(app, "layer set %d collapsed=%s", i + 1,
                                        group->collapsed ? "off" : "on");
 }
