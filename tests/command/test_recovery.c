@@ -59,8 +59,10 @@ static void make_line(TestRandom *random, int index, char *line, size_t size)
         snprintf(line, size, "table 96x80");
         return;
     }
-    if (index <= 2) {
-        snprintf(line, size, index == 1 ? "filter blur sigma=1.3 name=soft" : "layer use 1");
+    if (index <= 3) {
+        static const char *const begin[] = { "filter blur sigma=1.3 name=soft",
+                                             "layer group both of=1..2", "layer use 1" };
+        snprintf(line, size, "%s", begin[index - 1]);
         return;
     }
     switch ((int)(7 * test_random(random))) {
@@ -77,8 +79,8 @@ static void make_line(TestRandom *random, int index, char *line, size_t size)
         if (b < 0.5) snprintf(line, size, "bump height=%.4f", a);
         else snprintf(line, size, "filter blur sigma=%.4f layer=soft", 5 * a);
         break;
-    case 5: snprintf(line, size, index > 3 && c < 0.7 ? "undo" : "rotate %.0f,0,0", 90 * a); break;
-    default: snprintf(line, size, "layer add opacity=%.2f", a); break;
+    case 5: snprintf(line, size, index > 4 && c < 0.7 ? "undo" : "rotate %.0f,0,0", 90 * a); break;
+    default: snprintf(line, size, "layer add opacity=%.2f%s", a, b < 0.3 ? " in=both" : ""); break;
     }
 }
 
