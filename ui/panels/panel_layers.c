@@ -271,6 +271,7 @@ static bool row_group(WrApp *app, int i, double *x)
     pressed |= wr_gui_glyph("group", WR_ICON_FOLDER, 22, WR_COLOUR_CELL);
     wr_gui_tip("A group: its layers are joined by themselves first");
     *x += side + folder + wr_gui_px(6);
+    wr_gui_row_set_cursor(*x, wr_gui_px(THUMB_UNITS));
     return pressed && wr_app_run_linef(app, "layer set %d collapsed=%s", i + 1,
                                        group->collapsed ? "off" : "on");
 }
