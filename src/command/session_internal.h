@@ -189,7 +189,7 @@ bool wr_session_change_generator_layer(WrSession *session, WrCall *outer, int in
 void wr_session_spell_change(WrSession *session, WrCall *call);
 /* Generate a layer by its own line, after a change that its content depends on. */
 bool wr_session_generate_again(WrSession *session, int index, WrError *err);
-/* Give a generator layer another line, and generate it. A line that this program does not know is left out, with a
+/* Give a generator layer another line, and generate it. An unknown line is left out, with a
    note. */
 bool wr_session_use_line(WrSession *session, int index, const char *line, WrError *err);
 /* At the end of every command, from the bottom up: generate the layers whose lines read layers that have changed, and live

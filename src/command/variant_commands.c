@@ -18,7 +18,7 @@
 
 #include <string.h>
 
-/* WrLayer.values has a line for each variant that knows the layer, in the syntax of a command without its verb:
+/* WrLayer.values has a line for each variant that contains the layer, in the syntax of a command without its verb:
 
      worn visible=on blend=add opacity=0.5 radius=0 line="pattern bricks rows=9"
 
@@ -69,7 +69,7 @@ static void print_values(const WrLayer *layer, const char *variant, WrText *text
     wr_text_fini(&filter);
 }
 
-/* The variant's line in a layer's values, without its end; NULL: it does not know the layer. */
+/* The variant's line in a layer's values, without its end; NULL: it does not contain the layer. */
 static const char *find_values(const char *values, const char *variant, size_t *length)
 {
     WrText head = { 0 };
@@ -103,7 +103,7 @@ static void put_values(WrLayer *layer, const char *variant, const char *line)
     wr_text_fini(&text);
 }
 
-/* The variant's values as a call; NULL: it does not know the layer, or the line is of another version. */
+/* The variant's values as a call; NULL: it does not contain the layer, or the line is of another version. */
 static WrCall *values_of(const WrLayer *layer, const char *variant)
 {
     size_t length;

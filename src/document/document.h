@@ -22,7 +22,7 @@ typedef struct WrScene WrScene;
    the layers below, which is updated incrementally. A generator layer keeps the command line that its heights and
    coverage come from; they are generated again when the line changes, or the layers below if the line reads them. A live
    mask keeps its terms and is made again in the same way. A group's own heights are empty: its members are the rows
-   directly below it that are deeper than it, and their composite (composite.h) takes the place of its heights and
+   directly below it that are deeper than it, and their composite (composite.h) replaces its heights and
    coverage. All fields of a document have one size and one wrap. */
 typedef struct WrLayer {
     char *name;    /* UTF-8, owned; not necessarily unique */
@@ -48,7 +48,7 @@ typedef struct WrLayer {
     int depth;          /* 0..WR_DEPTH_MAX, the number of groups that it is in */
     bool is_group;      /* then its depth is below WR_DEPTH_MAX */
     bool collapsed;     /* of a group: lists of layers omit its members */
-    char *values;       /* in the variants that know the layer (variants.h); NULL: in none. Owned */
+    char *values; /* in the variants that contain the layer (variants.h); NULL: in none. Owned */
 } WrLayer;
 
 typedef struct WrComposite WrComposite; /* private to the module */

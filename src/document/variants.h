@@ -1,6 +1,6 @@
 /* variants.h - names of a document's variants: sets of layers' values, such as "worn" and "new".
 
-   The values are text that each layer keeps (WrLayer.values), one line for each variant that knows it, beginning with the
+   The values are text that each layer keeps (WrLayer.values), one line for each variant that contains it, beginning with the
    variant's name. They stay with their layer when it is moved, renamed or duplicated. command/variants.h makes and reads
    them. */
 #pragma once

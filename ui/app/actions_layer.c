@@ -315,7 +315,7 @@ bool wr_has_below(const WrApp *app)
     return number(app) > 1;
 }
 
-/* One layer: it and the one below in its group are visible, and that one is unlocked. Of several the command says why they cannot. */
+/* One layer: it and the one below in its group are visible, and that one is unlocked. Of several, the command reports the reason if they cannot. */
 bool wr_can_merge(const WrApp *app)
 {
     const WrLayer *layer = active(app);

@@ -51,7 +51,7 @@ static bool moves(const WrDocument *document, const WrLayerBlock *block, int ind
     return false;
 }
 
-/* True if the group, -1 for none, can take the block. */
+/* True if the group, -1 for none, has room for the block. */
 static bool can_hold(const WrDocument *document, const WrLayerBlock *block, int group)
 {
     const int depth = group < 0 ? 0 : document->layers[group].depth + 1;

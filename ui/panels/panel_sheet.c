@@ -410,7 +410,7 @@ static void choose_how(const WrApp *app, WrSheetState *sheet)
     wr_gui_tip("Heights of the first and the last code");
 }
 
-/* The check that puts <VARIANT> into the cell's name, and takes it out. */
+/* The check that puts <VARIANT> into the cell's name, or removes it. */
 static void choose_variants(const WrApp *app, WrSheetState *sheet)
 {
     char *name = sheet->ask.name;

@@ -67,7 +67,7 @@ void wr_panel_variants(WrApp *app)
         wr_variant_name(document, i, names[i]);
         labels[i] = names[i];
     }
-    /* other values than those of any variant are an entry of their own, so that choosing the variant gives its values back */
+    /* other values than those of any variant are an entry of their own, so that choosing the variant restores its values */
     snprintf(changed, sizeof changed, "%s *", used >= 0 ? names[used] : "");
     labels[count] = used >= 0 ? changed : wr_words("None in use");
     const int now = used >= 0 && !differs ? used : count;

@@ -492,7 +492,7 @@ void wr_file_take_import(WrApp *app, const char *path)
 
 void wr_app_file_chosen(WrApp *app, WrFilePurpose purpose, const char *path)
 {
-    /* the desktop's dialog asks for the name as it is, not for those that <VARIANT> stands for */
+    /* the desktop's dialog gets the name as it is, not for those that <VARIANT> stands for */
     const bool agreed = wr_files_agreed(app->files) && !wr_variant_is_pattern(path);
     bool asks = wr_file_purpose_writes(purpose) && !agreed &&
                 wr_replace_confirm(app, WR_REPLACE_CHOSEN, purpose, path);

@@ -176,15 +176,15 @@ class Verbs:
 
     def rim(
         self, *, kind: Literal['bevel', 'round', 'ridge', 'outline', 'emboss'] | None = ..., of: Literal['auto',
-        'selection', 'mask', 'heights'] | None = ..., width: float | None = ..., height: float | None = ..., level:
-        float | None = ..., blend: Literal['add', 'subtract', 'max', 'min', 'smooth-max', 'smooth-min', 'replace',
-        'mix', 'multiply'] | None = ..., radius: float | None = ..., offset: float | None = ...
+        'selection', 'mask', 'heights'] | None = ..., layer: Any | None = ..., width: float | None = ..., height: float
+        | None = ..., level: float | None = ..., blend: Literal['add', 'subtract', 'max', 'min', 'smooth-max',
+        'smooth-min', 'replace', 'mix', 'multiply'] | None = ..., radius: float | None = ..., offset: float | None = ...
     ) -> None:
         """Bevel, round, ridge, outline or emboss an edge by the distance from it."""
 
     def solid(
-        self, _form: Literal['sphere', 'ellipsoid', 'box', 'cylinder', 'cone', 'torus', 'capsule', 'mesh', 'letters',
-        'surface'], /, *_values: Any, radius: float | None = ..., at: Sequence[float] | None = ..., rotate:
+        self, _form: Literal['sphere', 'ellipsoid', 'box', 'cylinder', 'cone', 'torus', 'capsule', 'mesh', 'relief',
+        'letters', 'surface'], /, *_values: Any, radius: float | None = ..., at: Sequence[float] | None = ..., rotate:
         Sequence[float] | None = ..., height: float | None = ..., sink: float | None = ..., deep: float | None = ...,
         soft: float | None = ..., across: float | None = ..., rows: float | None = ..., spacing: Sequence[float] | None
         = ..., stagger: float | None = ..., jitter: float | None = ..., alternate: float | None = ..., turn: float |
@@ -193,10 +193,11 @@ class Verbs:
         Literal['max', 'smooth', 'add'] | None = ..., melt: float | None = ..., blend: Literal['add', 'subtract', 'max',
         'min', 'smooth-max', 'smooth-min', 'replace', 'mix', 'multiply'] | None = ..., blend_radius: float | None = ...,
         offset: float | None = ..., radii: Sequence[float] | None = ..., size: Any | None = ..., length: float | None =
-        ..., tube: float | None = ..., sha256: str | None = ..., font: Literal['terminus', 'terminus-bold', 'sans',
-        'sans-bold', 'serif', 'serif-bold', 'mono', 'mono-bold', 'inter', 'inter-bold'] | None = ..., file: str |
-        PathLike[str] | None = ..., face: float | None = ..., depth: float | None = ..., bevel: float | None = ...,
-        profile: Literal['round', 'chamfer'] | None = ..., letters: float | None = ..., lines: float | None = ...
+        ..., tube: float | None = ..., sha256: str | None = ..., layer: Any | None = ..., depth: float | None = ...,
+        font: Literal['terminus', 'terminus-bold', 'sans', 'sans-bold', 'serif', 'serif-bold', 'mono', 'mono-bold',
+        'inter', 'inter-bold'] | None = ..., file: str | PathLike[str] | None = ..., face: float | None = ..., bevel:
+        float | None = ..., profile: Literal['round', 'chamfer'] | None = ..., letters: float | None = ..., lines: float
+        | None = ...
     ) -> None:
         """Solids, letters and meshes seen from above by a Z-buffer."""
 
@@ -254,13 +255,13 @@ class Verbs:
 
     def layer(
         self, _form: Literal['add', 'delete', 'use', 'move', 'rename', 'set', 'rasterize', 'duplicate', 'merge',
-        'flatten', 'clear', 'solo', 'mask', 'paste'], /, *_values: Any, from_: Any | None = ..., blend: Literal['add',
-        'subtract', 'max', 'min', 'smooth-max', 'smooth-min', 'replace', 'mix', 'multiply'] | None = ..., opacity: float
-        | None = ..., radius: float | None = ..., above: int | str | None = ..., part: Literal['heights', 'mask'] | None
-        = ..., to: float | None = ..., change: Any | None = ..., visible: bool | str | None = ..., lock: bool | str |
-        None = ..., linked: bool | str | None = ..., low: float | None = ..., high: float | None = ..., soft: float |
-        None = ..., live: Any | None = ..., at: Sequence[float] | None = ..., size: float | None = ..., sha256: str |
-        None = ...
+        'flatten', 'clear', 'solo', 'mask', 'paste', 'group', 'ungroup'], /, *_values: Any, from_: Any | None = ...,
+        blend: Literal['add', 'subtract', 'max', 'min', 'smooth-max', 'smooth-min', 'replace', 'mix', 'multiply'] | None
+        = ..., opacity: float | None = ..., radius: float | None = ..., above: int | str | None = ..., in_: Any | None =
+        ..., part: Literal['heights', 'mask'] | None = ..., to: float | None = ..., change: Any | None = ..., visible:
+        bool | str | None = ..., collapsed: bool | str | None = ..., lock: bool | str | None = ..., linked: bool | str |
+        None = ..., low: float | None = ..., high: float | None = ..., soft: float | None = ..., live: Any | None = ...,
+        at: Sequence[float] | None = ..., size: float | None = ..., sha256: str | None = ..., of: int | str | None = ...
     ) -> None:
         """Add, order, join and set layers."""
 
