@@ -77,14 +77,32 @@ static void put_codes(const WrDocArray *array, int y, float *row, double low, do
     put_row(array, y, codes);
 }
 
-static const WrField *heights_of(WrDoc *doc, int layer, WrError *err)
+/* The composite of a group's members. */
+static WrField *group_heights(const WrDocument *document, int group, WrPool *pool)
+{
+    WrDocument *copy = wr_document_snapshot(document);
+    const int layer = wr_document_rasterize_group(copy, group, pool);
+    WrField *heights = wr_field_share(copy->layers[layer].heights);
+    wr_document_free(copy);
+    return heights;
+}
+
+/* The caller frees them. */
+static WrField *heights_of(WrDoc *doc, int layer, WrError *err)
 {
     const WrDocument *document = wr_session_document(doc->session);
-    if (layer == -1) return wr_document_whole(document, wr_api_pool(doc), err);
-    if (layer >= 0 && layer < document->layer_count) return document->layers[layer].heights;
-    wr_fail(err, "layer %d: must be 0..%d, or -1 for the composite", layer,
-            document->layer_count - 1);
-    return NULL;
+    WrPool *pool = wr_api_pool(doc);
+    if (layer == -1) {
+        const WrField *composite = wr_document_whole(document, pool, err);
+        return composite ? wr_field_share(composite) : NULL;
+    }
+    if (layer < 0 || layer >= document->layer_count) {
+        wr_fail(err, "layer %d: must be 0..%d, or -1 for the composite", layer,
+                document->layer_count - 1);
+        return NULL;
+    }
+    if (document->layers[layer].is_group) return group_heights(document, layer, pool);
+    return wr_field_share(document->layers[layer].heights);
 }
 
 static bool read_heights(const WrField *field, const WrDocArray *given, double *low, double *high,
@@ -116,8 +134,10 @@ bool wr_doc_heights(WrDoc *doc, int32_t layer, const WrDocArray *array, double *
 {
     Call call;
     wr_call_begin(&call, doc);
-    const WrField *field = heights_of(doc, layer, &call.err);
-    return wr_call_end(&call, field && read_heights(field, array, low, high, &call.err), error);
+    WrField *field = heights_of(doc, layer, &call.err);
+    const bool good = field && read_heights(field, array, low, high, &call.err);
+    wr_field_free(field);
+    return wr_call_end(&call, good, error);
 }
 
 /* Packed floats of the caller's array. NULL and an error: no memory. */

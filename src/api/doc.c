@@ -293,7 +293,9 @@ bool wr_doc_layer(const WrDoc *doc, int32_t index, WrDocLayer *layer)
                            .opacity = from->opacity,
                            .visible = from->visible,
                            .locked = from->locked,
-                           .filter = from->filter.op };
+                           .filter = from->filter.op,
+                           .group = from->is_group,
+                           .depth = from->depth };
     snprintf(layer->name, sizeof layer->name, "%s", from->name);
     return true;
 }

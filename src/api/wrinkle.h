@@ -104,6 +104,9 @@ typedef struct WrDocLayer {
     float opacity; /* 0..1 */
     bool visible, locked;
     bool filter; /* it has no heights of its own */
+    bool
+        group; /* its heights are the composite of its members, the deeper layers directly below it */
+    int32_t depth; /* number of groups that it is in */
 } WrDocLayer;
 /* Layer `index`, from 0 at the bottom. False: there is none. */
 WR_PUBLIC bool wr_doc_layer(const WrDoc *doc, int32_t index, WrDocLayer *layer);

@@ -88,6 +88,18 @@ class Commands(unittest.TestCase):
         self.assertEqual((layer.name, layer.opacity, layer.visible), ("a \"b\" c", 0.5, False))
         self.assertIn("cells=5", layer.line)
 
+    def test_groups(self):
+        doc = wrinkle.Document(30, 20)
+        doc.fill(0.25)
+        for height in (1, 2):
+            doc.layer("add")
+            doc.fill(height)
+        doc.layer("group", "both", of="2,3")
+        doc.layer("set", "both", opacity=0.5)
+        self.assertEqual([(x.group, x.depth) for x in doc.layers], [(False, 0), (False, 1), (False, 1), (True, 0)])
+        self.assertTrue((doc.layer_heights(3) == 3).all())
+        self.assertTrue((doc.heights == 1.75).all())
+
     def test_errors_are_exceptions_with_the_programs_words(self):
         doc = wrinkle.Document(16, 16)
         before = doc.hash

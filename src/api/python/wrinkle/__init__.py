@@ -37,7 +37,8 @@ class Cancelled(Error):
 
 
 class Layer(NamedTuple):
-    """A layer of a document. line: the command line of a generator layer, or None."""
+    """A layer of a document. group: its heights are the composite of its members, the deeper layers directly below it. line: the
+    command line of a generator layer, or None."""
 
     name: str
     blend: str
@@ -45,6 +46,8 @@ class Layer(NamedTuple):
     visible: bool
     locked: bool
     filter: bool
+    group: bool
+    depth: int
     line: Optional[str]
 
 
@@ -202,7 +205,7 @@ class Document(Verbs):
             line = _ffi.string(row.line).decode() if row.line else None
             out.append(
                 Layer(_ffi.string(row.name).decode(), _ffi.string(row.blend).decode(), row.opacity, row.visible,
-                      row.locked, row.filter, line))
+                      row.locked, row.filter, row.group, row.depth, line))
         return out
 
     @property
