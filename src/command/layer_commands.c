@@ -528,6 +528,7 @@ static void join_layers(WrSession *session, const WrLayerList *layers)
         wr_document_merge(document, low + 1, session->options.pool);
         wr_progress_set(whole);
     }
+    if (joints > 0) wr_session_store_in_variants(session, low);
 }
 
 /* One layer is joined with the one below, several with each other, a single group becomes a layer. */
@@ -554,6 +555,7 @@ static bool layer_flatten(WrSession *session, WrCall *call, WrError *err)
         if (!wr_session_check_unlocked(session, i, err)) return false;
     note_hidden(session, 0, document->layer_count);
     wr_document_flatten(document, session->options.pool);
+    wr_session_store_in_variants(session, 0);
     return true;
 }
 

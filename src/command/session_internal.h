@@ -218,6 +218,8 @@ void wr_session_rename_in_masks(WrSession *session, int index, const char *name)
 /* ---- variants: variant_commands.c ---- */
 
 /* Layer `index` is about to get another name: lines and terms in variants that read it get it too. */
+/* A layer that was joined of others: its present values are those of all variants. */
+void wr_session_store_in_variants(WrSession *session, int index);
 void wr_session_rename_in_variants(WrSession *session, int index, const char *name);
 
 /* ---- the active layer ---- */

@@ -124,7 +124,8 @@ bool wr_variant_differs(const WrDocument *document)
         size_t length = 0;
         print_values(layer, document->variant, &now);
         const char *kept = find_values(layer->values, document->variant, &length);
-        differs = !kept || length != now.length || strncmp(kept, wr_text_get(&now), length) != 0;
+        differs = kept ? length != now.length || strncmp(kept, wr_text_get(&now), length) != 0
+                       : layer->visible;
         wr_text_fini(&now);
     }
     return differs;
@@ -178,6 +179,20 @@ static void store(WrDocument *document, const char *variant)
     }
 }
 
+void wr_session_store_in_variants(WrSession *session, int index)
+{
+    WrDocument *document = session->state.document;
+    WrLayer *layer = &document->layers[index];
+    char variant[WR_VARIANT_NAME_MAX + 1];
+    for (int k = 0; k < wr_variant_count(document); k++) {
+        WrText line = { 0 };
+        wr_variant_name(document, k, variant);
+        print_values(layer, variant, &line);
+        put_values(layer, variant, wr_text_get(&line));
+        wr_text_fini(&line);
+    }
+}
+
 static void set_in_use(WrDocument *document, const char *variant)
 {
     char *copy = wr_strdup(variant);
@@ -227,6 +242,30 @@ static bool use_line(WrSession *session, int index, const WrCall *call, bool aga
     return !again || wr_session_generate_again(session, index, err);
 }
 
+/* Hide the layers that the variant does not contain, since they were added later. */
+static void hide_later_layers(WrSession *session, const char *variant)
+{
+    WrDocument *document = session->state.document;
+    int hidden = 0;
+    for (int i = 0; i < document->layer_count; i++) {
+        WrLayer *layer = &document->layers[i];
+        size_t length;
+        if (find_values(layer->values, variant, &length)) continue;
+        hidden += layer->visible;
+        layer->visible = false;
+    }
+    if (hidden == 1)
+        wr_session_note(session,
+                        "1 layer was added after variant \"%s\" was stored: it is hidden; show it "
+                        "and run `variant set` to keep it in the variant",
+                        variant);
+    else if (hidden > 1)
+        wr_session_note(session,
+                        "%d layers were added after variant \"%s\" was stored: they are hidden; "
+                        "show them and run `variant set` to keep them in the variant",
+                        hidden, variant);
+}
+
 /* All settings first, then the lines from the bottom up, which read composites. Lines that read a layer made later are made
    again at the end of the command. */
 static bool use(WrSession *session, const char *variant, WrError *err)
@@ -239,6 +278,7 @@ static bool use(WrSession *session, const char *variant, WrError *err)
         calls[i] = values_of(&document->layers[i], variant);
         if (calls[i]) again[i] = use_settings(session, i, calls[i]);
     }
+    hide_later_layers(session, variant);
     for (int i = 0; i < count; i++) {
         WrProgressPart part;
         const WrProgress *whole =
@@ -394,8 +434,9 @@ const WrCommand wr_command_variant = {
     .help = "store and use sets of layers' values",
     .details =
         "A variant has each layer's visibility, blend, opacity and radius, the line of a generator "
-        "layer, the terms of a live mask and the values of a filter. A layer added later is in no "
-        "variant until `variant set`, and stays as it is. <VARIANT> in the name of a file that "
+        "layer, the terms of a live mask and the values of a filter. A layer that is added later "
+        "is "
+        "hidden in it until `variant set`. <VARIANT> in the name of a file that "
         "`export`, `maps` or `render` writes becomes the name of each variant in turn.",
     .example = "variant add worn"
 };

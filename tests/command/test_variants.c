@@ -217,15 +217,22 @@ static void values_follow_their_layers(void **state)
     assert_non_null(strstr(doc(s)->layers[4].line, "link \"dirt, wet\""));
     must_run(s, "variant use v1"); /* whose mask reads the layer that was renamed */
     assert_non_null(strstr(doc(s)->layers[3].mask_line, "of=\"the wall\""));
-    /* a duplicate has the values of its layer; a new layer is in no variant, and left as it is */
+    /* a duplicate has the values of its layer; a new layer is in no variant, and hidden in all */
     must_run(s, "layer duplicate sign");
     must_run(s, "layer add new blend=max opacity=0.25");
     assert_true(wr_variant_differs(doc(s)));
     must_run(s, "variant use v0");
     const WrLayer *layers = doc(s)->layers;
     assert_true(layers[2].opacity == layers[1].opacity && layers[2].blend == layers[1].blend);
-    assert_true(layers[3].opacity == 0.25f && layers[3].visible);
+    assert_true(layers[3].opacity == 0.25f && !layers[3].visible);
+    assert_false(wr_variant_differs(doc(s)));
+    must_run(s, "layer set new visible=on");
     assert_true(wr_variant_differs(doc(s)));
+    must_run(s, "variant set");
+    must_run(s, "variant use v1");
+    assert_false(doc(s)->layers[3].visible);
+    must_run(s, "variant use v0");
+    assert_true(doc(s)->layers[3].visible);
     wr_session_free(s);
     wr_session_free(other);
 }
@@ -252,9 +259,9 @@ static void plain_layers_keep_their_heights(void **state)
     assert_true(doc(s)->layers[1].opacity == 1.0f);
     assert_true(wr_hash_equal(wall, wr_field_hash(doc(s)->layers[1].heights)));
     assert_true(wr_hash_equal(mask, wr_field_hash(doc(s)->layers[2].mask)));
-    must_run(s, "layer merge 3"); /* a merged layer is in no variant */
-    assert_null(doc(s)->layers[1].values);
+    must_run(s, "layer merge 3");    /* a joined layer is in all variants as it is */
     must_run(s, "variant use worn"); /* the copy's source is gone, which is no error */
+    assert_true(doc(s)->layers[1].visible);
     wr_session_free(s);
 }
 
