@@ -145,7 +145,10 @@ static void take_numbers(Material *m)
     m->roughness = within(sqrt(wr_export_material_alpha(m->scene)), 1);
     m->metalness = model->metalness ? within(from->metalness, 1) : 0;
     m->ior = model->ior && from->ior >= 1 ? from->ior : 1.5;
-    m->specular = model->shines ? within(from->specular, 1) : 0;
+    /* The highlight of a lobe with shininess has no scale in common with that of facets: it is on or off. */
+    m->specular = !model->shines                           ? 0
+                  : model->facets || !(from->specular > 0) ? within(from->specular, 1)
+                                                           : 1;
     m->repeat[0] = m->scene->replicate_u, m->repeat[1] = m->scene->replicate_v;
 }
 
@@ -590,15 +593,31 @@ static const char *gltf_refuses(const Material *m, int role)
     return NULL;
 }
 
+/* The first role in use whose texture is of the same file. */
+static Role first_of_file(const Material *m, Role role)
+{
+    for (int k = 0; k < (int)role; k++)
+        if (uses(m, (Role)k) && strcmp(m->textures[k].file, m->textures[role].file) == 0)
+            return (Role)k;
+    return role;
+}
+
+/* Index of the image and the texture of a role that is the first of its file. */
+static int gltf_index(const Material *m, Role role)
+{
+    int index = 0;
+    for (int k = 0; k < (int)role; k++)
+        index += uses(m, (Role)k) && first_of_file(m, (Role)k) == (Role)k;
+    return index;
+}
+
 /* TEXCOORD_0 is (r u, 1 - r v) with the cells' repeat r. A picture of another repeat r' needs the scale s = r'/r, and along
    v the offset 1 - s, as in glb.c. */
 static void gltf_texture(const Material *m, WrText *out, const char *name, Role role)
 {
     const Texture *t = &m->textures[role];
-    int index = 0;
     if (!uses(m, role)) return;
-    for (int k = 0; k < (int)role; k++) index += uses(m, (Role)k);
-    wr_text_addf(out, ",\"%s\":{\"index\":%d", name, index);
+    wr_text_addf(out, ",\"%s\":{\"index\":%d", name, gltf_index(m, first_of_file(m, role)));
     const double s[2] = { t->repeat[0] / m->repeat[0], t->repeat[1] / m->repeat[1] };
     const double offset[2] = { 0, 1 - s[1] };
     if (fabs(s[0] - 1) > 0 || fabs(s[1] - 1) > 0) {
@@ -638,14 +657,14 @@ static void gltf_material(const Material *m, WrText *out)
     wr_text_add(out, "}]");
 }
 
-/* An image and a texture for each role in use; index in the order of roles. */
+/* An image and a texture for each file in use, in the order of roles. */
 static void gltf_pictures(const Material *m, WrText *out)
 {
     int count = 0;
     if (!m->uses) return;
     wr_text_add(out, ",\"samplers\":[{\"wrapS\":10497,\"wrapT\":10497}],\"images\":[");
     for (int role = 0; role < ROLES; role++) {
-        if (!uses(m, (Role)role)) continue;
+        if (!uses(m, (Role)role) || first_of_file(m, (Role)role) != (Role)role) continue;
         wr_text_add(out, count++ ? ",{\"uri\":" : "{\"uri\":");
         add_uri(out, m->textures[role].file, "");
         wr_text_add(out, "}");
@@ -741,6 +760,7 @@ static void report(const Material *m, const WrMaterialFormat *format, const char
                    WrText *list)
 {
     const char *before = " with ";
+    char number[WR_NUMBER_SIZE];
     wr_text_addf(list, "%s: %s", path, format->title);
     for (int role = 0; role < ROLES; role++) {
         const Texture *t = &m->textures[role];
@@ -748,10 +768,8 @@ static void report(const Material *m, const WrMaterialFormat *format, const char
         wr_text_addf(list, "%s%s", before, role_names[role]);
         before = ", ";
         if (role != HEIGHT) continue;
-        wr_text_add(list, " (");
-        wr_text_add_number(list, t->scale);
-        wr_text_add(list, " times the texel, plus ");
-        wr_text_add_number(list, t->bias + 0.0);
+        wr_text_addf(list, " (%s times the texel", wr_number_print_float((float)t->scale, number));
+        wr_text_addf(list, " + %s", wr_number_print_float((float)(t->bias + 0.0), number));
         wr_text_addf(list, ", in %s)", unit_of(m));
     }
     before = "; left out: ";
