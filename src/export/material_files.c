@@ -755,7 +755,7 @@ bool wr_material_formats_parse(const char *text, unsigned *formats, WrError *err
     return true;
 }
 
-/* "FILE: MaterialX with normal, height (millimetres, 0..0.3); left out: FILE: why, ..." */
+/* "FILE: MaterialX with normal, height (texels 0..1 are 0..0.3 millimetres); left out: FILE: why, ..." */
 static void report(const Material *m, const WrMaterialFormat *format, const char *path,
                    WrText *list)
 {
@@ -768,9 +768,10 @@ static void report(const Material *m, const WrMaterialFormat *format, const char
         wr_text_addf(list, "%s%s", before, role_names[role]);
         before = ", ";
         if (role != HEIGHT) continue;
-        wr_text_addf(list, " (%s times the texel", wr_number_print_float((float)t->scale, number));
-        wr_text_addf(list, " + %s", wr_number_print_float((float)(t->bias + 0.0), number));
-        wr_text_addf(list, ", in %s)", unit_of(m));
+        wr_text_addf(list, " (texels 0..1 are %s",
+                     wr_number_print_float((float)(t->bias + 0.0), number));
+        wr_text_addf(list, "..%s %s)", wr_number_print_float((float)(t->bias + t->scale), number),
+                     unit_of(m));
     }
     before = "; left out: ";
     for (int i = 0; i < m->order->count; i++)
