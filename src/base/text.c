@@ -169,6 +169,13 @@ static size_t utf8_length(const unsigned char *s)
     return n;
 }
 
+bool wr_text_is_utf8(const char *bytes)
+{
+    size_t n = 1;
+    for (const unsigned char *s = (const unsigned char *)bytes; *s && n; s += n) n = utf8_length(s);
+    return n > 0;
+}
+
 void wr_text_add_json_string(WrText *text, const char *bytes)
 {
     const unsigned char *s = (const unsigned char *)bytes;

@@ -37,6 +37,8 @@ bool wr_text_same_letters(const char *a, const char *b);
    WR_WORD_MAX bytes of a longer word are compared. */
 #define WR_WORD_MAX 63
 
+/* True if the bytes are valid UTF-8. */
+bool wr_text_is_utf8(const char *bytes);
 /* Appends a JSON string with its quotes; invalid UTF-8 bytes become U+FFFD. */
 void wr_text_add_json_string(WrText *text, const char *bytes);
 /* Appends a JSON number with up to 17 digits, or null when not finite. */

@@ -4,6 +4,7 @@
 #include "command/help.h"
 #include "export/export.h"
 #include "export/map_sets.h"
+#include "export/material_files.h"
 #include "render/plan/plan.h"
 
 #include <stdio.h>
@@ -126,6 +127,9 @@ static void cli_markdown_sets(WrText *text)
             wr_text_add(text, k ? ", " : "");
             add_map(&set->maps.data[k], text);
         }
+        for (int k = 0; set && k < WR_MATERIAL_FORMATS; k++)
+            if (set->materials >> k & 1)
+                wr_text_addf(text, ", `NAME.%s` (material)", wr_material_formats[k].name);
         wr_text_add(text, " |\n");
         wr_map_set_free(set);
     }

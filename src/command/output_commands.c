@@ -325,6 +325,11 @@ static const WrArgSpec args_maps[] = {
     { .name = "contact",
       .type = WR_ARG_NAME,
       .help = "a picture beside them that shows all, each with its name: contact.png" },
+    { .name = "material",
+      .type = WR_ARG_NAME,
+      .shape = "FORMAT,... or all or none",
+      .help = "material files beside them, NAME.mtlx, NAME.usda, NAME.gltf: mtlx (MaterialX), usda "
+              "(USD), gltf; left out: those of the set" },
     { .name = "name",
       .type = WR_ARG_NAME,
       .help = "of the cell, in the files' names; left out: the document's" },

@@ -86,10 +86,10 @@ int wr_export_packed_channels(const WrExportJob *job, char (*names)[WR_EXPORT_NA
 }
 
 /* Content of channel c; default: occlusion, roughness, metalness. */
-static WrExportPack pack_of(const WrExportJob *job, int c)
+static WrExportPack pack_of(const WrExportOptions *options, int c)
 {
     static const int usual[] = { 1, 2, 4, 1 };
-    WrExportPack pack = job->options.pack[c];
+    WrExportPack pack = options->pack[c];
     if (!pack.filling) pack.filling = usual[c];
     return pack;
 }
@@ -97,6 +97,13 @@ static WrExportPack pack_of(const WrExportJob *job, int c)
 static const Filling *filling_of(const WrExportPack *pack)
 {
     return pack->filling > 0 ? &fillings[pack->filling - 1] : NULL;
+}
+
+const char *wr_export_packed_word(const WrExportOptions *options, int c)
+{
+    const WrExportPack pack = pack_of(options, c);
+    const Filling *filling = filling_of(&pack);
+    return filling ? filling->word : NULL;
 }
 
 static void put_constant(WrExportJob *job, int c, float x)
@@ -123,7 +130,7 @@ static void put_map(WrExportJob *job, int c, const WrExportJob *one, bool turned
 
 static bool make_channel(WrExportJob *job, int c, WrError *err)
 {
-    const WrExportPack pack = pack_of(job, c);
+    const WrExportPack pack = pack_of(&job->options, c);
     const Filling *filling = filling_of(&pack);
     if (!filling || !filling->kind) {
         const WrMaterial *material = &job->scene->material;
@@ -168,7 +175,7 @@ void wr_export_packed_describe(WrExportJob *job)
 {
     WrText *text = wr_export_attribute(job, "wrinkle:channels");
     for (int c = 0; c < job->channels; c++) {
-        const WrExportPack pack = pack_of(job, c);
+        const WrExportPack pack = pack_of(&job->options, c);
         const Filling *filling = filling_of(&pack);
         if (c) wr_text_add(text, ",");
         if (filling) wr_text_add(text, filling->word);

@@ -4,6 +4,9 @@
 #pragma once
 #include "export/option_parsers.h"
 
+/* Content of channel c, from 0, as the options name it: "occlusion"; NULL: a number everywhere. */
+const char *wr_export_packed_word(const WrExportOptions *options, int c);
+
 WrExportSet wr_export_set_red, wr_export_set_green, wr_export_set_blue, wr_export_set_alpha;
 
 #define WR_OPTION_PACK                                                                             \

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "export/gltf_model.h"
 #include "export/job.h"
 #include "export/preview.h"
 #include "export/solid_body.h"
@@ -411,15 +412,23 @@ static bool add_map(Glb *glb, const char *kind, int which, const double repeat[2
     return good;
 }
 
+bool wr_gltf_colour_png(const WrImage *colour, char **bytes, size_t *length, WrError *err)
+{
+    Source source = { colour->width, NULL, colour };
+    Map map = { 0 };
+    if (!encode(&source, colour->height, false, &map, err)) return false;
+    *bytes = map.png, *length = map.length;
+    return true;
+}
+
 static bool add_colour(Glb *glb, const double cells[2], WrError *err)
 {
     const WrScene *scene = glb->job->scene;
     if (!scene->colour) return true;
-    Source source = { scene->colour->width, NULL, scene->colour };
     Map *map = &glb->maps[COLOUR];
     map->repeat[0] = scene->colour_laid.own ? scene->colour_laid.ru : cells[0];
     map->repeat[1] = scene->colour_laid.own ? scene->colour_laid.rv : cells[1];
-    return encode(&source, scene->colour->height, false, map, err);
+    return wr_gltf_colour_png(scene->colour, &map->png, &map->length, err);
 }
 
 /* Of a mesh the normal map is baked, in the frames that glTF's readers compute; else it is that of a cell, repeated. */
@@ -613,6 +622,15 @@ static void add_pictures(Glb *glb)
     wr_text_add(&glb->json, "]");
 }
 
+static void add_nodes(Glb *glb)
+{
+    wr_text_addf(&glb->json,
+                 ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1%s},"
+                 "\"indices\":3,\"material\":0}]}],\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":"
+                 "[0]}],\"scene\":0",
+                 glb->model.mapped ? ",\"TEXCOORD_0\":2" : "");
+}
+
 static void describe(Glb *glb)
 {
     bool moved = false;
@@ -626,11 +644,8 @@ static void describe(Glb *glb)
     add_accessors(glb);
     add_pictures(glb);
     add_material(glb);
-    wr_text_addf(&glb->json,
-                 ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1%s},"
-                 "\"indices\":3,\"material\":0}]}],\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":"
-                 "[0]}],\"scene\":0,\"buffers\":[{\"byteLength\":%zu}]}",
-                 glb->model.mapped ? ",\"TEXCOORD_0\":2" : "", glb->bin.length);
+    add_nodes(glb);
+    wr_text_addf(&glb->json, ",\"buffers\":[{\"byteLength\":%zu}]}", glb->bin.length);
     while (glb->json.length % 4) wr_text_add(&glb->json, " ");
 }
 
@@ -710,5 +725,41 @@ bool wr_export_gltf_write(WrExportJob *job, const char *path, WrError *err)
     wr_progress_enter(&part, 0.7, 1.0);
     good = write_model(&glb, path, err);
     wr_progress_set(whole);
+    return good;
+}
+
+/* ---- the model of a .gltf file ---- */
+
+/* A rectangle about the origin, towards +z. */
+static bool lay_rectangle(const double size[2], WrModel *m, WrError *err)
+{
+    if (!reserve(m, 4, 2, err)) return false;
+    for (int32_t i = 0; i < 4; i++) {
+        const float u = (float)(i & 1), v = (float)(i >> 1);
+        put(m->points[i], (WrVec3){ ((i & 1) - 0.5) * size[0], ((i >> 1) - 0.5) * size[1], 0 });
+        put(m->normals[i], (WrVec3){ 0, 0, 1 });
+        m->uv[i][0] = u, m->uv[i][1] = v;
+    }
+    m->point_count = 4;
+    m->mapped = true;
+    add_triangle(m, 0, 1, 3, false);
+    add_triangle(m, 0, 3, 2, false);
+    return true;
+}
+
+bool wr_gltf_add_model(const WrScene *scene, const double size[2], const double repeat[2],
+                       WrText *json, WrText *bin, WrError *err)
+{
+    WrExportJob job = { .scene = scene };
+    Glb glb = { .job = &job, .repeat = { repeat[0], repeat[1] }, .json = *json, .bin = *bin };
+    bool good = size ? lay_rectangle(size, &glb.model, err) : model_make(scene, &glb.model, err);
+    if (good && glb.model.triangle_count == 0) good = wr_fail(err, "the surface has no area");
+    if (good) {
+        add_views(&glb);
+        add_accessors(&glb);
+        add_nodes(&glb);
+    }
+    *json = glb.json, *bin = glb.bin;
+    model_fini(&glb.model);
     return good;
 }

@@ -104,6 +104,8 @@ void wr_export_map_rows(WrExportJob *job, int y, int rows, void *out);
 void wr_export_map_describe(WrExportJob *job);
 
 /* maps.c */
+/* Beckmann's alpha of the scene's material, 0..1; its root is the roughness of other programs. */
+double wr_export_material_alpha(const WrScene *scene);
 bool wr_export_occlusion_make(WrExportJob *job, WrError *err);
 bool wr_export_horizon_make(WrExportJob *job, WrError *err);
 int wr_export_horizon_channels(const WrExportJob *job, char (*names)[WR_EXPORT_NAME]);

@@ -11,6 +11,7 @@
 #include "document/document.h"
 #include "export/contact_sheet.h"
 #include "export/export.h"
+#include "export/material_files.h"
 #include "export/preview.h"
 #include "image/image.h"
 #include "scene/scene.h"
@@ -23,7 +24,7 @@
 /* ---- Text definitions of map sets: those of known programs, and the user's ---- */
 
 /* A set is text, one map a line: KIND FILE [NAME=VALUE ...], with one * in FILE for the cell's name; "about TEXT" describes
-   the set; lines with # are comments. The built-in sets below are parsed by the same parser, so the user can copy and change
+   the set; "material FORMAT,..." adds material files; lines with # are comments. The built-in sets below are parsed by the same parser, so the user can copy and change
    them. */
 #define SET_ENDING ".set"
 #define BLANKS " \t\r"
@@ -40,7 +41,8 @@ const WrMapSetRow wr_map_set_rows[] = {
       "the normal texture, and one for occlusion (red), roughness (green) and metalness (blue)",
       "normal+y *_normal.png depth=8\n"
       "packed *_occlusionRoughnessMetallic.png depth=8 red=occlusion green=roughness "
-      "blue=metalness base=material\n" },
+      "blue=metalness base=material\n"
+      "material gltf\n" },
     { "unreal",
       "T_NAME_N with green down, T_NAME_H of 16 bits, T_NAME_ORM: occlusion (red), roughness "
       "(green), metalness (blue)",
@@ -98,13 +100,14 @@ void wr_map_set_free(WrMapSet *set)
 
 /* ---- one line ---- */
 
-/* Possible first words of a line: the kinds, and "about". */
+/* Possible first words of a line: the kinds, "about" and "material". */
 static const char *line_word(const void *ctx, int i)
 {
     (void)ctx;
-    return i < WR_EXPORT_KIND_COUNT    ? wr_export_kinds[i].name
-           : i == WR_EXPORT_KIND_COUNT ? "about"
-                                       : NULL;
+    return i < WR_EXPORT_KIND_COUNT        ? wr_export_kinds[i].name
+           : i == WR_EXPORT_KIND_COUNT     ? "about"
+           : i == WR_EXPORT_KIND_COUNT + 1 ? "material"
+                                           : NULL;
 }
 
 static bool find_kind(const char *word, WrMapSetEntry *map, WrError *err)
@@ -226,7 +229,9 @@ static bool take_line(WrMapSet *set, char *line, WrError *err)
         if (*line) *line++ = '\0';
         line += strspn(line, BLANKS);
     }
-    return take_map(set, words, count, err);
+    if (strcmp(words[0], "material") != 0) return take_map(set, words, count, err);
+    return count == 2 ? wr_material_formats_parse(words[1], &set->materials, err)
+                      : wr_fail(err, "material: needs formats, such as mtlx,gltf");
 }
 
 WrMapSet *wr_map_set_parse(const char *name, const char *text, const char *where, WrError *err)
@@ -382,6 +387,7 @@ void wr_map_set_names_free(WrMapSetNames *list)
 
 #define CONTACT "contact="
 #define UDIM "udim="
+#define MATERIAL "material="
 
 /* ---- options ---- */
 
@@ -442,6 +448,14 @@ static const char *contact_of(const WrMapSetRequest *order)
     return value_of(order, CONTACT);
 }
 
+/* Bits of the material formats to write. */
+static bool materials_of(const WrMapSetRequest *order, unsigned *formats, WrError *err)
+{
+    const char *value = value_of(order, MATERIAL);
+    *formats = order->set->materials;
+    return !value || wr_material_formats_parse(value, formats, err);
+}
+
 /* Tile of the files' names; 0: none. False: an invalid word. */
 static bool udim_of(const WrMapSetRequest *order, const WrDocument *document, int *udim)
 {
@@ -454,7 +468,8 @@ static bool udim_of(const WrMapSetRequest *order, const WrDocument *document, in
 static bool is_of_set(const char *word)
 {
     return strncmp(word, CONTACT, sizeof CONTACT - 1) == 0 ||
-           strncmp(word, UDIM, sizeof UDIM - 1) == 0;
+           strncmp(word, UDIM, sizeof UDIM - 1) == 0 ||
+           strncmp(word, MATERIAL, sizeof MATERIAL - 1) == 0;
 }
 
 static bool settle(const WrMapSetRequest *order, const WrDocument *document,
@@ -462,7 +477,9 @@ static bool settle(const WrMapSetRequest *order, const WrDocument *document,
 {
     bool taken[WR_MAP_SET_WORDS_MAX] = { false };
     const char *contact = contact_of(order);
+    unsigned formats;
     int udim;
+    if (!materials_of(order, &formats, err)) return false;
     if (!udim_of(order, document, &udim))
         return wr_fail(err, "udim=%.40s: must be none, or a tile's number, %d..%d",
                        value_of(order, UDIM), WR_UDIM_FIRST, WR_UDIM_LAST);
@@ -497,6 +514,14 @@ static char *name_of(const WrMapSetRequest *order, const WrDocument *document, i
     return numbered;
 }
 
+/* The names of the material files without their endings. */
+static void material_name(const WrMapSetRequest *order, const WrDocument *document, WrText *name)
+{
+    int udim;
+    wr_text_add(name, order->name);
+    if (udim_of(order, document, &udim) && udim) wr_text_addf(name, ".%d", udim);
+}
+
 void wr_map_set_file(const WrMapSetRequest *order, const WrDocument *document, int map,
                      WrText *path)
 {
@@ -525,19 +550,19 @@ static bool check_names(const WrMapSetRequest *order, WrError *err)
 }
 
 static bool write_map(const WrMapSetRequest *order, int map, const WrExportOptions *options,
-                      const WrDocument *document, WrPool *pool, WrText *list, WrError *err)
+                      const WrDocument *document, WrPool *pool, WrExportReport *report,
+                      WrText *list, WrError *err)
 {
     WrText path = { 0 };
-    WrExportReport report;
     int udim;
     (void)udim_of(order, document, &udim); /* checked before */
     wr_map_set_file(order, document, map, &path);
     bool good = wr_export(order->set->maps.data[map].kind, document, options, pool,
-                          wr_text_get(&path), &report, err);
+                          wr_text_get(&path), report, err);
     if (good) {
         wr_text_addf(list, "%s: ", wr_text_get(&path));
-        wr_export_report_text(&report, list);
-        if (udim && report.ranged && !report.quantity && options->range != WR_EXPORT_RANGE_GIVEN)
+        wr_export_report_text(report, list);
+        if (udim && report->ranged && !report->quantity && options->range != WR_EXPORT_RANGE_GIVEN)
             wr_text_add(list, "; the range is this tile's: range=LOW,HIGH gives all tiles one");
         wr_text_add(list, "\n");
     }
@@ -546,17 +571,40 @@ static bool write_map(const WrMapSetRequest *order, int map, const WrExportOptio
 }
 
 static bool write_maps(const WrMapSetRequest *order, const WrExportOptions *options,
-                       const WrDocument *document, WrPool *pool, WrText *list, WrError *err)
+                       const WrDocument *document, WrPool *pool, WrExportReport *reports,
+                       WrText *list, WrError *err)
 {
     const int count = order->set->maps.count;
     bool good = true;
     for (int i = 0; i < count && good; i++) {
         WrProgressPart share;
         const WrProgress *whole = wr_progress_enter(&share, (double)i / count, (i + 1.0) / count);
-        good = write_map(order, i, &options[i], document, pool, list, err);
+        good = write_map(order, i, &options[i], document, pool, &reports[i], list, err);
         wr_progress_set(whole);
     }
     return good && (!wr_progress_stopped() || wr_fail(err, "cancelled"));
+}
+
+/* ---- material files ---- */
+
+static bool write_materials(const WrMapSetRequest *order, const WrExportOptions *options,
+                            const WrExportReport *reports, const WrDocument *document, WrText *list,
+                            WrError *err)
+{
+    WrMaterialMap maps[WR_MAP_SET_ENTRIES_MAX];
+    WrText name = { 0 };
+    unsigned formats;
+    if (!materials_of(order, &formats, err)) return false;
+    const int count = order->set->maps.count;
+    for (int i = 0; i < count; i++)
+        maps[i] = (WrMaterialMap){ order->set->maps.data[i].kind, name_of(order, document, i),
+                                   options[i], reports[i] };
+    material_name(order, document, &name);
+    const WrMaterialRequest request = { order->folder, wr_text_get(&name), document, maps, count };
+    const bool good = wr_material_files_write(&request, formats, list, err);
+    for (int i = 0; i < count; i++) wr_free((char *)maps[i].file);
+    wr_text_fini(&name);
+    return good;
 }
 
 /* ---- the contact sheet ---- */
@@ -624,12 +672,15 @@ bool wr_export_map_set(const WrMapSetRequest *order, const WrDocument *document,
     WrExportOptions options[WR_MAP_SET_ENTRIES_MAX];
     const size_t before = list->length;
     if (!check_names(order, err) || !settle(order, document, options, err)) return false;
+    WrExportReport *reports = wr_alloc(WR_MAP_SET_ENTRIES_MAX, sizeof *reports);
     /* All files of a set are renamed together at the end: after an error or a crash no mixture of old and new maps remains. */
     WrFileGroup *group = wr_file_group_begin();
-    bool good = write_maps(order, options, document, pool, list, err) &&
+    bool good = write_maps(order, options, document, pool, reports, list, err) &&
+                write_materials(order, options, reports, document, list, err) &&
                 (!contact_of(order) || write_contact(order, options, document, pool, list, err));
     if (good) good = wr_file_group_commit(group, err);
     else wr_file_group_abort(group);
+    wr_free(reports);
     if (!good && list->length > before) { /* nothing was written */
         list->length = before;
         list->data[before] = '\0';

@@ -4,11 +4,12 @@
 
      # a comment
      about purpose of the set
+     material mtlx,usda
      normal-y T_*_N.png depth=8
      height T_*_H.png depth=16 range=signed
 
    A line has a kind of wr_export_kinds, the file's name with a star for the cell's name, and settings of that
-   kind. Such files are untrusted: names cannot contain folders, and every line is validated before anything is
+   kind. `material` names the material files that are written besides (material_files.h). Such files are untrusted: names cannot contain folders, and every line is validated before anything is
    written. */
 #pragma once
 #include "base/array.h"
@@ -39,6 +40,8 @@ typedef struct WrMapSetEntry {
 typedef struct WrMapSet {
     char *name, *about; /* owned */
     bool own;           /* defined by the user */
+    unsigned
+        materials; /* bits of wr_material_formats that are written besides, unless `material=` names others */
     WR_ARRAY(WrMapSetEntry) maps;
 } WrMapSet;
 
@@ -70,7 +73,7 @@ typedef struct WrMapSetRequest {
     const char *name;   /* of the cell, used in the files' names: without a folder */
     const char *const *
         words; /* [word_count] "cell=2,1": applied to the maps that have the option; at least one must.
-                  "contact=FILE": a contact sheet beside them. "udim=1002" or "udim=none": tile before the endings of the files' names, instead of the object's */
+                  "contact=FILE": a contact sheet beside them. "material=mtlx,gltf", "all" or "none": material files beside them, instead of the set's. "udim=1002" or "udim=none": tile before the endings of the files' names, instead of the object's */
     int word_count;
 } WrMapSetRequest;
 

@@ -426,7 +426,7 @@ bool wr_export_direction_make(WrExportJob *job, WrError *err)
 
 /* Beckmann's alpha of the scene's material: roughness squared, or the width of the lobe of its shininess
    (Walter, Marschner, Li, Torrance 2007: s = 2 / alpha^2 - 2). */
-static double material_alpha(const WrScene *scene)
+double wr_export_material_alpha(const WrScene *scene)
 {
     const double roughness = scene->material.roughness;
     if (wr_reflects[scene->material.model].roughness) return roughness * roughness;
@@ -437,7 +437,7 @@ bool wr_export_roughness_make(WrExportJob *job, WrError *err)
 {
     const double base = job->options.base;
     const WrMapJob settings = { .box = job->options.box,
-                                .base = base < 0 ? material_alpha(job->scene) : base };
+                                .base = base < 0 ? wr_export_material_alpha(job->scene) : base };
     if (!fill(job, WR_FIELD_MAP_ROUGHNESS, &settings, "roughness", err)) return false;
     wr_export_codes(job, 0, 1);
     return true;

@@ -37,6 +37,16 @@
 
 /* ---- settings and their storage in the document ---- */
 
+/* Material files beside the maps, as the word of `maps`. */
+static const struct {
+    const char *label, *word;
+} material_choices[] = { { "As the set has it", NULL },
+                         { "No material file", "material=none" },
+                         { "MaterialX", "material=mtlx" },
+                         { "USD", "material=usda" },
+                         { "glTF with its mesh", "material=gltf" },
+                         { "All material files", "material=all" } };
+
 static bool is_same(const WrSheetRequest *a, const WrSheetRequest *b)
 {
     return strcmp(a->as, b->as) == 0 && strcmp(a->folder, b->folder) == 0 &&
@@ -221,9 +231,9 @@ static void sheet_write(WrApp *app, bool loud)
     sheet->written_key = key_of(app);
     sheet->loud = loud;
     if (loud) keep(app);
-    wr_job_start(
-        sheet->write,
-        wr_sheet_write_work_new(wr_document_share(wr_session_document(app->session)), &sheet->ask));
+    wr_job_start(sheet->write,
+                 wr_sheet_write_work_new(wr_document_share(wr_session_document(app->session)),
+                                         &sheet->ask, material_choices[sheet->material].word));
     wr_app_redraw(app);
 }
 
@@ -326,7 +336,7 @@ const WrPart wr_part_sheet = {
 
 #define WIDE_UNITS 760
 #define PICTURE_UNITS 72
-#define OTHERS_UNITS 372 /* height of everything except the list of maps */
+#define OTHERS_UNITS 402 /* height of everything except the list of maps */
 #define GREEN_SIDE 48    /* texels of the pictures for the green direction */
 #define MAX_CHOICES (WR_MAP_SET_ROWS + WR_MAP_SETS_MAX + WR_EXPORT_KIND_COUNT)
 
@@ -410,7 +420,22 @@ static void choose_how(const WrApp *app, WrSheetState *sheet)
     wr_gui_tip("Heights of the first and the last code");
 }
 
+<<<<<<< HEAD
 /* The check that puts <VARIANT> into the cell's name, or removes it. */
+=======
+static void choose_material(WrSheetState *sheet)
+{
+    const char *labels[WR_LENGTH(material_choices)];
+    for (size_t i = 0; i < WR_LENGTH(material_choices); i++) labels[i] = material_choices[i].label;
+    label("With");
+    wr_gui_choice("material", (wr_gui_available() - wr_gui_px(16)) / 3, labels,
+                  (int)WR_LENGTH(material_choices), &sheet->material);
+    wr_gui_tip("A material that uses these maps, with their scale, the direction of green and the "
+               "repeat: NAME.mtlx, NAME.usda or NAME.gltf, beside the maps");
+}
+
+/* The check that puts <VARIANT> into the cell's name, and takes it out. */
+>>>>>>> material
 static void choose_variants(const WrApp *app, WrSheetState *sheet)
 {
     char *name = sheet->ask.name;
@@ -672,6 +697,7 @@ void wr_dialog_sheet(WrApp *app)
     choose_where(sheet);
     choose_variants(app, sheet);
     choose_how(app, sheet);
+    choose_material(sheet);
     show_maps(app, sheet);
     numbers(app, sheet);
     buttons(app, sheet);

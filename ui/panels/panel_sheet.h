@@ -6,8 +6,9 @@
 #include "ui/app/jobs/sheet_job.h"
 
 typedef struct WrSheetState {
-    WrSheetRequest ask;  /* settings of the sheet */
-    bool live;           /* live export: write again after each pause in editing */
+    WrSheetRequest ask; /* settings of the sheet */
+    int material; /* which material files: a row of material_choices; not stored in the document */
+    bool live;    /* live export: write again after each pause in editing */
     WrJob *look, *write; /* owned; NULL until needed */
     WrSheetLook *shown;  /* the newest pictures; owned; NULL: none yet */
     SDL_Texture *pictures[WR_MAP_SET_ENTRIES_MAX],

@@ -221,11 +221,13 @@ const WrJobKind wr_sheet_look_kind = { run_look, drop_look };
 
 /* ---- files ---- */
 
-WrSheetWrite *wr_sheet_write_work_new(WrDocument *document, const WrSheetRequest *ask)
+WrSheetWrite *wr_sheet_write_work_new(WrDocument *document, const WrSheetRequest *ask,
+                                      const char *material)
 {
     WrSheetWrite *write = wr_alloc(1, sizeof *write);
     write->document = document;
     write->ask = *ask;
+    write->material = material;
     return write;
 }
 
@@ -258,7 +260,8 @@ static bool write_set(void *ctx, const char *variant, WrError *err)
     const WrField *field = wr_document_composite(document, writing->pool);
     int w = wr_field_width(field), h = wr_field_height(field);
     char *name = wr_variant_fill(ask->name, variant);
-    const WrMapSetRequest order = { writing->set, ask->folder, name, NULL, 0 };
+    const char *const words[] = { writing->write->material };
+    const WrMapSetRequest order = { writing->set, ask->folder, name, words, words[0] != NULL };
     wr_sheet_size(ask->size, &w, &h);
     const bool good =
         resize(document, w, h, writing->pool, err) &&

@@ -35,7 +35,8 @@ typedef struct WrSheetLook {
 typedef struct WrSheetWrite {
     WrDocument *document; /* owned */
     WrSheetRequest ask;
-    WrText report; /* one line per file */
+    const char *material; /* "material=all": a word of `maps`, static; NULL: as the set has it */
+    WrText report;        /* one line per file */
     int files;
     double seconds;
     bool ok, cancelled;
@@ -46,5 +47,6 @@ typedef struct WrSheetWrite {
 extern const WrJobKind wr_sheet_look_kind, wr_sheet_write_kind;
 WrSheetLook *wr_sheet_look_new(WrDocument *document, const WrSheetRequest *ask);
 void wr_sheet_look_free(WrSheetLook *look); /* NULL is allowed */
-WrSheetWrite *wr_sheet_write_work_new(WrDocument *document, const WrSheetRequest *ask);
+WrSheetWrite *wr_sheet_write_work_new(WrDocument *document, const WrSheetRequest *ask,
+                                      const char *material);
 void wr_sheet_write_free(WrSheetWrite *write);
