@@ -449,7 +449,7 @@ static void add_bytes(double bytes, char *text, size_t size)
 /* Heights of the lowest and highest code for the whole table, since the picture contains only a part. */
 static void code_range(const WrSheetLook *look, int i, double *low, double *high)
 {
-    const WrMapSetRequest order = { look->set, "", "", NULL, 0 };
+    const WrMapSetRequest order = { look->set, "", "", NULL, 0, NULL };
     WrExportOptions options = wr_export_default();
     WrError none;
     if (!wr_map_set_options(&order, i, &options, &none)) options = wr_export_default();
@@ -493,7 +493,7 @@ static void map_row(const WrSheetState *sheet, int i)
 {
     const WrSheetLook *look = sheet->shown;
     const WrExportPreview *p = &look->pictures[i];
-    const WrMapSetRequest order = { look->set, "", look->ask.name, NULL, 0 };
+    const WrMapSetRequest order = { look->set, "", look->ask.name, NULL, 0, NULL };
     const double side = wr_gui_px(PICTURE_UNITS),
                  most = p->width > p->height ? p->width : p->height;
     char facts[200];
