@@ -125,7 +125,7 @@ static bool export_file(const WrCli *cli, const WrExportKind *kind, Last *last, 
     WrExportOptions options = wr_export_default();
     if (!wr_export_words(kind, cli->words, cli->word_count, &options, err)) return false;
     if (cli->shown && options.sidecar == WR_EXPORT_SIDECAR_LEFT_OUT)
-        options.sidecar = WR_EXPORT_SIDECAR_OFF; /* standard output takes one file */
+        options.sidecar = WR_EXPORT_SIDECAR_OFF; /* standard output holds one file */
     WrSession *session = load(cli, last, err);
     if (!session) return false;
     Export export = { cli, session, kind, NULL, &options, report };
@@ -505,7 +505,7 @@ static bool into_folder(const WrCli *cli)
                                    (cli->out[length - 1] == '/' || wr_path_is_folder(cli->out)));
 }
 
-/* Check what the line must have. */
+/* Check the required options. */
 static bool check_needs(const WrCli *cli, WrError *err)
 {
     char ending[16] = "";
@@ -529,11 +529,11 @@ static bool check_line(const WrCli *cli, WrError *err)
     if (wr_cli_to_stdout(cli)) {
         if (cli->watch) return wr_fail(err, "export: --watch needs the name of a file, not -o -");
         if (cli->file_count > 1)
-            return wr_fail(err, "export: -o - takes one file, and these are %d: name a folder",
+            return wr_fail(err, "export: -o - holds one file, and these are %d: name a folder",
                            cli->file_count);
         if (!wr_export_find(cli->kind) && is_set(cli->kind))
             return wr_fail(err,
-                           "export: -o - takes one file, and %.40s is a set of several: name "
+                           "export: -o - holds one file, and %.40s is a set of several: name "
                            "a folder",
                            cli->kind);
         return true;

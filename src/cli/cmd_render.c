@@ -110,7 +110,7 @@ int wr_cli_render(const WrCli *cli)
     wr_text_addf(&name, "out.%s", ending);
     bool good = check_line(cli, &err);
     if (good && wr_cli_to_stdout(cli) && cli->framed && !wr_film_kind(wr_text_get(&name)))
-        good = wr_fail(&err, "render: -o - takes one file, and these are frames: name the files "
+        good = wr_fail(&err, "render: -o - holds one file, and these are frames: name the files "
                              "with ####, or a film: --format gif, apng, webp or mp4");
     wr_text_fini(&name);
     if (!good) return wr_cli_fail(cli, WR_EXIT_USAGE, &err);

@@ -77,7 +77,7 @@ int wr_cli_pipe(const WrCli *cli, const char *ending, int (*work)(const WrCli *c
     int status = work(&one);
     const int count = status == WR_EXIT_DONE ? count_files(folder) : 1;
     if (count != 1) {
-        wr_fail(&err, "-o -: these are %d files, and standard output takes one: name a file",
+        wr_fail(&err, "-o -: these are %d files, and standard output holds one: name a file",
                 count);
         status = wr_cli_fail(cli, WR_EXIT_FAILED, &err);
     } else if (status == WR_EXIT_DONE && !copy_bytes(cli, one.out, &err)) {

@@ -66,9 +66,9 @@ help     | help dab                              | help nosuch                  
 '
 mkdir f
 cp a.png b.png && table=${table//a.wrinkle a.png/a.wrinkle b.png}
-while IFS='|' read -r name done failed wrong stopped; do
+while IFS='|' read -r name zero failed wrong stopped; do
     [[ -n ${name// /} ]] || continue
-    [[ ${done// /} == - ]] || status 0 "$done"
+    [[ ${zero// /} == - ]] || status 0 "$zero"
     [[ ${failed// /} == - ]] || status 1 "$failed"
     [[ ${wrong// /} == - ]] || status 2 "$wrong"
     [[ ${stopped// /} == - ]] || interrupted "$stopped"

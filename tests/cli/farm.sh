@@ -107,6 +107,7 @@ same one/unreal unreal 'Slurm'
 
 # ---- OpenCue ----
 command=$(line '#IFRAME#')
+command=${command#command: }
 command=${command//1024x1024/64x64} command=${command//720/8} command=${command//turn####/turn##}
 mkdir turn
 for frame in 8 3 5 1 2 4 7 6; do (cd turn && ln -sfn ../samples samples && run "${command//#IFRAME#/$frame}"); done

@@ -66,7 +66,7 @@ for line in 'export a.wrinkle b.wrinkle --as height' 'export a.wrinkle --as unre
 done
 run 1 export a.wrinkle --as height mips=on -o -
 [[ ! -s out ]] || complain 'one of several files was written'
-has err 'standard output takes one'
+has err 'standard output holds one'
 run 1 export a.wrinkle --as height -o - --format p.ng
 run 1 export a.wrinkle --as height -o - --format xyz
 has err 'ending'
