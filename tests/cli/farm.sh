@@ -43,7 +43,7 @@ mkdir -p two/unreal two/blender two/turn
     machine anna export samples/bricks.wrinkle samples/rivets.wrinkle --as unreal -o two/unreal --threads 1 --json
 } &
 {
-    machine bert render samples/bricks.wrinkle -o 'two/turn/turn##.png' --size 64x64 --frames 4-8 --of 8 --missing --threads 3 --isa v1
+    machine bert render samples/bricks.wrinkle -o 'two/turn/turn##.png' --size 64x64 --frames 4-8 --of 8 --missing --threads 3 --isa ref
     machine bert export samples/bricks.wrinkle samples/rivets.wrinkle --as blender -o two/blender --threads 2 -j 2 --json
 } &
 wait
