@@ -173,32 +173,9 @@ WrDoc *wr_doc_snapshot(const WrDoc *doc)
 
 bool wr_api_scratch(WrDoc *doc, WrText *path, WrError *err)
 {
-    if (!doc->scratch) {
-        const char *root = getenv("TMPDIR");
-        wr_text_addf(path, "%s/wrinkle-XXXXXX", root && *root ? root : "/tmp");
-        char *folder = wr_strdup(wr_text_get(path));
-        wr_text_clear(path);
-        if (!wr_folder_make_temporary(folder)) {
-            wr_fail(err, "%s: the folder for temporary files cannot be made; set TMPDIR to another",
-                    folder);
-            wr_free(folder);
-            return false;
-        }
-        doc->scratch = folder;
-    }
-    wr_text_add(path, doc->scratch);
-    return true;
-}
-
-static void remove_scratch(WrDoc *doc)
-{
-    WrFolder *folder = doc->scratch ? wr_folder_open(doc->scratch) : NULL;
-    if (folder)
-        for (const char *name; (name = wr_folder_next(folder));)
-            wr_folder_remove_entry(folder, name);
-    wr_folder_close(folder);
-    if (doc->scratch) wr_folder_remove(doc->scratch);
-    wr_free(doc->scratch);
+    if (!doc->scratch) doc->scratch = wr_scratch_new(err);
+    if (doc->scratch) wr_text_add(path, doc->scratch);
+    return doc->scratch != NULL;
 }
 
 void wr_doc_free(WrDoc *doc)
@@ -209,7 +186,7 @@ void wr_doc_free(WrDoc *doc)
         wr_pool_free(doc->threads->pool);
         wr_free(doc->threads);
     }
-    remove_scratch(doc);
+    wr_scratch_free(doc->scratch);
     wr_free(doc);
 }
 

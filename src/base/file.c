@@ -177,6 +177,28 @@ int wr_fd_in_memory(const char *name, const void *bytes, size_t length, WrError 
     return -1;
 }
 
+char *wr_scratch_new(WrError *err)
+{
+    const char *root = getenv("TMPDIR");
+    char *folder = wr_path_join(root && *root ? root : "/tmp", "wrinkle-XXXXXX");
+    if (wr_folder_make_temporary(folder)) return folder;
+    wr_fail(err, "%s: the folder for temporary files cannot be made; set TMPDIR to another",
+            folder);
+    wr_free(folder);
+    return NULL;
+}
+
+void wr_scratch_free(char *path)
+{
+    WrFolder *folder = path ? wr_folder_open(path) : NULL;
+    if (folder)
+        for (const char *name; (name = wr_folder_next(folder));)
+            wr_folder_remove_entry(folder, name);
+    wr_folder_close(folder);
+    if (path) wr_folder_remove(path);
+    wr_free(path);
+}
+
 char *wr_config_path(const char *name)
 {
     const char *xdg = getenv("XDG_CONFIG_HOME"), *home = getenv("HOME");

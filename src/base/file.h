@@ -118,6 +118,11 @@ char *wr_path_join(const char *folder, const char *path);
 /* The extension in lower case without its dot ("PNG" file -> "png"), "" if none. Points into `buffer`. */
 const char *wr_path_ending(const char *path, char buffer[16]);
 
+/* Makes a folder for temporary files, in $TMPDIR or /tmp, accessible by this user only. wr_scratch_free removes it with its
+   files. NULL and an error. */
+char *wr_scratch_new(WrError *err);
+void wr_scratch_free(char *folder); /* NULL is allowed */
+
 /* Path of a settings file: NAME in the folder wrinkle of $XDG_CONFIG_HOME, or of ~/.config. Caller
    frees with wr_free; NULL if neither is known. */
 char *wr_config_path(const char *name);

@@ -10,6 +10,7 @@ typedef struct WrDoc WrDoc;
 typedef struct WrError WrError;
 typedef struct WrPool WrPool;
 typedef struct WrProgress WrProgress;
+typedef struct WrReceipt WrReceipt;
 typedef struct WrSession WrSession;
 typedef struct WrText WrText;
 
@@ -32,9 +33,11 @@ typedef struct WrSubcommand {
 /* The parsed shell line. All strings are borrowed from argv. */
 struct WrCli {
     const WrSubcommand *command;
-    bool help;        /* -h, --help */
-    bool version;     /* --version */
-    const char *file; /* NULL: none */
+    bool help;          /* -h, --help */
+    bool version;       /* --version */
+    const char *file;   /* NULL: none */
+    const char **files; /* WR_OPTION_FILES: all of them, file being the first; else empty */
+    int file_count;
     const char *
         *words; /* export: name=value; help: the verb; bench: all words and all its own options */
     int word_count;
@@ -46,6 +49,9 @@ struct WrCli {
     int threads;        /* 0: one per processor */
     const char *isa;    /* NULL: auto */
     const char *out;    /* -o */
+    const char *shown;  /* name of that file in reports; NULL: its own */
+    const char *format; /* --format; NULL: not given */
+    int jobs;           /* -j; 0: not given */
     const char *coding; /* --coding */
     const char *kind;   /* --as */
     bool watch;         /* --watch */
@@ -90,6 +96,7 @@ struct WrCli {
     char **argv;                /* the shell line, for another program */
     WrPool *pool;               /* made by main; owned by it */
     const volatile int *cancel; /* set by an interrupt */
+    bool *unprinted; /* becomes true where a receipt could not be printed; NULL: it is not kept */
 };
 
 /* Default side of accuracy's pictures in pixels: the reference then takes seconds, not minutes. */
@@ -113,6 +120,8 @@ typedef enum WrOption {
     WR_OPTION_EXPLAIN,   /* --measure */
     WR_OPTION_MAP,       /* --map */
     WR_OPTION_CHECK,     /* --as, of pictures */
+    WR_OPTION_FORMAT,    /* --format */
+    WR_OPTION_FILES,     /* -j, --jobs; accepts several files */
     WR_OPTION_ALL_WORDS, /* no option: accepts any number of words */
     WR_OPTION_OWN,       /* no option: checks unknown options itself, as words */
     WR_OPTION_COMMON     /* of every subcommand */
@@ -154,6 +163,16 @@ bool wr_cli_run_dos(const WrCli *cli, WrSession *session, WrError *err);
 int wr_cli_fail(const WrCli *cli, int status, const WrError *err);
 /* Print "wrinkle: note: TEXT" to standard error. */
 void wr_cli_note(const char *text);
+/* Print the receipts of `--json`, or else the text, to standard output; to standard error if the file itself goes to
+   standard output. Returns 0, or 1 with a message. */
+int wr_cli_report(const WrCli *cli, const WrText *text);
+/* Append a file's receipt (export/receipt.h), with the names of the line. */
+bool wr_cli_add_receipt(const WrCli *cli, const WrReceipt *receipt, WrText *text, WrError *err);
+/* True if the output is standard output: "-" or "/dev/stdout". */
+bool wr_cli_to_stdout(const WrCli *cli);
+/* Run `work` with a temporary file of that ending as its output, then write the file's bytes to standard output.
+   Returns an exit status. */
+int wr_cli_pipe(const WrCli *cli, const char *ending, int (*work)(const WrCli *cli));
 /* Write a result to standard output at once. Returns 0, or 1 with a message on failure. */
 int wr_cli_print(const WrCli *cli, const WrText *text);
 

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "command/session.h"
 #include "command/variants.h"
 #include "export/film.h"
@@ -59,7 +60,14 @@ static bool render_one(void *ctx, const char *variant, WrError *err)
 /* Check the combination of options. */
 static bool check_line(const WrCli *cli, WrError *err)
 {
+    const bool to_stdout = wr_cli_to_stdout(cli);
     if (!cli->out) return wr_fail(err, "render: needs -o OUT");
+    if (cli->format && !to_stdout)
+        return wr_fail(err,
+                       "render: --format goes with -o -; the format of %.100s goes by its ending",
+                       cli->out);
+    if (to_stdout && cli->missing)
+        return wr_fail(err, "render: --missing needs names of files, not -o -");
     if (cli->turned && !cli->framed) return wr_fail(err, "render: --turn needs --frames A-B");
     if (cli->of && !cli->framed) return wr_fail(err, "render: --of needs --frames A-B");
     if (cli->fps > 0 && !cli->framed) return wr_fail(err, "render: --fps needs --frames A-B");
@@ -77,10 +85,9 @@ static bool check_frames(const WrCli *cli, WrError *err)
     return wr_fail(err, "%s: a film needs --frames A-B", cli->out);
 }
 
-int wr_cli_render(const WrCli *cli)
+static int render(const WrCli *cli)
 {
     WrError err;
-    if (!check_line(cli, &err)) return wr_cli_fail(cli, WR_EXIT_USAGE, &err);
     if (!check_frames(cli, &err)) {
         wr_error_prefix(&err, "-o ");
         return wr_cli_fail(cli, WR_EXIT_FAILED, &err);
@@ -93,4 +100,19 @@ int wr_cli_render(const WrCli *cli)
         session, cli->out, cli->framed ? render_frames : render_one, &render, &err);
     wr_session_free(session);
     return good ? WR_EXIT_DONE : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+}
+
+int wr_cli_render(const WrCli *cli)
+{
+    WrError err;
+    WrText name = { 0 };
+    const char *ending = cli->format ? cli->format : "png";
+    wr_text_addf(&name, "out.%s", ending);
+    bool good = check_line(cli, &err);
+    if (good && wr_cli_to_stdout(cli) && cli->framed && !wr_film_kind(wr_text_get(&name)))
+        good = wr_fail(&err, "render: -o - holds one file, and these are frames: name the files "
+                             "with ####, or a film: --format gif, apng, webp or mp4");
+    wr_text_fini(&name);
+    if (!good) return wr_cli_fail(cli, WR_EXIT_USAGE, &err);
+    return wr_cli_to_stdout(cli) ? wr_cli_pipe(cli, ending, render) : render(cli);
 }

@@ -12,8 +12,12 @@
 
 static void print_note(void *ctx, const char *text)
 {
-    (void)ctx;
-    wr_cli_note(text);
+    const WrCli *cli = ctx;
+    WrText note = { 0 };
+    if (cli->file_count > 1) wr_text_addf(&note, "%s: ", cli->file); /* of several inputs */
+    wr_text_add(&note, text);
+    wr_cli_note(wr_text_get(&note));
+    wr_text_fini(&note);
 }
 
 bool wr_cli_find_word(const char *option, const char *word, WrWordList list, const void *ctx,
@@ -29,10 +33,27 @@ bool wr_cli_find_word(const char *option, const char *word, WrWordList list, con
     return wr_fail_word(err, what, word, list, ctx);
 }
 
+static void print_receipt(void *ctx, const WrReceipt *receipt)
+{
+    const WrCli *cli = ctx;
+    WrError err;
+    WrText text = { 0 };
+    const int status = wr_cli_add_receipt(cli, receipt, &text, &err)
+                           ? wr_cli_report(cli, &text)
+                           : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+    if (status != WR_EXIT_DONE && cli->unprinted) *cli->unprinted = true;
+    wr_text_fini(&text);
+}
+
 static WrSessionOptions session_options(const WrCli *cli, bool outputs)
 {
+    const bool receipts =
+        cli->json && (cli->command->run == wr_cli_run || cli->command->run == wr_cli_render);
     return (WrSessionOptions){ .pool = cli->pool,
                                .note = print_note,
+                               .note_ctx = (void *)cli,
+                               .receipt = receipts ? print_receipt : NULL,
+                               .receipt_ctx = (void *)cli,
                                .foretell = wr_process_has_terminal(),
                                .outputs = outputs,
                                .full = cli->full,

@@ -1,10 +1,12 @@
 #include "base/error.h"
+#include "base/file.h"
 #include "base/pool.h"
 #include "base/progress.h"
 #include "base/text.h"
 #include "cli/cli.h"
 #include "system/process.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -37,7 +39,8 @@ int wr_cli_print(const WrCli *cli, const WrText *text)
     WrError err;
     if (fwrite(wr_text_get(text), 1, text->length, stdout) == text->length && fflush(stdout) == 0)
         return WR_EXIT_DONE;
-    wr_fail(&err, "standard output: could not be written");
+    char why[WR_FILE_WHY];
+    wr_fail(&err, "standard output: could not be written (%s)", wr_file_why(errno, why));
     return wr_cli_fail(cli, WR_EXIT_FAILED, &err);
 }
 
@@ -56,13 +59,15 @@ static int run(WrCli *cli)
         cli->command->run == wr_cli_render || cli->command->run == wr_cli_recover ||
         cli->command->run == wr_cli_paint)
         wr_cli_progress_begin(&progress);
+    bool unprinted = false;
+    cli->unprinted = &unprinted;
     cli->pool = wr_pool_new(cli->threads);
     wr_progress_set(&progress);
     int status = cli->command->run(cli);
     wr_progress_set(NULL);
     wr_cli_progress_clear();
     wr_pool_free(cli->pool);
-    return status;
+    return status == WR_EXIT_DONE && unprinted ? WR_EXIT_FAILED : status;
 }
 
 int main(int argc, char **argv)

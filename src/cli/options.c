@@ -45,6 +45,23 @@ static bool set_out(WrCli *cli, const char *value, WrError *err)
     return true;
 }
 
+/* The ending of a file's name, with or without its dot. */
+static bool set_format(WrCli *cli, const char *value, WrError *err)
+{
+    cli->format = value + (*value == '.');
+    const size_t length =
+        strspn(cli->format, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789");
+    if (length > 0 && length < 16 && !cli->format[length]) return true;
+    return wr_fail(err, "--format %.40s: must be the ending of a file's name, as png or exr",
+                   value);
+}
+
+static bool set_jobs(WrCli *cli, const char *value, WrError *err)
+{
+    if (parse_whole(value, strlen(value), 1, 256, &cli->jobs)) return true;
+    return wr_fail(err, "--jobs %.40s: must be a whole number, 1..256", value);
+}
+
 static bool set_size(WrCli *cli, const char *value, WrError *err)
 {
     const char *x = strchr(value, 'x');
@@ -203,7 +220,14 @@ static const struct Option {
        true */
     size_t member;
 } options[] = {
-    { "-o", "--output", "OUT", WR_OPTION_OUT, "the file to write", .set = set_out },
+    { "-o", "--output", "OUT", WR_OPTION_OUT, "the file to write; - is standard output",
+      .set = set_out },
+    { "--format", NULL, "ENDING", WR_OPTION_FORMAT,
+      "of a file without a name of its own, after -o - or -o FOLDER: png, exr, ... (png; exr for "
+      "floats)",
+      .set = set_format },
+    { "-j", "--jobs", "N", WR_OPTION_FILES, "so many inputs at once; they share the threads (1)",
+      .set = set_jobs },
     { "--as", NULL, "KIND", WR_OPTION_AS, "kind of export; `wrinkle help export` lists the kinds",
       .member = offsetof(WrCli, kind) },
     { "--watch", NULL, NULL, WR_OPTION_AS,
@@ -481,6 +505,11 @@ static bool take_word(WrCli *cli, const char *word, WrError *err)
         cli->words[cli->word_count++] = word;
         return true;
     }
+    if (bits >> WR_OPTION_FILES & 1) {
+        cli->files[cli->file_count++] = word;
+        cli->file = cli->files[0];
+        return true;
+    }
     if (cli->file && bits >> WR_OPTION_OUT & 1 && !cli->out)
         return wr_fail(err, "%.100s: one file at a time, after %.100s: did you mean -o %.100s?",
                        word, cli->file, word);
@@ -553,6 +582,7 @@ bool wr_cli_parse(int argc, char **argv, WrCli *cli, int *status, WrError *err)
     cli->command = verb ? wr_subcommand_find(argv[verb]) : &wr_subcommands[0];
     cli->width = cli->height = 512;
     cli->words = wr_alloc(room, sizeof *cli->words);
+    cli->files = wr_alloc(room, sizeof *cli->files);
     cli->dos = wr_alloc(room, sizeof *cli->dos);
     cli->ats = wr_alloc(room, sizeof *cli->ats);
     cli->plots = wr_alloc(room, sizeof *cli->plots);
@@ -576,6 +606,7 @@ bool wr_cli_parse(int argc, char **argv, WrCli *cli, int *status, WrError *err)
 void wr_cli_fini(WrCli *cli)
 {
     wr_free(cli->words);
+    wr_free(cli->files);
     wr_free(cli->dos);
     wr_free(cli->ats);
     wr_free(cli->plots);

@@ -7,28 +7,38 @@
 const WrSubcommand wr_subcommands[] = {
     { "paint", "[paint] [FILE]", "the window", 0,
       "Opens FILE, or a starter document, for painting.", wr_cli_paint },
-    { "run", "run SCRIPT", "run a script's commands, files included", 0,
+    { "run", "run SCRIPT [--json]", "run a script's commands, files included", BIT(JSON),
       "SCRIPT is a text file with one command a line; - reads standard input. Files are read "
       "relative\n"
-      "to the script's folder and written relative to the current one.",
+      "to the script's folder and written relative to the current one.\n"
+      "--json prints a receipt of each written file, one object a line.",
       wr_cli_run },
-    { "render", "render [FILE] -o OUT [--size WxH] [--frames A-B [--of N] [--fps N]] [--missing]",
+    { "render",
+      "render [FILE] -o OUT [--size WxH] [--frames A-B [--of N] [--fps N]] [--missing] [--json]",
       "a picture, or a turntable as pictures or as a film",
-      BIT(OUT) | BIT(SIZE) | BIT(FULL) | BIT(RENDER),
+      BIT(OUT) | BIT(SIZE) | BIT(FULL) | BIT(RENDER) | BIT(FORMAT) | BIT(JSON),
       "exr and tiff files hold linear float red, green, blue and coverage, others 8-bit sRGB over "
       "the\n"
       "scene's background. Frame f of a turntable is turned by f times --turn degrees, or f/N of a "
       "full turn.\n"
       "Films, gif, apng, webp and mp4, are made by the program ffmpeg.\n"
       "Large pictures are drawn and written by bands of rows; under a tolerance they are held "
-      "whole.",
+      "whole.\n"
+      "-o - writes a picture or a film to standard output. --json prints a receipt of each written "
+      "file.",
       wr_cli_render },
-    { "export", "export [FILE] --as KIND [name=value...] -o OUT [--watch]",
-      "the table for other programs", BIT(OUT) | BIT(AS),
+    { "export", "export [FILE...] --as KIND [name=value...] -o OUT [-j N] [--json] [--watch]",
+      "the table for other programs", BIT(OUT) | BIT(AS) | BIT(FORMAT) | BIT(FILES) | BIT(JSON),
       "`wrinkle help export` lists the kinds and their arguments. `--as SET -o FOLDER` writes the "
       "maps for another program, "
       "all or none: blender, gltf, unreal, unity, godot, substance, renderman, arnold, povray, and "
-      "those of your own, NAME.set in the folder sets of your settings.",
+      "those of your own, NAME.set in the folder sets of your settings.\n"
+      "Of several files, or where OUT is a folder, each output is OUT/NAME.ENDING. A file that "
+      "fails "
+      "does not stop\n"
+      "the others; the status is then 1. -o - writes the bytes of one file to standard output, "
+      "and the report to standard error.\n"
+      "--json prints a receipt of each written file, one object a line.",
       wr_cli_export },
     { "check", "check FILE... [--as KIND] [--coding CODING] [--json]",
       "whether pictures are seamless cells and meshes closed bodies, and their content",

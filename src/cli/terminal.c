@@ -3,6 +3,7 @@
 #include "cli/cli.h"
 #include "system/clock.h"
 #include "system/process.h"
+#include "system/thread.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -10,6 +11,7 @@
 #define SILENT_SECONDS 1.0 /* shorter work is not reported */
 #define STEP_SECONDS 0.2
 
+static WrMutex lock = WR_MUTEX_READY; /* guards the line: notes come from several threads */
 static struct {
     double began, printed_at; /* clock readings */
     bool shown;
@@ -26,9 +28,11 @@ static void report(void *ctx, double fraction)
     char time[24] = "";
     if (left < 60000.0)
         snprintf(time, sizeof time, "%d:%02d left", (int)rint(left) / 60, (int)rint(left) % 60);
+    wr_mutex_lock(&lock);
     fprintf(stderr, "\r%3.0f %%  %-16s", 100.0 * fraction, time);
     line.printed_at = now;
     line.shown = true;
+    wr_mutex_unlock(&lock);
 }
 
 void wr_cli_progress_begin(WrProgress *progress)
@@ -47,8 +51,10 @@ void wr_cli_progress_resume(void)
 
 void wr_cli_progress_clear(void)
 {
+    wr_mutex_lock(&lock);
     if (line.shown) fprintf(stderr, "\r%*s\r", 24, "");
     line.shown = false;
+    wr_mutex_unlock(&lock);
 }
 
 void wr_cli_progress_stop(void)

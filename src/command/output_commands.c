@@ -13,7 +13,9 @@
 #include "document/ora.h"
 #include "export/export.h"
 #include "export/map_sets.h"
+#include "export/receipt.h"
 #include "scene/scene.h"
+#include "system/clock.h"
 #include "system/path.h"
 
 #include <stdio.h>
@@ -78,6 +80,7 @@ bool wr_session_save(WrSession *session, const char *path, WrError *err)
                        "%s: was saved by a newer version of the program: saving over it would lose "
                        "what this one does not know; choose another name",
                        path);
+    const double began = wr_clock_seconds();
     if (!make_composite(session, err)) return false;
     wr_session_kept_text(session, &text);
     char ending[16];
@@ -89,6 +92,7 @@ bool wr_session_save(WrSession *session, const char *path, WrError *err)
     if (note.length) wr_session_note(session, "%s", note.data);
     wr_text_fini(&note);
     if (!good) return false;
+    wr_session_receipt(session, path, "document", NULL, began);
     char *kept = wr_strdup(path); /* `path` may be the old name itself */
     wr_free(session->state.path);
     session->state.path = kept;
@@ -115,6 +119,7 @@ static bool run_export(WrSession *session, WrCall *call, WrError *err)
             return false;
     char *path = wr_session_output_name(session, wr_call_arg(call, "FILE")->text, err);
     WrExportReport report;
+    const double began = wr_clock_seconds();
     const bool good = path && wr_session_check_export(session, kind, path, err) &&
                       make_composite(session, err) &&
                       wr_export(kind, session->state.document, &options, session->options.pool,
@@ -122,6 +127,7 @@ static bool run_export(WrSession *session, WrCall *call, WrError *err)
     WrText text = { 0 };
     if (good) wr_export_report_text(&report, &text);
     if (good) wr_session_note(session, "%s: %s", path, wr_text_get(&text));
+    if (good) wr_session_receipt(session, path, kind->name, &report, began);
     wr_text_fini(&text);
     wr_free(path);
     return good;
@@ -256,6 +262,7 @@ static bool run_set(WrSession *session, const WrCall *call, const WrMapSet *set,
 {
     Words words = { 0 };
     WrText name = { 0 }, list = { 0 };
+    WrReceipts receipts = { 0 };
     if (wr_call_given(call, "name")) wr_text_add(&name, wr_call_arg(call, "name")->text);
     else wr_map_set_cell_name(session->state.path, &name);
     take_words(call, &words);
@@ -263,7 +270,8 @@ static bool run_set(WrSession *session, const WrCall *call, const WrMapSet *set,
                                     .folder = wr_call_arg(call, "FOLDER")->text,
                                     .name = wr_text_get(&name),
                                     .words = (const char *const *)words.words,
-                                    .word_count = words.count };
+                                    .word_count = words.count,
+                                    .receipts = &receipts };
     bool good =
         wr_export_map_set(&order, session->state.document, session->options.pool, &list, err);
     for (const char *at = wr_text_get(&list); good && *at;) {
@@ -271,6 +279,9 @@ static bool run_set(WrSession *session, const WrCall *call, const WrMapSet *set,
         wr_session_note(session, "%.*s", (int)length, at);
         at += length + (at[length] == '\n');
     }
+    for (int i = 0; good && session->options.receipt && i < receipts.files.count; i++)
+        session->options.receipt(session->options.receipt_ctx, &receipts.files.data[i]);
+    wr_receipts_free(&receipts);
     for (int i = 0; i < words.count; i++) wr_free(words.words[i]);
     wr_text_fini(&name);
     wr_text_fini(&list);

@@ -8,6 +8,7 @@
 #include "document/blend.h"
 #include "document/document.h"
 #include "document/edit.h"
+#include "export/export.h"
 #include "field/field.h"
 #include "field/ops.h"
 #include "field/select.h"
@@ -15,6 +16,7 @@
 #include "generate/transform_piece.h"
 #include "image/image.h"
 #include "scene/scene.h"
+#include "system/clock.h"
 
 #include <math.h>
 
@@ -444,7 +446,13 @@ static bool run_copy(WrSession *session, WrCall *call, WrError *err)
                              .rows = rows,
                              .seen = seen,
                              .ctx = &copy };
-    return wr_image_write(copy.path, &out, 1, err);
+    const double began = wr_clock_seconds();
+    if (!wr_image_write(copy.path, &out, 1, err)) return false;
+    const WrExportReport report = {
+        .width = out.width, .height = out.height, .channels = out.channels, .depth = 32
+    };
+    wr_session_receipt(session, copy.path, "copy", &report, began);
+    return true;
 }
 
 static const WrArgSpec args_copy[] = {

@@ -14,6 +14,7 @@
 #include "document/edit.h"
 #include "document/history.h"
 #include "export/export.h"
+#include "export/receipt.h"
 #include "field/field.h"
 #include "render/frame/frame.h"
 #include "scene/objects.h"
@@ -412,6 +413,16 @@ void wr_session_note(WrSession *session, const char *format, ...)
     va_end(args);
     const bool whole = session->options.note_messages && message[0];
     session->options.note(session->options.note_ctx, whole ? message : text);
+}
+
+void wr_session_receipt(WrSession *session, const char *file, const char *kind,
+                        const WrExportReport *report, double began)
+{
+    WrReceipts receipts = { 0 };
+    if (!session->options.receipt) return;
+    wr_receipts_add(&receipts, file, kind, report, began);
+    session->options.receipt(session->options.receipt_ctx, receipts.files.data);
+    wr_receipts_free(&receipts);
 }
 
 /* ---- running ---- */

@@ -21,6 +21,7 @@ typedef struct WrExportKind WrExportKind;
 typedef struct WrFrame WrFrame;
 typedef struct WrPool WrPool;
 typedef struct WrRayTree WrRayTree;
+typedef struct WrReceipt WrReceipt;
 typedef struct WrSample WrSample;
 typedef struct WrText WrText;
 typedef struct WrTriangles WrTriangles;
@@ -30,12 +31,17 @@ typedef struct WrSession WrSession;
 /* Callback for notes that are not errors: "3 texels were not finite and became 0". */
 typedef void (*WrNoteSink)(void *ctx, const char *text);
 
+/* Callback for receipts of files that commands have written; borrowed. */
+typedef void (*WrReceiptSink)(void *ctx, const WrReceipt *receipt);
+
 #define WR_PICTURE_BYTES ((size_t)64 << 20) /* default of picture_bytes */
 
 typedef struct WrSessionOptions {
     WrPool *pool;    /* borrowed; NULL: one thread */
     WrNoteSink note; /* may be NULL */
     void *note_ctx;
+    WrReceiptSink receipt; /* for each written file; may be NULL */
+    void *receipt_ctx;
     bool note_messages; /* notes are messages (base/message.h), to be translated; else plain text */
     bool foretell;      /* note the required memory before a command that needs much */
     /* perform output commands (only `wrinkle run` and the window do); otherwise they are skipped

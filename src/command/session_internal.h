@@ -17,6 +17,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+typedef struct WrExportReport WrExportReport;
+
 typedef struct WrBrushFiles WrBrushFiles;
 typedef struct WrMeshTexels WrMeshTexels;
 typedef struct WrTriangles WrTriangles;
@@ -103,6 +105,9 @@ bool wr_session_take_tiles(WrSession *session, WrCall *call, WrError *err);
 /* Resolve a path for reading, relative to the folder of the running script. The caller frees it. */
 char *wr_session_input_path(WrSession *session, const char *path);
 /* Record a file that is about to be read, or was read, for wr_session_input. */
+/* Passes the receipt of a written file to options.receipt. report: NULL: none; began: wr_clock_seconds then. */
+void wr_session_receipt(WrSession *session, const char *file, const char *kind,
+                        const WrExportReport *report, double began);
 void wr_session_note_input(WrSession *session, const char *path);
 /* Error "a stroke is being drawn"; a snapshot refuses all commands. */
 bool wr_session_refuse_in_stroke(const WrSession *session, WrError *err);

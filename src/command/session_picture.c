@@ -7,9 +7,11 @@
 #include "command/session_internal.h"
 #include "document/document.h"
 #include "document/object_tables.h"
+#include "export/export.h"
 #include "export/film.h"
 #include "render/frame/frame.h"
 #include "scene/scene.h"
+#include "system/clock.h"
 #include "system/path.h"
 
 #include <math.h>
@@ -453,6 +455,7 @@ bool wr_session_render(WrSession *session, const char *path, int width, int heig
     picture.step = band_rows(session, width, height, floats ? 4 * sizeof(float) : sizeof(uint32_t));
     picture.request.codes =
         wr_frame_codes_of(scene, !floats && scene->tolerance.kind == WR_TOLERANCE_NONE);
+    const double began = wr_clock_seconds();
     WrProgressPart part;
     const WrProgress *whole = wr_progress_enter(&part, 0.0, DRAWN);
     bool good = draw_first(&picture, err);
@@ -462,6 +465,10 @@ bool wr_session_render(WrSession *session, const char *path, int width, int heig
     wr_progress_enter(&part, picture.drawn > 0 ? 0.0 : DRAWN, 1.0);
     good = write_picture(&picture, path, err);
     wr_progress_set(whole);
+    const WrExportReport report = {
+        .width = width, .height = height, .channels = floats ? 4 : 3, .depth = linear ? 32 : 8
+    };
+    if (good) wr_session_receipt(session, path, "picture", &report, began);
     return good;
 }
 
@@ -609,6 +616,7 @@ static bool begin_film(Turning *turning, WrError *err)
 static bool make_film(Turning *turning, WrError *err)
 {
     WrFilmReport report;
+    const double began = wr_clock_seconds();
     bool good = begin_film(turning, err) && all_frames(turning, FILM_DRAWN, err);
     if (good) {
         good = wr_film_end(turning->film, &report, err);
@@ -621,6 +629,11 @@ static bool make_film(Turning *turning, WrError *err)
     wr_film_report_text(&report, &text);
     wr_session_note(turning->session, "%s: %s", turning->path, wr_text_get(&text));
     wr_text_fini(&text);
+    const WrExportReport size = { .width = report.width,
+                                  .height = report.height,
+                                  .channels = turning->alpha ? 4 : 3,
+                                  .depth = 8 };
+    wr_session_receipt(turning->session, turning->path, "film", &size, began);
     return true;
 }
 

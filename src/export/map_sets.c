@@ -13,8 +13,10 @@
 #include "export/export.h"
 #include "export/material_files.h"
 #include "export/preview.h"
+#include "export/receipt.h"
 #include "image/image.h"
 #include "scene/scene.h"
+#include "system/clock.h"
 #include "system/path.h"
 
 #include <errno.h>
@@ -557,6 +559,7 @@ static bool write_map(const WrMapSetRequest *order, int map, const WrExportOptio
     int udim;
     (void)udim_of(order, document, &udim); /* checked before */
     wr_map_set_file(order, document, map, &path);
+    const double began = wr_clock_seconds();
     bool good = wr_export(order->set->maps.data[map].kind, document, options, pool,
                           wr_text_get(&path), report, err);
     if (good) {
@@ -565,6 +568,9 @@ static bool write_map(const WrMapSetRequest *order, int map, const WrExportOptio
         if (udim && report->ranged && !report->quantity && options->range != WR_EXPORT_RANGE_GIVEN)
             wr_text_add(list, "; the range is this tile's: range=LOW,HIGH gives all tiles one");
         wr_text_add(list, "\n");
+        if (order->receipts)
+            wr_receipts_add(order->receipts, wr_text_get(&path),
+                            order->set->maps.data[map].kind->name, &report, began);
     }
     wr_text_fini(&path);
     return good;
@@ -654,6 +660,7 @@ static bool write_contact(const WrMapSetRequest *order, const WrExportOptions *o
     if (is_map(order, document, contact_of(order)))
         return wr_fail(err, CONTACT "%.80s: is the name of one of the maps", contact_of(order));
     char *path = wr_path_join(order->folder, contact_of(order));
+    const double began = wr_clock_seconds();
     WrContact *contact = wr_contact_new(path, count, WR_CONTACT_TILE, err);
     bool good = contact != NULL;
     for (int i = 0; i < count && good; i++)
@@ -661,6 +668,7 @@ static bool write_contact(const WrMapSetRequest *order, const WrExportOptions *o
                (!wr_progress_stopped() || wr_fail(err, "cancelled"));
     good = good && wr_contact_write(contact, err);
     if (good) wr_text_addf(list, "%s: contact sheet of %d maps\n", path, count);
+    if (good && order->receipts) wr_receipts_add(order->receipts, path, "contact", NULL, began);
     wr_contact_free(contact);
     wr_free(path);
     return good;

@@ -21,6 +21,7 @@ typedef struct WrError WrError;
 typedef struct WrExportKind WrExportKind;
 typedef struct WrExportOptions WrExportOptions;
 typedef struct WrPool WrPool;
+typedef struct WrReceipts WrReceipts;
 typedef struct WrText WrText;
 
 #define WR_MAP_SET_ENTRIES_MAX 32 /* maximum maps of a set */
@@ -75,6 +76,7 @@ typedef struct WrMapSetRequest {
         words; /* [word_count] "cell=2,1": applied to the maps that have the option; at least one must.
                   "contact=FILE": a contact sheet beside them. "material=mtlx,gltf", "all" or "none": material files beside them, instead of the set's. "udim=1002" or "udim=none": tile before the endings of the files' names, instead of the object's */
     int word_count;
+    WrReceipts *receipts; /* receives one for each file; NULL: none are wanted */
 } WrMapSetRequest;
 
 /* Options of one map: the set's settings, then the words. False and a message: a word that the map's kind

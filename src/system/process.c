@@ -44,12 +44,22 @@ uint64_t wr_process_file_limit(void)
     return (uint64_t)limit.rlim_cur;
 }
 
-void wr_process_outlive_file_limit(void)
+static void ignore_default(int signal)
 {
     struct sigaction now;
-    if (sigaction(SIGXFSZ, NULL, &now) != 0 || now.sa_handler != SIG_DFL) return;
+    if (sigaction(signal, NULL, &now) != 0 || now.sa_handler != SIG_DFL) return;
     now.sa_handler = SIG_IGN;
-    sigaction(SIGXFSZ, &now, NULL);
+    sigaction(signal, &now, NULL);
+}
+
+void wr_process_outlive_file_limit(void)
+{
+    ignore_default(SIGXFSZ);
+}
+
+void wr_process_outlive_pipes(void)
+{
+    ignore_default(SIGPIPE);
 }
 
 void wr_process_limit(WrLimit what, uint64_t most)

@@ -33,6 +33,9 @@ uint64_t wr_process_file_limit(void); /* maximum bytes of a written file */
 /* Makes exceeding that limit a write error, not the end of the program. */
 void wr_process_outlive_file_limit(void);
 
+/* Makes writing to a pipe that nobody reads an error, not the end of the program. */
+void wr_process_outlive_pipes(void);
+
 /* Lowers a limit permanently. */
 typedef enum WrLimit { WR_LIMIT_CORE, WR_LIMIT_FILE, WR_LIMIT_FILES, WR_LIMIT_SPACE } WrLimit;
 void wr_process_limit(WrLimit what, uint64_t most);

@@ -128,9 +128,9 @@ static void a_set_has_one_where_asked_for(void **state)
                 { "contact=", "without a folder" },
                 { "contact=all.xyz", "ending 'xyz'" },
                 { "contact=clay_Height.png", "is the name of one of the maps" } };
-    WrMapSetRequest order = { set, ".", "clay", words, 1 };
+    WrMapSetRequest order = { set, ".", "clay", words, 1, NULL };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        const WrMapSetRequest wrong = { set, ".", "clay", &bad[i].word, 1 };
+        const WrMapSetRequest wrong = { set, ".", "clay", &bad[i].word, 1, NULL };
         assert_false(wr_export_map_set(&wrong, document, NULL, &told, &err));
         if (!strstr(err.text, bad[i].says)) fail_msg("%s", err.text);
         assert_false(wr_path_is_there("clay_Height.png")); /* all or none */

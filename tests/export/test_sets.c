@@ -32,7 +32,7 @@ static bool write_set(const char *name, const char *const *words, int count, WrE
     WrDocument *document = bump_document();
     WrText told = { 0 };
     WrMapSet *set = wr_map_set_find(name, err);
-    WrMapSetRequest order = { set, ".", "clay", words, count };
+    WrMapSetRequest order = { set, ".", "clay", words, count, NULL };
     bool good = set && wr_export_map_set(&order, document, NULL, &told, err);
     wr_map_set_free(set);
     wr_text_fini(&told);
@@ -287,11 +287,11 @@ static void hostile_files_and_names_are_refused(void **state)
     WrMapSet *set = wr_map_set_find("unity", &err);
     static const char *const names[] = { "../x", "a\nb", "" };
     for (int i = 0; i < 3; i++) {
-        WrMapSetRequest order = { set, ".", names[i], NULL, 0 };
+        WrMapSetRequest order = { set, ".", names[i], NULL, 0, NULL };
         assert_false(wr_export_map_set(&order, document, NULL, &told, &err));
         assert_non_null(strstr(err.text, "must be the cell's name"));
     }
-    WrMapSetRequest order = { set, "nowhere", "clay", NULL, 0 };
+    WrMapSetRequest order = { set, "nowhere", "clay", NULL, 0, NULL };
     assert_false(wr_export_map_set(&order, document, NULL, &told, &err));
     assert_non_null(strstr(err.text, "nowhere: is no folder"));
     wr_map_set_free(set);

@@ -55,7 +55,7 @@ subcommands=$(sed -nE 's/^  wrinkle \[?([a-z]+)\]? .*/\1/p' help)
 for subcommand in $subcommands; do
     grep -qx "\.B $subcommand" <<<"$page" || fail "the manual page lacks $subcommand"
     "$wrinkle" "$subcommand" --help >help 2>&1 || fail "wrinkle $subcommand --help failed"
-    for option in $(grep -oE '^  (-o, )?--[a-z-]+' help | grep -oE -- '--[a-z-]+'); do
+    for option in $(grep -oE '^  (-[oj], )?--[a-z-]+' help | grep -oE -- '--[a-z-]+'); do
         grep -qE -- "^\.B.*[^-a-z]$option( |\$)" <<<"$page" || fail "the manual page lacks $option"
     done
 done

@@ -420,9 +420,6 @@ static void choose_how(const WrApp *app, WrSheetState *sheet)
     wr_gui_tip("Heights of the first and the last code");
 }
 
-<<<<<<< HEAD
-/* The check that puts <VARIANT> into the cell's name, or removes it. */
-=======
 static void choose_material(WrSheetState *sheet)
 {
     const char *labels[WR_LENGTH(material_choices)];
@@ -434,8 +431,7 @@ static void choose_material(WrSheetState *sheet)
                "repeat: NAME.mtlx, NAME.usda or NAME.gltf, beside the maps");
 }
 
-/* The check that puts <VARIANT> into the cell's name, and takes it out. */
->>>>>>> material
+/* The check that puts <VARIANT> into the cell's name, or removes it. */
 static void choose_variants(const WrApp *app, WrSheetState *sheet)
 {
     char *name = sheet->ask.name;
@@ -474,7 +470,7 @@ static void add_bytes(double bytes, char *text, size_t size)
 /* Heights of the lowest and highest code for the whole table, since the picture contains only a part. */
 static void code_range(const WrSheetLook *look, int i, double *low, double *high)
 {
-    const WrMapSetRequest order = { look->set, "", "", NULL, 0 };
+    const WrMapSetRequest order = { look->set, "", "", NULL, 0, NULL };
     WrExportOptions options = wr_export_default();
     WrError none;
     if (!wr_map_set_options(&order, i, &options, &none)) options = wr_export_default();
@@ -518,7 +514,7 @@ static void map_row(const WrSheetState *sheet, int i)
 {
     const WrSheetLook *look = sheet->shown;
     const WrExportPreview *p = &look->pictures[i];
-    const WrMapSetRequest order = { look->set, "", look->ask.name, NULL, 0 };
+    const WrMapSetRequest order = { look->set, "", look->ask.name, NULL, 0, NULL };
     const double side = wr_gui_px(PICTURE_UNITS),
                  most = p->width > p->height ? p->width : p->height;
     char facts[200];

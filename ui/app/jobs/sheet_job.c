@@ -207,7 +207,7 @@ static void run_look(void *work, WrPool *pool, const WrProgress *progress)
     w = (int)fmax(1, rint(w * scale));
     h = (int)fmax(1, rint(h * scale));
     if (!resize(look->document, w, h, pool, &look->err)) return;
-    const WrMapSetRequest order = { look->set, "", "", NULL, 0 };
+    const WrMapSetRequest order = { look->set, "", "", NULL, 0, NULL };
     for (int i = 0; i < look->set->maps.count && !wr_progress_cancelled(progress); i++) {
         WrExportOptions options;
         WrError none;
@@ -261,7 +261,9 @@ static bool write_set(void *ctx, const char *variant, WrError *err)
     int w = wr_field_width(field), h = wr_field_height(field);
     char *name = wr_variant_fill(ask->name, variant);
     const char *const words[] = { writing->write->material };
-    const WrMapSetRequest order = { writing->set, ask->folder, name, words, words[0] != NULL };
+    const WrMapSetRequest order = {
+        writing->set, ask->folder, name, words, words[0] != NULL, NULL
+    };
     wr_sheet_size(ask->size, &w, &h);
     const bool good =
         resize(document, w, h, writing->pool, err) &&
