@@ -570,7 +570,7 @@ static bool write_map(const WrMapSetRequest *order, int map, const WrExportOptio
         wr_text_add(list, "\n");
         if (order->receipts)
             wr_receipts_add(order->receipts, wr_text_get(&path),
-                            order->set->maps.data[map].kind->name, &report, began);
+                            order->set->maps.data[map].kind->name, report, began);
     }
     wr_text_fini(&path);
     return good;
@@ -606,7 +606,8 @@ static bool write_materials(const WrMapSetRequest *order, const WrExportOptions 
         maps[i] = (WrMaterialMap){ order->set->maps.data[i].kind, name_of(order, document, i),
                                    options[i], reports[i] };
     material_name(order, document, &name);
-    const WrMaterialRequest request = { order->folder, wr_text_get(&name), document, maps, count };
+    const WrMaterialRequest request = { order->folder, wr_text_get(&name), document, maps,
+                                        count,         order->receipts };
     const bool good = wr_material_files_write(&request, formats, list, err);
     for (int i = 0; i < count; i++) wr_free((char *)maps[i].file);
     wr_text_fini(&name);

@@ -19,6 +19,7 @@
 #include "scene/scene.h"
 #include "shade/reflection.h"
 #include "surface/surface.h"
+#include "system/clock.h"
 
 #include <expat.h>
 #include <math.h>
@@ -806,6 +807,7 @@ static bool put_file(const Material *m, const char *ending, const WrText *bytes,
 static bool write_format(Material *m, const WrMaterialFormat *format, WrText *list, WrError *err)
 {
     WrText out = { 0 }, bin = { 0 }, path = { 0 };
+    const double began = wr_clock_seconds();
     m->uses = 0;
     for (int role = 0; role < ROLES; role++)
         if (m->textures[role].file && !format->refuses(m, role)) m->uses |= 1u << role;
@@ -815,6 +817,8 @@ static bool write_format(Material *m, const WrMaterialFormat *format, WrText *li
     const char *last = good ? wr_file_group_last() : NULL;
     if (good && format->check) good = format->check(m, last ? last : wr_text_get(&path), &out, err);
     if (good) report(m, format, wr_text_get(&path), list);
+    if (good && m->order->receipts)
+        wr_receipts_add(m->order->receipts, wr_text_get(&path), format->name, NULL, began);
     wr_text_fini(&out);
     wr_text_fini(&bin);
     wr_text_fini(&path);

@@ -9,6 +9,7 @@
    Other modules use the formats' names alone. */
 #pragma once
 #include "export/export.h"
+#include "export/receipt.h"
 
 #include <stdbool.h>
 
@@ -29,6 +30,7 @@ typedef struct WrMaterialRequest {
     const WrDocument *document;
     const WrMaterialMap *maps; /* [count] */
     int count;
+    WrReceipts *receipts; /* get one for each material file; NULL: not wanted */
 } WrMaterialRequest;
 
 typedef struct Material WrMaterialWork; /* private to material_files.c */

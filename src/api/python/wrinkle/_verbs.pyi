@@ -547,7 +547,8 @@ class Verbs:
         Any | None = ..., lines: Any | None = ..., view: Any | None = ..., relief: Any | None = ..., pen: Any | None =
         ..., hidden: Any | None = ..., along: Any | None = ..., at: Any | None = ..., grid: Any | None = ..., error: Any
         | None = ..., thickness: Any | None = ..., triangles: Any | None = ..., edges: Any | None = ..., folds: Any |
-        None = ..., contact: str | None = ..., name: str | None = ..., udim: str | None = ...
+        None = ..., contact: str | None = ..., material: str | None = ..., name: str | None = ..., udim: str | None =
+        ...
     ) -> None:
         """Write the set of maps for another program."""
 
