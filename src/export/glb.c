@@ -753,7 +753,8 @@ bool wr_gltf_add_model(const WrScene *scene, const double size[2], const double 
     WrExportJob job = { .scene = scene };
     Glb glb = { .job = &job, .repeat = { repeat[0], repeat[1] }, .json = *json, .bin = *bin };
     bool good = size ? lay_rectangle(size, &glb.model, err) : model_make(scene, &glb.model, err);
-    if (good && glb.model.triangle_count == 0) good = wr_fail(err, "the surface has no area");
+    if (good && glb.model.triangle_count == 0)
+        good = wr_fail(err, "%s: the surface has no area", "gltf");
     if (good) {
         add_views(&glb);
         add_accessors(&glb);
