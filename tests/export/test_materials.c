@@ -382,6 +382,7 @@ static void a_name_that_is_not_utf8_is_refused(void **state)
     assert_false(written.good);
     assert_non_null(strstr(written.err.text, "is not UTF-8"));
     assert_false(wr_path_is_there("b\xff_n.png"));
+    wr_text_fini(&written.list);
     wr_document_free(document);
 }
 
@@ -473,6 +474,7 @@ static void a_set_and_the_word_say_which_formats(void **state)
     Written wrong = write_text(document, "normal+y *_n.png", "clay", "material=mtlz");
     assert_false(wrong.good);
     assert_non_null(strstr(wrong.err.text, "material 'mtlz': did you mean mtlx?"));
+    wr_text_fini(&wrong.list);
     wr_document_free(document);
 }
 
