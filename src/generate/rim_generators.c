@@ -30,7 +30,8 @@ static const WrParam params[] = {
                 "shape whose edge is used; auto: the selection, or without one the heights"),
     WR_P_LAYER("a layer below whose outline is used, instead of of="),
     WR_P_ABOVE("width", "Width", 12, 0, 4096, 64, "texels",
-               "of the slope, of the cord, of half the step; of a ridge the way up to the height"),
+               "width of the slope or of the cord; half the width of the step; a ridge rises to "
+               "its height over it"),
     WR_P_HEIGHT,
     WR_P_NUMBER("level", "Level", 0.5, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",
                 "of heights: the edge is where they cross it"),

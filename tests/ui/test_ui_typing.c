@@ -5,7 +5,9 @@
 
 #include "ui/app/state/dialog.h"
 #include "ui/app/state/layout.h"
+#include "ui/app/state/pointer_state.h"
 #include "ui/toolkit/gui.h"
+#include "ui/toolkit/focus.h"
 #include "ui/panels/panel_search.h"
 
 #include "document/document.h"
@@ -143,6 +145,97 @@ static void nothing_typed_is_no_answer(void **state)
     finish(&bench);
 }
 
+/* ---- the text of a generator ---- */
+
+static void push_wheel(const WrApp *app, int steps)
+{
+    SDL_PushEvent(&(SDL_Event){ .wheel = { .type = SDL_MOUSEWHEEL,
+                                           .windowID = SDL_GetWindowID(app->window),
+                                           .y = steps,
+                                           .preciseY = (float)steps } });
+}
+
+static void write_text(WrApp *app, const char *text)
+{
+    tap(SDL_SCANCODE_T, 0);
+    steps(app, 8);
+    assert_true(wr_gui_wants_text(app->gui));
+    type(text);
+    steps(app, 8);
+}
+
+static void a_text_scrolled_out_of_sight_leaves_the_window_alive(void **state)
+{
+    (void)state;
+    Bench bench;
+    begin(&bench);
+    WrApp *app = bench.app;
+    write_text(app, "oak");
+    const SDL_Rect panel = app->layout->panel, canvas = app->layout->canvas;
+    for (int i = 0; i < 30; i++) {
+        push_motion(app, panel.x + 12, panel.y + (app->layout->lower.y - panel.y) * 6 / 10);
+        push_wheel(app, -1);
+        steps(app, 2);
+    }
+    push_motion(app, canvas.x + 37, canvas.y + 41);
+    steps(app, 3);
+    assert_int_equal(app->hand->x, canvas.x + 37);
+    assert_int_equal(app->hand->y, canvas.y + 41);
+    finish(&bench);
+}
+
+static void the_second_text_is_a_layer_with_a_name_of_its_own(void **state)
+{
+    (void)state;
+    Bench bench;
+    begin(&bench);
+    for (int i = 0; i < 3; i++) {
+        write_text(bench.app, "elm");
+        chord(SDL_SCANCODE_RETURN);
+        settle(&bench);
+    }
+    const WrDocument *document = wr_session_document(bench.session);
+    assert_int_equal(document->layer_count, 4);
+    assert_string_equal(document->layers[1].name, "Text");
+    assert_string_equal(document->layers[2].name, "Text 2");
+    assert_string_equal(document->layers[3].name, "Text 3");
+    finish(&bench);
+}
+
+/* ---- menus ---- */
+
+/* Also that of a menu which is taller than the window. */
+static void a_click_on_the_title_of_a_menu_only_opens_it(void **state)
+{
+    (void)state;
+    Bench bench;
+    begin(&bench);
+    WrApp *app = bench.app;
+    WrKeyStop titles[20];
+    int count, menus = 0;
+    const WrKeyStop *stops = wr_gui_stops(app->gui, &count);
+    for (int i = 0; i < count && menus < 20; i++)
+        if (stops[i].kind == WR_STOP_MENU) titles[menus++] = stops[i];
+    assert_true(menus > 5);
+    SDL_SetWindowSize(app->window, 900, 500);
+    steps(app, 4);
+    for (int i = 0; i < menus; i++) {
+        const int x = (int)(titles[i].x0 + titles[i].x1) / 2;
+        const int y = (int)(titles[i].y0 + titles[i].y1) / 2;
+        const uint64_t before = wr_session_revision(bench.session);
+        push_motion(app, x, y);
+        push_button(app, true, SDL_BUTTON_LEFT, x, y);
+        steps(app, 4);
+        push_button(app, false, SDL_BUTTON_LEFT, x, y);
+        settle(&bench);
+        assert_true(wr_gui_popup_open_now(app->gui));
+        assert_int_equal(wr_session_revision(bench.session), before);
+        tap(SDL_SCANCODE_ESCAPE, 0);
+        steps(app, 4);
+    }
+    finish(&bench);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -151,6 +244,9 @@ int main(void)
         cmocka_unit_test(no_letter_of_many_is_lost),
         cmocka_unit_test(an_answer_waits_for_the_letters_before_it),
         cmocka_unit_test(nothing_typed_is_no_answer),
+        cmocka_unit_test(a_text_scrolled_out_of_sight_leaves_the_window_alive),
+        cmocka_unit_test(the_second_text_is_a_layer_with_a_name_of_its_own),
+        cmocka_unit_test(a_click_on_the_title_of_a_menu_only_opens_it),
     };
     return cmocka_run_group_tests(tests, enter_window, remove_folder);
 }

@@ -91,6 +91,11 @@ picture "$out/filters.png" 1200x760+0+0 800
 key Escape
 close
 
+# The coin of the page about live layers.
+start "$source/samples/coin.wrinkle"
+picture "$out/live-layers.png" 1200x760+0+0 800
+close
+
 # Maps of a table, beside its heights.
 maps=()
 while read -r -a words; do

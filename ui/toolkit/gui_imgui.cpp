@@ -312,11 +312,19 @@ extern "C" bool wr_gui_popup_open_now(const WrGui *)
     return ImGui::GetCurrentContext()->OpenPopupStack.Size > dialogs_open();
 }
 
+/* A part of a panel that is scrolled out of sight, such as a text that is being edited: hidden in every frame. */
+static bool is_scrolled_away(const ImGuiWindow *window)
+{
+    const ImRect *seen = &window->OuterRectClipped;
+    return (window->Flags & ImGuiWindowFlags_ChildWindow) &&
+           (seen->Min.x >= seen->Max.x || seen->Min.y >= seen->Max.y);
+}
+
 /* Auto-sized windows are measured in an invisible first frame. */
 static bool window_comes(const ImGuiContext &g)
 {
     for (const ImGuiWindow *window : g.Windows)
-        if (window->Active && is_hidden(window)) return true;
+        if (window->Active && is_hidden(window) && !is_scrolled_away(window)) return true;
     return false;
 }
 

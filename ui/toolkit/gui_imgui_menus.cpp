@@ -30,6 +30,14 @@ try {
 }
 WR_CAUGHT()
 
+/* A long menu scrolls. If it covered its own title, the click that opens it would also choose an entry. */
+static void keep_below(const ImGuiWindow *bar)
+{
+    const float low = ImGui::GetIO().DisplaySize.y - px(8);
+    ImGui::SetNextWindowSizeConstraints(
+        ImVec2(0, 0), ImVec2(FLT_MAX, low - bar->DC.CursorPos.y - ImGui::GetFrameHeight()));
+}
+
 extern "C" bool wr_gui_menu_begin(const char *label)
 try {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(10), px(8)));
@@ -37,6 +45,8 @@ try {
     const char *shown = wr_gui_labelled(label, said);
     const ImGuiID id = ImGui::GetID(shown);
     ImGuiWindow *window = ImGui::GetCurrentWindow();
+    if (!wr_gui_reports_all && window->DC.LayoutType == ImGuiLayoutType_Horizontal)
+        keep_below(window);
     bool open = !wr_gui_reports_all && ImGui::BeginMenu(shown);
     /* While a menu is open, its own window is the current one. */
     if (!open) wr_gui_stop(WR_STOP_MENU, false);

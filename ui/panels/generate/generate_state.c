@@ -544,17 +544,30 @@ void wr_generate_cancel(WrApp *app)
     wr_app_redraw(app);
 }
 
+/* Add the name of a new layer to a command: "Text", then "Text 2" and so on. */
+static void add_free_name(const WrApp *app, WrText *text)
+{
+    const char *label = wr_words(app->generate->generator->label);
+    WrText name = { 0 };
+    wr_text_add(&name, label);
+    for (int i = 2; wr_layer_named(wr_app_document(app), wr_text_get(&name)) >= 0; i++) {
+        wr_text_clear(&name);
+        wr_text_addf(&name, "%s %d", label, i);
+    }
+    wr_text_add_word(text, wr_text_get(&name));
+    wr_text_fini(&name);
+}
+
 /* The command that carries out `line`, a generator's. */
 static void add_command(const WrApp *app, const char *line, WrText *text)
 {
     const WrGenerateState *hand = app->generate;
-    const char *label = wr_words(hand->generator->label);
     char number[WR_NUMBER_SIZE];
     switch (wr_generate_target(hand)) {
     case WR_LINE_INTO_ACTIVE: wr_text_add(text, line); return;
     case WR_LINE_NEW_LAYER:
         wr_text_add(text, "layer add ");
-        wr_text_add_word(text, wr_layer_named(wr_app_document(app), label) < 0 ? label : "");
+        add_free_name(app, text);
         break;
     case WR_LINE_OF_LAYER: wr_text_addf(text, "layer set %d", hand->layer + 1); break;
     }
@@ -563,6 +576,14 @@ static void add_command(const WrApp *app, const char *line, WrText *text)
     if (hand->layer < 0) return;
     wr_text_addf(text, " blend=%s radius=%s", wr_blends[hand->blend].name,
                  wr_number_print(hand->radius, number));
+}
+
+/* A path is drawn for one layer: the next text would lie exactly on this one. */
+static void forget_points(WrGenerateState *hand)
+{
+    for (int i = 0; hand->generator->params[i].name; i++)
+        if (hand->generator->params[i].kind == WR_PARAM_POINTS)
+            wr_generate_set_text(&hand->value[i], "");
 }
 
 void wr_generate_commit(WrApp *app)
@@ -580,6 +601,7 @@ void wr_generate_commit(WrApp *app)
     app->hints = false;
     if (tried) wr_app_run_tried(app, wr_text_get(&command));
     else wr_app_run_slow(app, wr_text_get(&command));
+    forget_points(hand);
     wr_text_fini(&line);
     wr_text_fini(&command);
 }

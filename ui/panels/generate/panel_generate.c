@@ -580,10 +580,10 @@ static void foot(WrApp *app)
     destination(app);
     wr_busy_hold(app);
     wr_gui_disable(hand->err.text[0] != '\0');
-    if (wr_gui_button(hand->active ? "Apply" : "Apply again", true)) wr_generate_commit(app);
+    if (wr_gui_button("Apply", true)) wr_generate_commit(app);
     wr_gui_disable_end();
     wr_busy_hold_end();
-    wr_gui_tip("Enter");
+    wr_gui_tip(wr_generate_writes(app) ? "Enter; while you type the text, Ctrl+Enter" : "Enter");
     wr_gui_same_line(8);
     if (hand->active) {
         if (wr_gui_button("Cancel", false)) wr_generate_cancel(app);

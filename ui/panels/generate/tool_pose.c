@@ -45,12 +45,6 @@ static int points_param(const WrGenerateState *hand)
     return -1;
 }
 
-/* it may have points */
-static bool pose_points_taken(const WrGenerateState *hand)
-{
-    return points_param(hand) >= 0;
-}
-
 /* False: malformed, or too many. */
 static bool read_points(const char *text, Points *points)
 {
@@ -513,16 +507,22 @@ static void options(WrApp *app)
     Pose pose = pose_of(hand);
     if (pose.place < 0 || app->width < wr_gui_px(1100)) return;
     wr_gui_same_line(14);
+    const int list = points_param(hand);
+    if (list >= 0 && hand->value[list].text[0]) {
+        wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL,
+                    "Drag the points; Ctrl and a click adds one, Delete removes it");
+        return;
+    }
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL,
                 pose.turn >= 0   ? "Drag it on the table; the corner sizes it, the ring turns it"
                 : pose.size >= 0 ? "Drag it on the table; the corner sizes it"
                                  : "Drag it on the table");
-    const bool list = pose_points_taken(hand), data = wr_pose_path_param(hand) >= 0;
-    if (!(list || data) || app->width < wr_gui_px(1400)) return;
+    const bool data = wr_pose_path_param(hand) >= 0;
+    if ((list < 0 && !data) || app->width < wr_gui_px(data ? 1400 : 1200)) return;
     wr_gui_same_line(0);
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL,
-                list ? "; Ctrl and a click begins a path"
-                     : "; its points move, Ctrl and a click adds one, Delete removes it");
+                list >= 0 ? "; Ctrl and a click begins a path"
+                          : "; its points move, Ctrl and a click adds one, Delete removes it");
 }
 
 /* ---- the row ---- */
