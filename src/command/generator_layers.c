@@ -7,8 +7,10 @@
 #include "command/session_internal.h"
 #include "document/blend.h"
 #include "document/document.h"
+#include "document/layer_times.h"
 #include "field/field.h"
 #include "generate/generator.h"
+#include "system/clock.h"
 #include "system/path.h"
 
 #include <stdlib.h>
@@ -134,6 +136,7 @@ static bool reads(const WrCall *call)
    unchanged. outer: the call whose from= this is; it gets the line with absolute file names and checksums; or NULL */
 static bool generate(WrSession *session, int index, WrCall *call, WrCall *outer, WrError *err)
 {
+    const double began = wr_clock_seconds();
     WrField *below = NULL;
     WrHash hash = nothing;
     if (reads(call)) {
@@ -153,7 +156,9 @@ static bool generate(WrSession *session, int index, WrCall *call, WrCall *outer,
     clear(call, own_name(call, "blend"));
     if (wr_call_generator(call)) clear(call, own_name(call, "radius"));
     wr_call_print(call, &line);
-    wr_layer_set_line(&session->state.document->layers[index], wr_text_get(&line), hash);
+    WrLayer *layer = &session->state.document->layers[index];
+    wr_layer_set_line(layer, wr_text_get(&line), hash);
+    wr_layer_time_note(layer->made, wr_clock_seconds() - began, 0);
     wr_text_fini(&line);
     return true;
 }
@@ -228,40 +233,34 @@ bool wr_session_generate_again(WrSession *session, int index, WrError *err)
 
 /* ---- after each command ---- */
 
-/* The layers below have changed since the line read them. */
-static bool is_stale(const WrSession *session, int index)
+/* True if the layers below have changed since the line read them. */
+static bool is_stale(const WrSession *session, int index, const WrBelowKey *key)
 {
     const WrDocument *document = session->state.document;
     const WrLayer *layer = &document->layers[index];
-    if (wr_hash_equal(layer->below, nothing) || !wr_document_shows(document, index)) return false;
+    if (wr_hash_equal(layer->below, nothing) || layer->seen == (key->shown.low | 1)) return false;
     WrField *below = wr_document_below(document, index, session->options.pool);
     const bool stale = !wr_hash_equal(wr_field_hash(below), layer->below);
     wr_field_free(below);
     return stale;
 }
 
-static bool follow_line(WrSession *session, int index, WrError *err)
+bool wr_session_follow_line(WrSession *session, int index, const WrBelowKey *key, WrError *err)
 {
     WrLayer *layer = &session->state.document->layers[index];
     if (!layer->line) return true;
-    if (wr_field_key(layer->heights) == layer->made)
-        return !is_stale(session, index) || wr_session_generate_again(session, index, err);
+    if (wr_field_key(layer->heights) == layer->made) {
+        if (!key) return true;
+        if (is_stale(session, index, key) && !wr_session_generate_again(session, index, err))
+            return false;
+        layer->seen = key->shown.low | 1;
+        return true;
+    }
     WrText name = { 0 }; /* another command wrote its heights */
     wr_session_note(session, "%s is a plain layer now: its heights are no longer its line's",
                     wr_session_layer_name(session, index, &name));
     wr_text_fini(&name);
     wr_layer_set_line(layer, NULL, nothing);
-    return true;
-}
-
-bool wr_session_follow_lines(WrSession *session, WrError *err)
-{
-    bool needed[WR_LAYERS_MAX];
-    wr_session_needed_masks(session, needed);
-    for (int i = 0; i < session->state.document->layer_count; i++)
-        if (!follow_line(session, i, err) ||
-            (needed[i] && !wr_session_follow_mask(session, i, err)))
-            return false;
     return true;
 }
 

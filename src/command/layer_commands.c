@@ -347,7 +347,8 @@ static bool layer_merge(WrSession *session, WrCall *call, WrError *err)
     if (!find_unlocked(session, call, &index, err)) return false;
     if (index == 0) return wr_fail(err, "layer 1 has none below that it could be merged into");
     if (!wr_session_check_unlocked(session, index - 1, err) ||
-        !check_visible(session, index, err) || !check_visible(session, index - 1, err))
+        !check_visible(session, index, err) || !check_visible(session, index - 1, err) ||
+        !wr_session_make_all_layers(session, err))
         return false;
     wr_document_merge(session->state.document, index, session->options.pool);
     return true;
@@ -362,6 +363,7 @@ static bool layer_flatten(WrSession *session, WrCall *call, WrError *err)
         if (!wr_session_check_unlocked(session, i, err)) return false;
         hidden += !document->layers[i].visible;
     }
+    if (!wr_session_make_all_layers(session, err)) return false;
     if (hidden) wr_session_note(session, "%d hidden layers are gone", hidden);
     wr_document_flatten(document, session->options.pool);
     return true;
@@ -439,6 +441,7 @@ static bool layer_rasterize(WrSession *session, WrCall *call, WrError *err)
     if (!layer->line)
         return wr_fail(err, "layer %d is no generator layer: there is nothing to rasterize",
                        index + 1);
+    if (!wr_session_make_all_layers(session, err)) return false;
     wr_layer_set_line(layer, NULL, (WrHash){ 0, 0 });
     return true;
 }

@@ -7,8 +7,11 @@
 #include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"
+#include "document/below.h"
 #include "document/document.h"
+#include "document/layer_times.h"
 #include "field/field.h"
+#include "system/clock.h"
 #include "system/thread.h"
 
 #include <math.h>
@@ -508,6 +511,7 @@ typedef struct Stage {
 struct WrComposite {
     WrMutex lock;
     WR_ARRAY(Stage) stages;
+    WrBelow *below; /* for layers that read the layers below them; owned; NULL: none has */
 };
 
 /* Error of the last filter that failed; "" if none did. */
@@ -549,6 +553,7 @@ WrComposite *wr_composite_share(const WrComposite *composite)
                                                share_or_null(stage->made),
                                                wr_compositor_snapshot(stage->above) }));
     }
+    copy->below = wr_below_share(from->below);
     wr_mutex_unlock(&from->lock);
     return copy;
 }
@@ -569,6 +574,7 @@ void wr_composite_free(WrComposite *composite)
     if (!composite) return;
     drop_stages(composite, 0);
     wr_array_free(&composite->stages);
+    wr_below_free(composite->below);
     wr_mutex_fini(&composite->lock);
     wr_free(composite);
 }
@@ -578,6 +584,19 @@ static Stage *stage_at(WrComposite *composite, int index)
     if (index == composite->stages.count)
         wr_array_push(&composite->stages, ((Stage){ .above = wr_compositor_new() }));
     return &composite->stages.data[index];
+}
+
+static void count_tile(int tx, int ty, void *ctx)
+{
+    (void)tx, (void)ty;
+    ++*(size_t *)ctx;
+}
+
+static void note_time(const WrLayer *layer, double began, const WrField *in, const WrField *made)
+{
+    size_t tiles = 0;
+    wr_field_changes(in, made, count_tile, &tiles);
+    wr_layer_time_note(wr_field_key(layer->heights), wr_clock_seconds() - began, tiles);
 }
 
 /* The filter applied to a composite. If it fails or is cancelled: the composite itself. */
@@ -595,6 +614,7 @@ static const WrField *filtered(Stage *stage, const WrLayer *layer, const WrField
                                   .pool = pool,
                                   .progress = &quiet.progress };
     WrError err;
+    const double began = wr_clock_seconds();
     WrField *made = wr_op_run(filter->op, in, filter->param, &options, &err);
     if (!made && !wr_progress_stopped())
         wr_fail(&lack,
@@ -602,6 +622,7 @@ static const WrField *filtered(Stage *stage, const WrLayer *layer, const WrField
                 "less open",
                 layer->name, err.text);
     if (!made) return in;
+    note_time(layer, began, in, made);
     wr_field_free(stage->given);
     wr_field_free(stage->made);
     stage->filter = *filter;
@@ -669,7 +690,19 @@ const WrField *wr_composite_update(WrComposite *composite, const WrLayer *layers
 {
     WR_ASSERT(count >= 1 && count <= WR_LAYERS_MAX);
     wr_mutex_lock(&composite->lock);
-    const WrField *result = update(composite, layers, count, solo, pool);
+    WrBelowStack stack = { .layers = layers, .count = count };
+    if (solo < 0) wr_below_begin(composite->below, layers, count, pool, &stack);
+    const WrField *result = update(composite, stack.layers, stack.count, solo, pool);
+    wr_below_end(&stack);
     wr_mutex_unlock(&composite->lock);
     return result;
+}
+
+WrField *wr_composite_below(WrComposite *composite, const WrLayer *layers, int count, int index,
+                            WrPool *pool)
+{
+    wr_mutex_lock(&composite->lock);
+    WrField *made = wr_below_update(&composite->below, layers, count, index, pool);
+    wr_mutex_unlock(&composite->lock);
+    return made;
 }

@@ -22,6 +22,11 @@ void wr_composite_free(WrComposite *composite); /* NULL is fine */
 const WrField *wr_composite_update(WrComposite *composite, const WrLayer *layers, int count,
                                    int solo, WrPool *pool);
 
+/* The composite of the visible layers below layer `index`, 1..count; the caller owns it. Layers with a line or a live mask
+   keep theirs: only what changed since their last call is blended again. Threads as above. */
+WrField *wr_composite_below(WrComposite *composite, const WrLayer *layers, int count, int index,
+                            WrPool *pool);
+
 /* ---- incremental compositor of a stack of layers, tile by tile ---- */
 
 /* Works on fields and blend modes only; the caller owns the layers. */

@@ -80,6 +80,7 @@ void wr_layer_set_line(WrLayer *layer, const char *line, WrHash below)
     layer->line = copy;
     layer->below = below;
     layer->made = line ? wr_field_key(layer->heights) : 0;
+    layer->seen = 0;
 }
 
 void wr_layer_set_mask_line(WrLayer *layer, const char *line, WrHash read)
@@ -153,6 +154,13 @@ bool wr_document_generates(const WrDocument *document)
     for (int i = 0; i < document->layer_count; i++)
         any |= document->layers[i].line || document->layers[i].mask_line;
     return any;
+}
+
+bool wr_layer_hides(const WrLayer *layer)
+{
+    const WrBlendMode *mode = &wr_blends[layer->blend];
+    return layer->visible && mode->takes && layer->opacity >= 1.0f && !layer->mask &&
+           !layer->filter.op && !(mode->uses_cover && layer->cover);
 }
 
 bool wr_document_shows(const WrDocument *document, int index)
@@ -511,10 +519,9 @@ static WrField *cover_of(const WrLayer *a, const WrLayer *b)
 
 WrField *wr_document_below(const WrDocument *document, int index, WrPool *pool)
 {
-    const WrField *like = document->layers[index].heights;
-    if (index > 0) return composite_of(document->layers, index, -1, pool);
-    return wr_field_new(wr_field_width(like), wr_field_height(like), wr_field_wrap_u(like),
-                        wr_field_wrap_v(like), 0.0f, NULL);
+    if (index == 0) return empty_like(document->layers[0].heights, 0.0f);
+    return wr_composite_below(document->composite, document->layers, document->layer_count, index,
+                              pool);
 }
 
 void wr_document_merge(WrDocument *document, int index, WrPool *pool)

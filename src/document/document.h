@@ -22,11 +22,12 @@ typedef struct WrScene WrScene;
    coverage come from; they are generated again when the line changes, or the layers below if the line reads them. A live
    mask keeps its terms and is made again in the same way. All fields of a document have one size and one wrap. */
 typedef struct WrLayer {
-    char *name;         /* UTF-8, owned; not necessarily unique */
-    char *line;         /* command line of a generator layer; NULL: a plain layer. Owned */
-    WrHash below;       /* hash of the composite that the line read; 0: it reads none */
-    uint64_t made;      /* wr_field_key of the heights as the line made them */
-    char *mask_line;    /* terms of a live mask; NULL: a plain mask, or none. Owned */
+    char *name;      /* UTF-8, owned; not necessarily unique */
+    char *line;      /* command line of a generator layer; NULL: a plain layer. Owned */
+    WrHash below;    /* hash of the composite that the line read; 0: it reads none */
+    uint64_t made;   /* wr_field_key of the heights as the line made them */
+    uint64_t seen;   /* identifies the layers below for which they were found up to date; 0: none */
+    char *mask_line; /* terms of a live mask; NULL: a plain mask, or none. Owned */
     WrHash mask_read;   /* of all that the terms read */
     uint64_t mask_made; /* wr_field_key of the mask as the terms made it */
     uint64_t mask_seen; /* identifies the layers below for which it was found up to date; 0: none */
@@ -84,8 +85,9 @@ bool wr_filters_carried(WrError *err);
 /* The composite; NULL and the error if a filter failed. pool: as above. */
 const WrField *wr_document_whole(const WrDocument *document, WrPool *pool, WrError *err);
 
-/* The composite of the visible layers below layer `index` (0..layer_count - 1); 0 where there are none. A new
-   table, owned by the caller. */
+/* The composite of the visible layers below layer `index` (0..layer_count); 0 where there are none. A new table, owned by
+   the caller. For a layer with a line or a live mask only tiles that changed since the last call are blended again. Any
+   number of threads may call it as long as nobody edits. */
 WrField *wr_document_below(const WrDocument *document, int index, WrPool *pool);
 
 /* Hash of everything that a document file stores: layers with their names, settings and fields, the selection,
@@ -124,6 +126,8 @@ void wr_document_edit_end(WrDocument *document, WrStandIn *stand_in);
 bool wr_document_filters(const WrDocument *document); /* true if any layer is a filter */
 /* true if any is a generator layer or has a live mask */
 bool wr_document_generates(const WrDocument *document);
+/* True if it is visible, no filter, and hides all layers below it in every texel: opaque, and without a mask. */
+bool wr_layer_hides(const WrLayer *layer);
 /* True if the layer is shown: visible, and no other layer is solo. */
 bool wr_document_shows(const WrDocument *document, int index);
 
