@@ -75,6 +75,7 @@ static bool take_time(uint64_t key, WrLayerPlan *plan, WrLayerTime *latest)
 
 static const char *kind_of(const WrLayer *layer)
 {
+    if (layer->is_group) return layer->mask_line ? "group, live mask" : "group";
     if (layer->filter.op) return layer->mask_line ? "filter, live mask" : "filter";
     if (layer->line) return layer->mask_line ? "generator, live mask" : "generator";
     return layer->mask_line ? "live mask" : "plain";
@@ -107,6 +108,7 @@ static void explain(const WrSession *session, const WrLayer *layer, const WrLaye
     if (now && !needed) wr_message_addf(&text, "its own values have changed");
     else if (now) wr_message_addf(&text, "it or a layer below has changed");
     else if (!needed) print_need(need, &text);
+    else if (layer->is_group) wr_message_addf(&text, "a group of the layers below it");
     else if (!layer->line && !layer->mask_line && !layer->filter.op)
         wr_message_addf(&text, "painted or read, not computed");
     else wr_message_addf(&text, "nothing that it reads has changed");

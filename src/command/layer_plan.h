@@ -30,7 +30,8 @@ typedef enum WrLayerRun {
 extern const char *const wr_layer_runs[]; /* "evaluated", ... */
 
 typedef struct WrLayerPlan {
-    const char *kind; /* "filter", "generator", "live mask", "generator, live mask" or "plain" */
+    /* "filter", "generator", "group", each also with ", live mask"; "live mask" or "plain" */
+    const char *kind;
     WrLayerRun run;
     char reason[80];   /* English */
     char message[160]; /* the same with marks (message.h) */

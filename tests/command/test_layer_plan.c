@@ -394,6 +394,9 @@ static void the_plan_counts_the_tiles_of_each_layer(void **state)
     assert_int_equal(plan.tiles, 6);
     assert_true(plan.seconds > 0.0);
     assert_string_equal(plan.kind, "generator");
+    must_run(s, "layer group of=far");
+    assert_string_equal(plan_of(s, 5).kind, "group");
+    check_plan(s, 5, WR_LAYER_REUSED, "a group");
     wr_session_free(s);
 }
 
