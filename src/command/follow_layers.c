@@ -1,4 +1,4 @@
-/* Generator layers, linked copies and live masks after each command: which of them the picture needs, and what has changed below
+/* Generator layers, linked copies and live masks after each command: those that the picture needs, and changes below
    them. */
 #include "base/error.h"
 #include "base/text.h"
@@ -144,7 +144,7 @@ void wr_session_below_key(const WrDocument *document, int index, WrBelowKey *key
 
 /* ---- after each command ---- */
 
-/* One pass over the layers, from the bottom up; what a layer reads is made before it, even if that is above. */
+/* One pass over the layers, from the bottom up; the layers that a layer reads are made before it, even those above. */
 typedef struct Following {
     WrSession *session;
     WrLinks links;

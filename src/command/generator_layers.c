@@ -389,7 +389,7 @@ void wr_session_rename_in_lines(WrSession *session, int index, const char *name)
 
 /* ---- after each command ---- */
 
-/* True if what the line reads has changed since. *seen: identifies the layers below as they are now */
+/* True if the layers that the line reads have changed since. *seen: identifies the layers below as they are now */
 static bool has_changed(const WrSession *session, int index, const WrCall *call, uint64_t *seen)
 {
     const WrDocument *document = session->state.document;

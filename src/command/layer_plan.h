@@ -1,5 +1,5 @@
-/* layer_plan.h - plan of a document's layers: which of them the picture needs, which were made at the last command, and what
-   they cost. */
+/* layer_plan.h - plan of a document's layers: those that the picture needs, those made at the last command, and their
+   costs. */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>

@@ -50,7 +50,7 @@ const WrField *wr_composite_update(WrComposite *composite, const WrRows *rows, i
                                    WrPool *pool, const WrField **cover);
 
 /* The composite of the visible rows, those below layer `index` of `count` layers; the caller owns it. Layers with a line or a
-   live mask keep theirs: only what changed since their last call is blended again. Threads as above. */
+   live mask keep theirs: only tiles that changed since their last call are blended again. Threads as above. */
 WrField *wr_composite_below(WrComposite *composite, const WrRows *rows, int count, int index,
                             WrPool *pool);
 
