@@ -91,6 +91,7 @@ struct WrCli {
     bool in_place;   /* --in-place */
     bool markdown;   /* --markdown */
     bool measure;    /* --measure */
+    bool layers;     /* --layers */
     const char *map; /* --map */
 
     char **argv;                /* the shell line, for another program */
@@ -117,7 +118,7 @@ typedef enum WrOption {
     WR_OPTION_RECOVER,   /* --beyond, --script, --in-place */
     WR_OPTION_SHEET,     /* --sheet, --thumbnails, --collection, --settings */
     WR_OPTION_MARKDOWN,  /* --markdown */
-    WR_OPTION_EXPLAIN,   /* --measure */
+    WR_OPTION_EXPLAIN,   /* --measure, --layers */
     WR_OPTION_MAP,       /* --map */
     WR_OPTION_CHECK,     /* --as, of pictures */
     WR_OPTION_FORMAT,    /* --format */

@@ -4,7 +4,9 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "cli/cli.h"
+#include "command/layer_plan.h"
 #include "command/session.h"
+#include "document/document.h"
 #include "image/image.h"
 #include "render/frame/frame.h"
 #include "render/plan/effect_heatmap.h"
@@ -287,12 +289,54 @@ static bool explain(const WrCli *cli, WrSession *session, WrText *text, WrError 
     return true;
 }
 
+/* ---- explain --layers ---- */
+
+static void add_layer_row(WrText *text, int i, const char *name, const WrLayerPlan *plan)
+{
+    char ms[32] = "-";
+    if (plan->seconds > 0.0) snprintf(ms, sizeof ms, "%.1f", 1e3 * plan->seconds);
+    wr_text_addf(text, "%5d %-24.24s %-20s %-9s %9s %7zu %9.2f  %s\n", i + 1, name, plan->kind,
+                 wr_layer_runs[plan->run], ms, plan->tiles, 1e-6 * (double)plan->bytes,
+                 plan->reason);
+}
+
+static void add_layer_json(WrText *text, int i, const char *name, const WrLayerPlan *plan)
+{
+    wr_text_addf(text, "%s{\"layer\":%d,\"name\":", i ? "," : "", i + 1);
+    wr_text_add_json_string(text, name);
+    wr_text_addf(text, ",\"kind\":\"%s\",\"run\":\"%s\",\"reason\":\"%s\",", plan->kind,
+                 wr_layer_runs[plan->run], plan->reason);
+    add_json_seconds(text, "seconds", plan->seconds > 0.0, plan->seconds);
+    wr_text_addf(text, "\"tiles\":%zu,\"bytes\":%zu}", plan->tiles, plan->bytes);
+}
+
+/* Composite the document and print the plan of its layers, from the top down as in the window. */
+static bool explain_layers(const WrCli *cli, WrSession *session, WrText *text, WrError *err)
+{
+    const WrDocument *document = wr_session_document(session);
+    if (!wr_document_whole(document, cli->pool, err)) return false;
+    WrLayerPlan *plan = wr_alloc((size_t)document->layer_count, sizeof *plan);
+    wr_session_layer_plan(session, plan);
+    if (cli->json) wr_text_add(text, "{\"layers\":[");
+    else
+        wr_text_addf(text, "%5s %-24s %-20s %-9s %9s %7s %9s  %s\n", "layer", "name", "kind", "run",
+                     "ms", "tiles", "MB", "reason");
+    for (int k = 0; k < document->layer_count; k++) {
+        const int i = cli->json ? k : document->layer_count - 1 - k;
+        (cli->json ? add_layer_json : add_layer_row)(text, i, document->layers[i].name, &plan[i]);
+    }
+    if (cli->json) wr_text_add(text, "]}\n");
+    wr_free(plan);
+    return true;
+}
+
 int wr_cli_explain(const WrCli *cli)
 {
     WrError err;
     WrText text = { 0 };
     WrSession *session = map_check(cli, &err) ? wr_cli_load(cli, false, &err) : NULL;
-    const bool good = session && explain(cli, session, &text, &err);
+    const bool good =
+        session && (cli->layers ? explain_layers : explain)(cli, session, &text, &err);
     const int status = good ? wr_cli_print(cli, &text) : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
     wr_text_fini(&text);
     wr_session_free(session);

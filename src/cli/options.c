@@ -251,6 +251,9 @@ static const struct Option {
     { "--measure", NULL, NULL, WR_OPTION_EXPLAIN,
       "also render with each effect forced the other way, and print its cost or saving",
       .member = offsetof(WrCli, measure) },
+    { "--layers", NULL, NULL, WR_OPTION_EXPLAIN,
+      "instead: each layer, whether it was made at the last command, why, its time and memory",
+      .member = offsetof(WrCli, layers) },
     { "--map", NULL, "FILE", WR_OPTION_MAP,
       "write a picture of where each effect ran; of --illusion: outline red, shading green, shadow "
       "blue",

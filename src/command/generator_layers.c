@@ -8,9 +8,10 @@
 #include "command/session_internal.h"
 #include "document/blend.h"
 #include "document/document.h"
+#include "document/layer_times.h"
 #include "field/field.h"
 #include "generate/generator.h"
-#include "scene/objects.h"
+#include "system/clock.h"
 #include "system/path.h"
 
 #include <stdlib.h>
@@ -154,6 +155,7 @@ static WrHash read_below(const WrSession *session, int index, const WrCall *call
    unchanged. outer: the call whose from= this is; it gets the line with absolute file names and checksums; or NULL */
 static bool generate(WrSession *session, int index, WrCall *call, WrCall *outer, WrError *err)
 {
+    const double began = wr_clock_seconds();
     WrField *below;
     WrHash source = nothing;
     if (!wr_session_take_source(session, index, call, &source, err)) return false;
@@ -172,8 +174,10 @@ static bool generate(WrSession *session, int index, WrCall *call, WrCall *outer,
     clear(call, own_name(call, "blend"));
     if (wr_call_generator(call)) clear(call, own_name(call, "radius"));
     wr_call_print(call, &line);
-    wr_layer_set_line(&session->state.document->layers[index], wr_text_get(&line), hash);
+    WrLayer *layer = &session->state.document->layers[index];
+    wr_layer_set_line(layer, wr_text_get(&line), hash);
     wr_session_note_source(session, index);
+    wr_layer_time_note(layer->made, wr_clock_seconds() - began, 0);
     wr_text_fini(&line);
     return true;
 }
@@ -385,63 +389,49 @@ void wr_session_rename_in_lines(WrSession *session, int index, const char *name)
 
 /* ---- after each command ---- */
 
-/* The layers below have changed since the line read them. */
-static bool is_stale(const WrSession *session, int index)
+/* True if the layers that the line reads have changed since. *seen: identifies the layers below as they are now */
+static bool has_changed(const WrSession *session, int index, const WrCall *call, uint64_t *seen)
 {
     const WrDocument *document = session->state.document;
     const WrLayer *layer = &document->layers[index];
-    if (wr_hash_equal(layer->below, nothing) || !wr_document_shows(document, index)) return false;
-    WrCall *call = call_of(session, index, NULL);
-    if (!call) return false;
+    WrBelowKey key;
+    wr_session_below_key(document, index, &key);
+    const bool names = wr_call_generator(call) && wr_call_layer_argument(call);
+    *seen = (names ? key.all.low : key.shown.low) | 1;
+    if (layer->seen == *seen) return false;
     WrField *below;
     const WrHash hash = read_below(session, index, call, &below);
     wr_field_free(below);
-    wr_call_free(call);
     /* a layer that the line names may be gone: the heights then stay */
     return !wr_hash_equal(hash, nothing) && !wr_hash_equal(hash, layer->below);
 }
 
-/* One pass over the layers, from the bottom up; what a layer reads is made before it, even if that is above. */
-typedef struct Following {
-    WrSession *session;
-    WrLinks links;
-    bool needed[WR_LAYERS_MAX];  /* by the composite, or by a mask */
-    bool heights[WR_LAYERS_MAX]; /* done, or being done */
-    bool masks[WR_LAYERS_MAX];
-} Following;
-
-/* Hidden copies that nothing reads wait until they are shown, as other lines do. */
-static bool is_read(const Following *f, int index)
+/* Generate a layer whose line reads layers that have changed. A line of another version leaves the heights as they are. */
+static bool follow_read(WrSession *session, int index, WrError *err)
 {
-    const WrDocument *document = f->session->state.document;
-    bool read =
-        f->needed[index] || wr_scene_uses_layer(document->scene, document->layers[index].name);
-    for (int i = 0; i < document->layer_count && !read; i++) read = f->links.source[i] == index;
-    return read;
-}
-
-/* A line of another version leaves the heights as they are. */
-static bool is_known(const WrSession *session, int index)
-{
-    WrCall *call = call_of(session, index, NULL);
+    WrLayer *layer = &session->state.document->layers[index];
+    WrCall *call = wr_hash_equal(layer->below, nothing) ? NULL : call_of(session, index, NULL);
+    if (!call) return true;
+    uint64_t seen;
+    const bool stale = has_changed(session, index, call, &seen);
     wr_call_free(call);
-    return call != NULL;
+    if (stale && !wr_session_generate_again(session, index, err)) return false;
+    layer->seen = seen;
+    return true;
 }
 
-static bool follow_line(Following *f, int index, WrError *err)
+bool wr_session_follow_line(WrSession *session, const WrLinks *links, int index, bool needed,
+                            bool read, WrError *err)
 {
-    WrSession *session = f->session;
     WrLayer *layer = &session->state.document->layers[index];
     if (!layer->line) return true;
     const bool written = wr_field_key(layer->heights) != layer->made;
-    const bool copied = f->links.copies[index] && (written || is_read(f, index)) &&
-                        wr_session_check_source(session, &f->links, index);
+    const bool copied =
+        links->copies[index] && (written || read) && wr_session_check_source(session, links, index);
     /* a command on the tables of all layers changes the source too */
-    if (copied && wr_session_link_lags(session, &f->links, index))
+    if (copied && wr_session_link_lags(session, links, index))
         return wr_session_generate_again(session, index, err);
-    if (!written)
-        return f->links.copies[index] || !is_stale(session, index) || !is_known(session, index) ||
-               wr_session_generate_again(session, index, err);
+    if (!written) return links->copies[index] || !needed || follow_read(session, index, err);
     WrText name = { 0 }; /* another command wrote its heights */
     wr_session_note(session, "%s is a plain layer now: its heights are no longer its line's",
                     wr_session_layer_name(session, index, &name));
@@ -450,42 +440,16 @@ static bool follow_line(Following *f, int index, WrError *err)
     return true;
 }
 
-static bool follow_heights(Following *f, int index, WrError *err);
-
-static bool follow_mask(Following *f, int index, WrError *err)
+int wr_session_line_layer(const WrSession *session, int index)
 {
-    if (f->masks[index]) return true;
-    f->masks[index] = true;
-    return !f->needed[index] || wr_session_follow_mask(f->session, index, err);
-}
-
-static bool follow_below(Following *f, int index, WrError *err)
-{
-    bool good = true;
-    for (int i = 0; good && i < index; i++)
-        good = follow_heights(f, i, err) && follow_mask(f, i, err);
-    return good;
-}
-
-static bool follow_heights(Following *f, int index, WrError *err)
-{
-    if (f->heights[index]) return true;
-    f->heights[index] = true; /* a cycle ends here; its copies keep their heights */
-    if (f->links.source[index] >= 0 && !follow_heights(f, f->links.source[index], err))
-        return false;
-    if (wr_layer_reads_below(f->session->state.document, &f->links, index) &&
-        !follow_below(f, index, err))
-        return false;
-    return follow_line(f, index, err);
-}
-
-bool wr_session_follow_lines(WrSession *session, WrError *err)
-{
-    Following f = { .session = session };
-    wr_session_needed_masks(session, f.needed);
-    wr_session_links(session, &f.links);
-    const int count = session->state.document->layer_count;
-    return follow_below(&f, count, err);
+    const WrDocument *document = session->state.document;
+    if (!document->layers[index].line || wr_hash_equal(document->layers[index].below, nothing))
+        return -1;
+    WrCall *call = call_of(session, index, NULL);
+    const WrArg *named = call && wr_call_generator(call) ? wr_call_layer_argument(call) : NULL;
+    const int found = named ? wr_document_find_below(document, index, named->text) : -1;
+    wr_call_free(call);
+    return found;
 }
 
 /* One note for a file, however many layers name it. */

@@ -537,6 +537,7 @@ static bool layer_merge(WrSession *session, WrCall *call, WrError *err)
     const WrDocument *document = session->state.document;
     WrLayerList layers;
     if (!find_unlocked(session, call, &layers, err)) return false;
+    if (!wr_session_make_all_layers(session, err)) return false;
     if (layers.count == 1 && document->layers[layers.index[0]].is_group)
         return join_group(session, layers.index[0]);
     if (layers.count == 1 && !add_below(session, &layers, err)) return false;
@@ -553,6 +554,7 @@ static bool layer_flatten(WrSession *session, WrCall *call, WrError *err)
     WrDocument *document = session->state.document;
     for (int i = 0; i < document->layer_count; i++)
         if (!wr_session_check_unlocked(session, i, err)) return false;
+    if (!wr_session_make_all_layers(session, err)) return false;
     note_hidden(session, 0, document->layer_count);
     wr_document_flatten(document, session->options.pool);
     wr_session_store_in_variants(session, 0);
@@ -735,6 +737,7 @@ static bool each_unlocked(WrSession *session, WrCall *call,
 
 static bool layer_rasterize(WrSession *session, WrCall *call, WrError *err)
 {
+    if (!wr_session_make_all_layers(session, err)) return false;
     return each_unlocked(session, call, rasterize_one, err);
 }
 

@@ -10,6 +10,7 @@
 #include "command/commands.h"
 #include "command/session_internal.h"
 #include "document/document.h"
+#include "document/layer_times.h"
 #include "field/field.h"
 #include "field/measure.h"
 #include "field/occlusion.h"
@@ -19,6 +20,7 @@
 #include "noise/octaves.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
+#include "system/clock.h"
 
 #include <math.h>
 #include <string.h>
@@ -45,6 +47,12 @@ static const char *named_layer(const WrCall *term)
     for (int i = 0; i < term->count; i++)
         if (strcmp(term->specs[i].name, OF) == 0 && term->args[i].given) return term->args[i].text;
     return NULL;
+}
+
+int wr_mask_term_layer(const WrDocument *document, int index, const WrCall *term)
+{
+    const char *name = named_layer(term);
+    return name ? wr_document_find_below(document, index, name) : -1;
 }
 
 static bool takes_layer(const WrCall *term)
@@ -515,6 +523,7 @@ static bool put_mask(MaskJob *job, const WrMaskTerms *terms, const char *line, W
                      WrError *err)
 {
     WrLayer *layer = &job->session->state.document->layers[job->index];
+    const double began = wr_clock_seconds();
     WrField *mask = make_mask(job, terms, err);
     if (!mask) return false;
     share_equal(mask, layer->mask);
@@ -522,6 +531,7 @@ static bool put_mask(MaskJob *job, const WrMaskTerms *terms, const char *line, W
     layer->mask = mask;
     char *kept = wr_strdup(line);
     wr_layer_set_mask_line(layer, kept, read);
+    wr_layer_time_note(layer->mask_made, wr_clock_seconds() - began, 0);
     wr_free(kept);
     return true;
 }
@@ -532,6 +542,7 @@ bool wr_session_set_live_mask(WrSession *session, int index, const char *line, W
     if (strcmp(line, "off") == 0) {
         if (!layer->mask_line)
             return wr_fail(err, "live=off: layer %d has no live mask", index + 1);
+        if (!wr_session_make_all_layers(session, err)) return false;
         wr_layer_set_mask_line(layer, NULL, layer->mask_read);
         return true;
     }
@@ -553,33 +564,13 @@ bool wr_session_set_live_mask(WrSession *session, int index, const char *line, W
 
 /* ---- after each command ---- */
 
-/* A number for the layers below and the scene's height as they are: one comparison instead of composites and their
-   hashes. Unique over the life of the process as wr_field_key is. */
-static uint64_t layers_key(const MaskJob *job)
+/* A number for the layers below, as far as the mask reads them, and the scene's height. */
+static uint64_t seen_key(const MaskJob *job, const char *line)
 {
-    const WrDocument *document = job->session->state.document;
-    WrHash hash = wr_hash_bytes(&job->relief, sizeof job->relief, (WrHash){ 0, 0 });
-    for (int i = 0; i < job->index; i++) {
-        const WrLayer *layer = &document->layers[i];
-        const uint64_t keys[] = { wr_field_key(layer->heights),
-                                  layer->cover ? wr_field_key(layer->cover) : 0,
-                                  layer->mask ? wr_field_key(layer->mask) : 0,
-                                  (uint64_t)layer->blend << 1 | layer->visible };
-        const int group = wr_document_parent(document, i);
-        const float numbers[] = { layer->opacity, layer->radius,
-                                  (float)(2 * layer->depth + layer->is_group),
-                                  group < 0 ? -1.0f : (float)document->layers[group].blend };
-        hash = wr_hash_bytes(keys, sizeof keys, hash);
-        hash = wr_hash_bytes(numbers, sizeof numbers, hash);
-        hash = wr_hash_bytes(layer->name, strlen(layer->name) + 1, hash);
-        if (layer->filter.op) {
-            WrText filter = { 0 };
-            wr_filter_print(&layer->filter, &filter);
-            hash = wr_hash_bytes(wr_text_get(&filter), filter.length, hash);
-            wr_text_fini(&filter);
-        }
-    }
-    return hash.low | 1;
+    WrBelowKey key;
+    wr_session_below_key(job->session->state.document, job->index, &key);
+    const WrHash layers = strstr(line, OF "=") ? key.all : key.shown;
+    return wr_hash_bytes(&job->relief, sizeof job->relief, layers).low | 1;
 }
 
 /* The first layer that the terms name and that is not below any more; NULL: all are. */
@@ -615,33 +606,15 @@ static bool follow_terms(WrSession *session, MaskJob *job, const WrMaskTerms *te
     return true;
 }
 
-void wr_session_needed_masks(const WrSession *session, bool needed[WR_LAYERS_MAX])
-{
-    const WrDocument *document = session->state.document;
-    for (int i = 0; i < document->layer_count; i++) needed[i] = wr_document_shows(document, i);
-    for (int i = document->layer_count - 1; i > 0; i--) {
-        const char *line = document->layers[i].mask_line;
-        WrMaskTerms terms;
-        if (!needed[i] || !line || !wr_mask_terms_parse(line, &terms, NULL)) continue;
-        for (int k = 0; k < terms.count; k++) {
-            const char *name = named_layer(terms.calls[k]);
-            const int found = name ? wr_document_find_below(document, i, name) : -1;
-            if (found >= 0) needed[found] = true;
-        }
-        wr_mask_terms_free(&terms);
-    }
-}
-
 bool wr_session_follow_mask(WrSession *session, int index, WrError *err)
 {
     WrLayer *layer = &session->state.document->layers[index];
-    if (!layer->mask_line) return true;
     if (!layer->mask) wr_layer_set_mask_line(layer, NULL, layer->mask_read);
+    if (!layer->mask_line) return true;
     MaskJob job = job_of(session, index);
-    const uint64_t key = layers_key(&job);
+    const uint64_t key = seen_key(&job, layer->mask_line);
     WrMaskTerms terms;
-    if (!layer->mask ||
-        (layer->mask_seen == key && layer->mask_made == wr_field_key(layer->mask)) ||
+    if ((layer->mask_seen == key && layer->mask_made == wr_field_key(layer->mask)) ||
         !wr_mask_terms_parse(layer->mask_line, &terms,
                              NULL)) /* of another version: the mask stays */
         return true;

@@ -3,6 +3,7 @@
 #include <stdbool.h>
 
 typedef struct WrCall WrCall;
+typedef struct WrDocument WrDocument;
 typedef struct WrError WrError;
 typedef struct WrText WrText;
 
@@ -18,3 +19,5 @@ const char *wr_mask_kind(int i); /* name of a kind of term; NULL past the last *
 bool wr_mask_terms_parse(const char *line, WrMaskTerms *terms, WrError *err);
 void wr_mask_terms_print(const WrMaskTerms *terms, WrText *line);
 void wr_mask_terms_free(WrMaskTerms *terms);
+/* Index of the layer that a term of the mask of layer `index` names; -1: none, or it is not below. */
+int wr_mask_term_layer(const WrDocument *document, int index, const WrCall *term);

@@ -13,6 +13,7 @@
 #include "document/document.h"
 #include "document/edit.h"
 #include "document/history.h"
+#include "document/layer_times.h"
 #include "export/export.h"
 #include "export/receipt.h"
 #include "field/field.h"
@@ -327,6 +328,7 @@ WrSession *wr_session_snapshot(const WrSession *session)
                                      .stamp = state->stamp,
                                      .chosen = wr_strdup(state->chosen) };
     still->last_revision = session->last_revision;
+    still->made_before = session->made_before;
     still->budget = session->budget;
     still->unsafe = !wr_session_journal_safe(session, &reason);
     still->unsafe_words = wr_strdup(reason);
@@ -604,6 +606,8 @@ static bool run_call(WrSession *session, WrCall *call, WrError *err)
         wr_session_journal_after(session, good, false);
         return good;
     }
+    if (session->depth == 0 && !view && !session->made)
+        session->made_before = wr_layer_time_last(); /* `made` was made before */
     session->depth++;
     good = run_edit(session, call, err);
     session->depth--;

@@ -4,6 +4,8 @@
 #include "base/file.h"
 #include "brush/brush.h"
 #include "command/command_line.h"
+#include "command/layer_plan.h"
+#include "command/linked_copies.h"
 #include "command/session.h"
 #include "document/document.h"
 #include "document/document_file.h"
@@ -91,9 +93,10 @@ struct WrSession {
     WR_ARRAY(char *) kept;           /* SHA-256 of the files copied into the journal; owned */
     WR_ARRAY(WrSessionInput) inputs; /* files read by lines; paths are owned */
 
-    bool still;         /* this is a snapshot: wr_session_snapshot */
-    bool unsafe;        /* of a snapshot: the journal is not safe */
-    char *unsafe_words; /* the cause; owned */
+    bool still;           /* this is a snapshot: wr_session_snapshot */
+    uint64_t made_before; /* number of the last making (layer_times.h) before the last command */
+    bool unsafe;          /* of a snapshot: the journal is not safe */
+    char *unsafe_words;   /* the cause; owned */
 };
 
 /* Send a note to options.note; not an error. */
@@ -176,6 +179,24 @@ bool wr_height_colormap_lags(const WrSession *session, const WrScene *object);
 bool wr_height_colormap_make(const WrSession *session, WrScene *object, WrError *err);
 /* Update terrains whose layers have changed, and colours by height. Called at the end of a command or a stroke. */
 bool wr_session_follow(WrSession *session, WrError *err);
+
+/* ---- layers that depend on others: follow_layers.c ---- */
+
+/* Identity of the layers below a layer, one number instead of their composite: of those that are shown (in a document with groups
+   of all), and of all with their names. */
+typedef struct WrBelowKey {
+    WrHash shown, all;
+} WrBelowKey;
+void wr_session_below_key(const WrDocument *document, int index, WrBelowKey *key);
+
+/* For each layer whether the picture needs it, and if not, why. */
+void wr_session_layer_needs(const WrSession *session, WrLayerNeed needs[WR_LAYERS_MAX]);
+/* At the end of every command, from the bottom up: make the generator layers and live masks that the picture needs and that
+   read layers that have changed; layers whose heights another command wrote become plain. */
+bool wr_session_follow_layers(WrSession *session, WrError *err);
+/* The same with those that the picture does not need, before a command that uses them all. */
+bool wr_session_make_all_layers(WrSession *session, WrError *err);
+
 /* ---- generator layers: generator_layers.c ---- */
 
 /* Insert `layer` (new, empty; ownership passes) at *index and generate it by the from= of `outer`; the selection becomes its
@@ -197,9 +218,12 @@ bool wr_session_generate_again(WrSession *session, int index, WrError *err);
 /* Give a generator layer another line, and generate it. An unknown line is left out, with a
    note. */
 bool wr_session_use_line(WrSession *session, int index, const char *line, WrError *err);
-/* At the end of every command, from the bottom up: generate the layers whose lines read layers that have changed, and live
-   masks; layers whose heights another command wrote become plain. */
-bool wr_session_follow_lines(WrSession *session, WrError *err);
+/* Generate a layer again if it is needed and its line reads layers that have changed, or if it is a linked copy that is read;
+   if another command wrote its heights, make it plain. */
+bool wr_session_follow_line(WrSession *session, const WrLinks *links, int index, bool needed,
+                            bool read, WrError *err);
+/* Index of the layer below that the line of layer `index` names; -1: none. */
+int wr_session_line_layer(const WrSession *session, int index);
 /* Note the layers whose files are missing, each file once, and those whose lines, or terms of masks, this program does not know. */
 void wr_session_note_lines(WrSession *session);
 
@@ -207,8 +231,6 @@ void wr_session_note_lines(WrSession *session);
 
 /* Make the layer's mask a live one, by these terms, or a plain one by "off". */
 bool wr_session_set_live_mask(WrSession *session, int index, const char *line, WrError *err);
-/* The layers that are shown, and those that their masks read. */
-void wr_session_needed_masks(const WrSession *session, bool needed[WR_LAYERS_MAX]);
 /* Make the live mask of a layer again, if anything that it reads has changed. */
 bool wr_session_follow_mask(WrSession *session, int index, WrError *err);
 /* Note a live mask whose terms this program does not know. */

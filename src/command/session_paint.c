@@ -11,6 +11,7 @@
 #include "command/session_internal.h"
 #include "document/blend.h"
 #include "document/document.h"
+#include "document/layer_times.h"
 #include "field/field.h"
 #include "field/ramp.h"
 #include "field/select.h"
@@ -870,6 +871,7 @@ bool wr_session_stroke_end(WrSession *session, WrError *err)
     wr_document_edit_end(session->state.document, &session->stand_in);
     WrCall *call = take_call(session);
     bool drawn = wr_call_given(call, "points");
+    session->made_before = wr_layer_time_last();
     const bool good = !drawn || wr_session_follow(session, err);
     drawn = drawn && good;
     if (drawn) wr_session_remember(session, call);

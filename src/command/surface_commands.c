@@ -244,7 +244,7 @@ static bool follow_object(WrSession *session, int i, int form, WrError *err)
    holds a stale surface. */
 bool wr_session_follow(WrSession *session, WrError *err)
 {
-    if (!session->loading && !wr_session_follow_lines(session, err)) return false;
+    if (!session->loading && !wr_session_follow_layers(session, err)) return false;
     for (int i = 0; i < wr_scene_object_count(session->state.document->scene); i++) {
         const WrScene *object = wr_scene_object(session->state.document->scene, i);
         int form = -1;

@@ -7,8 +7,11 @@
 #include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"
+#include "document/below.h"
 #include "document/document.h"
+#include "document/layer_times.h"
 #include "field/field.h"
+#include "system/clock.h"
 #include "system/thread.h"
 
 #include <math.h>
@@ -537,6 +540,7 @@ struct WrComposite {
     Chain top;
     WR_ARRAY(Chain) groups; /* [groups] in the order of their rows */
     WrField *one;           /* height 1 everywhere; NULL: not needed yet */
+    WrBelow *below;         /* for layers that read the layers below them; owned; NULL: none has */
 };
 
 /* Error of the last filter that failed; "" if none did. */
@@ -583,6 +587,7 @@ WrComposite *wr_composite_share(const WrComposite *composite)
     for (int i = 0; i < from->groups.count; i++)
         wr_array_push(&copy->groups, share_chain(&from->groups.data[i]));
     copy->one = share_or_null(from->one);
+    copy->below = wr_below_share(from->below);
     wr_mutex_unlock(&from->lock);
     return copy;
 }
@@ -614,6 +619,7 @@ void wr_composite_free(WrComposite *composite)
     drop_groups(composite, 0);
     wr_array_free(&composite->groups);
     wr_field_free(composite->one);
+    wr_below_free(composite->below);
     wr_mutex_fini(&composite->lock);
     wr_free(composite);
 }
@@ -624,6 +630,19 @@ static Stage *stage_at(Chain *chain, int index)
         wr_array_push(&chain->stages,
                       ((Stage){ .above = wr_compositor_new(), .cover = wr_compositor_new() }));
     return &chain->stages.data[index];
+}
+
+static void count_tile(int tx, int ty, void *ctx)
+{
+    (void)tx, (void)ty;
+    ++*(size_t *)ctx;
+}
+
+static void note_time(const WrLayer *layer, double began, const WrField *in, const WrField *made)
+{
+    size_t tiles = 0;
+    wr_field_changes(in, made, count_tile, &tiles);
+    wr_layer_time_note(wr_field_key(layer->heights), wr_clock_seconds() - began, tiles);
 }
 
 /* The filter applied to a composite. If it fails or is cancelled: the composite itself. */
@@ -641,6 +660,7 @@ static const WrField *filtered(Stage *stage, const WrLayer *layer, const WrField
                                   .pool = pool,
                                   .progress = &quiet.progress };
     WrError err;
+    const double began = wr_clock_seconds();
     WrField *made = wr_op_run(filter->op, in, filter->param, &options, &err);
     if (!made && !wr_progress_stopped())
         wr_fail(&lack,
@@ -648,6 +668,7 @@ static const WrField *filtered(Stage *stage, const WrLayer *layer, const WrField
                 "less open",
                 layer->name, err.text);
     if (!made) return in;
+    note_time(layer, began, in, made);
     wr_field_free(stage->given);
     wr_field_free(stage->made);
     stage->filter = *filter;
@@ -823,18 +844,38 @@ static void make_room(WrComposite *composite, const WrRows *rows)
                                   wr_field_wrap_u(like), wr_field_wrap_v(like), 1.0f, NULL);
 }
 
+/* Without groups, the layers below the last one that reads heights are not blended twice. */
+static bool may_shorten(const WrComposite *composite, const WrRows *rows, int solo)
+{
+    return composite->below && solo < 0 && rows->from == 0 && !rows->partial &&
+           groups_in(rows->layers, 0, rows->to) == 0;
+}
+
 const WrField *wr_composite_update(WrComposite *composite, const WrRows *rows, int solo,
                                    WrPool *pool, const WrField **cover)
 {
     WR_ASSERT(rows->from < rows->to && rows->to - rows->from <= WR_LAYERS_MAX);
     wr_mutex_lock(&composite->lock);
     make_room(composite, rows);
-    const Pass pass = { composite, rows->layers, solo, pool };
+    WrBelowStack slice = { .layers = rows->layers, .count = rows->to, .from = rows->from };
+    if (!cover && may_shorten(composite, rows, solo))
+        wr_below_begin(composite->below, rows->layers, rows->to, pool, &slice);
+    const Pass pass = { composite, slice.layers, solo, pool };
     const Stack stack = { .chain = &composite->top,
                           .partial = rows->partial,
                           .wants_cover = cover || rows->partial };
-    const Made made = composite_rows(&pass, stack, rows->from, rows->to, 0);
+    const Made made = composite_rows(&pass, stack, slice.from, slice.count, 0);
+    wr_below_end(&slice);
     if (cover) *cover = made.cover;
     wr_mutex_unlock(&composite->lock);
     return made.heights;
+}
+
+WrField *wr_composite_below(WrComposite *composite, const WrRows *rows, int count, int index,
+                            WrPool *pool)
+{
+    wr_mutex_lock(&composite->lock);
+    WrField *made = wr_below_update(&composite->below, rows, count, index, pool);
+    wr_mutex_unlock(&composite->lock);
+    return made;
 }

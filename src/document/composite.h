@@ -49,6 +49,11 @@ typedef struct WrRows {
 const WrField *wr_composite_update(WrComposite *composite, const WrRows *rows, int solo,
                                    WrPool *pool, const WrField **cover);
 
+/* The composite of the visible rows, those below layer `index` of `count` layers; the caller owns it. Layers with a line or a
+   live mask keep theirs: only tiles that changed since their last call are blended again. Threads as above. */
+WrField *wr_composite_below(WrComposite *composite, const WrRows *rows, int count, int index,
+                            WrPool *pool);
+
 /* ---- incremental compositor of a stack of layers, tile by tile ---- */
 
 /* Works on fields and blend modes only; the caller owns the layers. */

@@ -84,6 +84,7 @@ void wr_layer_set_line(WrLayer *layer, const char *line, WrHash below)
     layer->below = below;
     layer->made = line ? wr_field_key(layer->heights) : 0;
     layer->copied = 0;
+    layer->seen = 0;
 }
 
 void wr_layer_set_mask_line(WrLayer *layer, const char *line, WrHash read)
@@ -169,6 +170,13 @@ bool wr_document_generates(const WrDocument *document)
 bool wr_layer_holds(const WrLayer *layer)
 {
     return !layer->filter.op && !layer->is_group;
+}
+
+bool wr_layer_hides(const WrLayer *layer)
+{
+    const WrBlendMode *mode = &wr_blends[layer->blend];
+    return layer->visible && mode->takes && layer->opacity >= 1.0f && !layer->mask &&
+           wr_layer_holds(layer) && !(mode->uses_cover && layer->cover);
 }
 
 /* ---- groups ---- */
@@ -753,7 +761,8 @@ WrField *wr_document_below(const WrDocument *document, int index, WrPool *pool)
     const WrLayer *layers = document->layers;
     const WrRows rows = rows_beside(document, index, wr_layers_first_sibling(layers, index),
                                     wr_layers_first(layers, index));
-    if (rows.from < rows.to) return composite_of(&rows, pool, NULL);
+    if (rows.from < rows.to)
+        return wr_composite_below(document->composite, &rows, document->layer_count, index, pool);
     return empty_like(layers[index].heights, 0.0f);
 }
 

@@ -29,6 +29,7 @@ typedef struct WrLayer {
     char *line;    /* command line of a generator layer; NULL: a plain layer. Owned */
     WrHash below;  /* hash of the composite that the line read; 0: it reads none */
     uint64_t made; /* wr_field_key of the heights as the line made them */
+    uint64_t seen; /* identifies the layers below for which they were found up to date; 0: none */
     uint64_t
         copied; /* key of the layer that the line copies, as it was copied; 0: none, or just opened */
     char *mask_line;    /* terms of a live mask; NULL: a plain mask, or none. Owned */
@@ -98,7 +99,8 @@ bool wr_filters_carried(WrError *err);
 const WrField *wr_document_whole(const WrDocument *document, WrPool *pool, WrError *err);
 
 /* The composite of the visible layers below layer `index` (0..layer_count - 1) in its own group, as a filter there reads
-   it (composite.h); 0 where there are none. A new table, owned by the caller. */
+   it (composite.h); 0 where there are none. A new table, owned by the caller. For a layer with a line or a live mask only
+   tiles that changed since the last call are blended again. Any number of threads may call it as long as nobody edits. */
 WrField *wr_document_below(const WrDocument *document, int index, WrPool *pool);
 
 /* Hash of everything that a document file stores: layers with their names, settings and fields, the selection,
@@ -138,6 +140,9 @@ bool wr_document_filters(const WrDocument *document); /* true if any layer is a 
 bool wr_document_groups(const WrDocument *document);  /* true if any is a group */
 /* true if any is a generator layer or has a live mask */
 bool wr_document_generates(const WrDocument *document);
+/* True if it is visible, no filter and no group, and hides all layers below it in its group in every texel: opaque, and
+   without a mask. */
+bool wr_layer_hides(const WrLayer *layer);
 /* True if the layer is shown: it and all groups that it is in are visible, and no other layer is solo. A solo group shows its
    visible members. */
 bool wr_document_shows(const WrDocument *document, int index);

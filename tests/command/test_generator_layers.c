@@ -209,7 +209,7 @@ static void a_line_that_reads_heights_follows_the_layers_below(void **state)
     assert_true(same_field(wr_document_field(doc(s)), wr_document_field(doc(plain))));
     /* a line that reads none is not run again: its tiles are the same ones */
     must_run(s, "layer use 2");
-    must_run(s, "layer add dots from=\"pattern dots across=3\"");
+    must_run(s, "layer add dots from=\"pattern dots across=3 blend=add\"");
     must_run(s, "layer use 1");
     const uint64_t key = wr_field_key(doc(s)->layers[2].heights);
     must_run(s, "dab 0.5,0.5 radius=5");

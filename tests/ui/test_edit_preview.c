@@ -177,6 +177,66 @@ static void a_rough_trial_is_near_and_then_the_exact_one_comes(void **state)
     wr_session_free(session);
 }
 
+/* The rough result of a change within a stack is nearer to the exact one than the composite before the change. */
+static void rough_changes_of_layers_are_near(void **state)
+{
+    (void)state;
+    static const char *const stack[] = {
+        "table 1087x1031",
+        "noise gradient cells=7 amplitude=0.3 seed=5",
+        "layer add low from=\"noise perlin cells=6 amplitude=0.4 seed=8 blend=add\"",
+        "filter blur sigma=2",
+        "layer add top from=\"noise gradient cells=90 amplitude=0.1\"",
+        "layer set top blend=add opacity=0.7"
+    };
+    const WrOpInfo *blur = wr_op_find("blur");
+    const struct {
+        WrEditPreviewRequest ask;
+        const char *line;
+    } changes[] = {
+        { { .line = "noise perlin cells=6 amplitude=0.55 seed=8",
+            .target = WR_LINE_OF_LAYER,
+            .rough = true,
+            .layer = 1,
+            .blend = WR_BLEND_ADD,
+            .radius = 0.1f,
+            .opacity = 1.0f },
+          "layer set low change=\"amplitude=0.55\"" },
+        { { .layer = 1, .blend = WR_BLEND_ADD, .opacity = 0.25f }, "layer set low opacity=0.25" },
+        { { .line = "noise perlin cells=5 amplitude=0.2 blend=add",
+            .target = WR_LINE_NEW_LAYER,
+            .rough = true },
+          "layer add new from=\"noise perlin cells=5 amplitude=0.2 blend=add\"" },
+        { { .op = blur, .param = { 31 }, .filters = true, .layer = 2 },
+          "filter blur sigma=31 layer=3" },
+    };
+    for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
+        WrError err = { "" };
+        WrSession *session = session_of(stack, sizeof stack / sizeof *stack);
+        WrField *before = wr_field_share(wr_document_field(wr_session_document(session)));
+        WrEditPreview *trial = wr_edit_preview_new(2, SDL_USEREVENT);
+        wr_edit_preview_request(trial, wr_session_document(session), &changes[i].ask);
+        wait_until_done(trial);
+        assert_true(wr_edit_preview_is_rough(trial));
+        WrField *rough = wr_field_share(wr_edit_preview_field(trial));
+        wait_until_done(trial);
+        assert_false(wr_edit_preview_is_rough(trial));
+        const WrField *exact = wr_edit_preview_field(trial);
+        const double change = mean_difference(before, exact);
+        assert_true(change > 0.0);
+        if (!(mean_difference(rough, exact) < 0.2 * change))
+            fail_msg("%s: %g, of a change of %g", changes[i].line, mean_difference(rough, exact),
+                     change);
+        if (wr_session_run(session, changes[i].line, &err))
+            assert_same_heights(exact, wr_document_field(wr_session_document(session)));
+        else assert_int_equal(i, 3); /* filters are changed by another command */
+        wr_field_free(before);
+        wr_field_free(rough);
+        wr_edit_preview_free(trial);
+        wr_session_free(session);
+    }
+}
+
 static void a_line_that_is_wrong_is_said_to_be(void **state)
 {
     (void)state;
@@ -288,6 +348,7 @@ int main(void)
         cmocka_unit_test(a_generator_that_is_tried_comes_out_as_its_command),
         cmocka_unit_test(what_a_generator_notes_is_told_with_what_it_shows),
         cmocka_unit_test(a_rough_trial_is_near_and_then_the_exact_one_comes),
+        cmocka_unit_test(rough_changes_of_layers_are_near),
         cmocka_unit_test(a_line_that_is_wrong_is_said_to_be),
         cmocka_unit_test(a_trial_that_fails_says_why_once),
         cmocka_unit_test(outlines_show_what_a_selection_would_become),

@@ -35,6 +35,7 @@
 #include "ui/toolkit/words.h"
 #include "ui/panels/help/guide.h"
 #include "ui/panels/missing_files.h"
+#include "ui/panels/panel_layer_plan.h"
 #include "ui/panels/panel_layers.h"
 #include "ui/panels/panel_status.h"
 #include "ui/panels/panel_dynamics.h"
@@ -503,6 +504,7 @@ typedef struct Store {
     WrMarks marks;
     WrSelectState select;
     WrLayersState layers;
+    WrLayerPlanState layer_plan;
     WrSurfaceState surface;
     WrObjectsState objects;
     WrAdjust adjust;
@@ -545,6 +547,7 @@ WrApp *wr_store_new(void)
     app->marks = &store->marks;
     app->select = &store->select;
     app->layers = &store->layers;
+    app->layer_plan = &store->layer_plan;
     app->surface = &store->surface;
     app->objects = &store->objects;
     app->adjust = &store->adjust;

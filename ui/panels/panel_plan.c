@@ -3,6 +3,7 @@
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
+#include "ui/panels/panel_layer_plan.h"
 #include "ui/panels/panels.h"
 #include "ui/patch/patch.h"
 #include "ui/patch/preview/preview.h"
@@ -87,4 +88,5 @@ void wr_panel_plan(WrApp *app)
                 effect(app, i, &picture->plan.rows[i]);
         wr_gui_space(8);
     }
+    wr_panel_layer_plan(app);
 }

@@ -1,4 +1,5 @@
 #include "ui/app/jobs/edit_preview.h"
+#include "ui/app/jobs/coarse_preview.h"
 #include "ui/app/jobs/job.h"
 
 #include "base/array.h"
@@ -16,6 +17,7 @@
 #include "field/ops.h"
 #include "generate/generator.h"
 #include "system/clock.h"
+#include "system/thread.h"
 
 #include <SDL.h>
 #include <math.h>
@@ -23,6 +25,7 @@
 
 /* ---- the edited table ---- */
 
+#define PATIENCE_SECONDS 0.25 /* a rough result that is due this soon is awaited */
 #define ROUGH_TEXELS 262144.0 /* approximate size of a rough table */
 #define ROUGH_MIN 16          /* least texels along a side */
 
@@ -99,7 +102,8 @@ static bool make_small(const WrGenerator *generator, WrParamValue *values, WrGen
     return good;
 }
 
-static bool make(const WrCall *call, WrGenerateJob *job, WrRelief *out, WrError *err)
+/* shrunk: the table is that many times smaller than the one the line is for */
+static bool make(const WrCall *call, WrGenerateJob *job, int shrunk, WrRelief *out, WrError *err)
 {
     const WrGenerator *generator = wr_call_generator(call);
     WrParamValue values[WR_GENERATOR_PARAMS];
@@ -108,7 +112,8 @@ static bool make(const WrCall *call, WrGenerateJob *job, WrRelief *out, WrError 
     for (int i = 0; generator->params[i].name; i++)
         if (generator->params[i].kind == WR_PARAM_TEXT && values[i].text)
             values[i].text = owned[i] = wr_generator_text(values[i].text);
-    int step = job->coarse ? rough_step(generator, job->like) : 1;
+    if (shrunk > 1) shrink(generator, values, shrunk);
+    int step = job->coarse && shrunk == 1 ? rough_step(generator, job->like) : 1;
     bool good = step > 1 ? make_small(generator, values, job, step, out, err)
                          : wr_generator_make(generator, values, job, out, err);
     for (int i = 0; i < WR_GENERATOR_PARAMS; i++) wr_free(owned[i]);
@@ -127,7 +132,7 @@ static bool into_active(WrDocument *document, const WrCall *call, WrGenerateJob 
     job->selection = document->selection;
     job->mask = document->layers[document->active].mask;
     const bool good =
-        make(call, job, &relief, err) &&
+        make(call, job, 1, &relief, err) &&
         wr_call_join(call, &relief, document->selection, layer, job->pool, job->progress, err);
     wr_document_edit_end(document, &stand_in);
     wr_relief_fini(&relief);
@@ -143,7 +148,8 @@ static void add_layer(WrDocument *document, const WrCall *call)
     document->active++;
 }
 
-static bool as_layer(WrDocument *document, const WrCall *call, WrGenerateJob *job, WrError *err)
+static bool as_layer(WrDocument *document, const WrCall *call, WrGenerateJob *job, int shrunk,
+                     WrError *err)
 {
     WrRelief relief = { NULL, NULL };
     WrLayer *layer = &document->layers[document->active];
@@ -156,7 +162,7 @@ static bool as_layer(WrDocument *document, const WrCall *call, WrGenerateJob *jo
     job->like = below ? below : layer->heights;
     job->mask = layer->mask;
     if (wr_family_find(call->command->name)->beyond) job->selection = document->selection;
-    const bool good = make(call, job, &relief, err) &&
+    const bool good = make(call, job, shrunk, &relief, err) &&
                       wr_call_lay(call, &relief, layer, job->pool, job->progress, err);
     wr_field_free(below);
     wr_relief_fini(&relief);
@@ -175,7 +181,7 @@ bool wr_edit_preview_generate(WrDocument *document, const char *line, WrLineTarg
     bool good = wr_call_generator(call) || wr_fail(err, "%s: must be a generator's line", line);
     if (good && target == WR_LINE_NEW_LAYER) add_layer(document, call);
     good = good && (target == WR_LINE_INTO_ACTIVE ? into_active(document, call, &job, err)
-                                                  : as_layer(document, call, &job, err));
+                                                  : as_layer(document, call, &job, 1, err));
     wr_call_free(call);
     return good;
 }
@@ -197,12 +203,21 @@ static bool edit_preview_transform(WrDocument *document, const char *line, WrPoo
 
 /* ---- requests ---- */
 
+/* The small copy of the layers, which following requests use again, even if the request that made it was cancelled. */
+typedef struct Slot {
+    WrMutex lock;
+    WrCoarse *coarse; /* owned; NULL: none */
+} Slot;
+
 typedef struct Work {
     WrDocument *document; /* own snapshot, changed by the work */
     WrEditPreviewRequest ask;
     /* unchanged copy of the snapshot, for the exact result after a rough one; NULL: none */
     WrDocument *again;
     char *line; /* generator line; ask.line points to it */
+    Slot *slot; /* the preview's; borrowed */
+    WrCoarse
+        *coarse; /* small copy of the layers, used again by the next request; owned; NULL: none */
     WrText notes;
     double seconds;
     WrBrush brush;  /* brush of a dab; ask.dab points to it */
@@ -216,7 +231,12 @@ struct WrEditPreview {
     WrField *field; /* newest result; owned */
     WrError err;
     bool failed;
-    bool rough; /* the field is a rough result */
+    bool rough;         /* the field is a rough result */
+    int64_t tag;        /* of its request */
+    bool going_on;      /* the exact result after a rough one is being requested */
+    bool running_rough; /* the last request that was started is a rough one */
+    Work *next;         /* waits until that one is done; owned; NULL: none */
+    Slot slot;
     /* document whose composite the field is; owned; NULL: not exact, or another size */
     WrDocument *made;
     WrText notes;
@@ -228,6 +248,7 @@ static void drop(void *arg)
     Work *work = arg;
     wr_document_free(work->document);
     wr_document_free(work->again);
+    wr_coarse_free(work->coarse);
     wr_free(work->line);
     wr_text_fini(&work->notes);
     wr_field_free(work->field);
@@ -312,13 +333,17 @@ static void dab(Work *work, WrPool *pool)
     wr_document_edit_end(document, &stand_in);
 }
 
-static void set_layer(const Work *work)
+static void set_layer(const WrEditPreviewRequest *ask, WrLayer *layer)
 {
-    const WrEditPreviewRequest *ask = &work->ask;
-    WrLayer *layer = &work->document->layers[ask->layer];
     layer->blend = ask->blend;
     layer->opacity = ask->opacity;
     layer->radius = ask->radius;
+}
+
+static void set_layers(const Work *work)
+{
+    const WrEditPreviewRequest *ask = &work->ask;
+    set_layer(ask, &work->document->layers[ask->layer]);
     for (int i = 0; i < work->document->layer_count; i++)
         if (ask->also[i]) work->document->layers[i].opacity = ask->opacity;
 }
@@ -328,10 +353,112 @@ static bool generate(Work *work, WrPool *pool, const WrProgress *progress)
     const WrEditPreviewRequest *ask = &work->ask;
     if (ask->target == WR_LINE_OF_LAYER) {
         work->document->active = ask->layer;
-        set_layer(work);
+        set_layers(work);
     }
     return wr_edit_preview_generate(work->document, ask->line, ask->target, ask->rough, pool,
                                     progress, &work->notes, &work->err);
+}
+
+/* ---- rough results of layers on a small copy of the document (coarse_preview.h) ---- */
+
+static bool is_setting(const WrEditPreviewRequest *ask)
+{
+    return !ask->line && !ask->op && !ask->dab;
+}
+
+static bool is_filter_change(const WrEditPreviewRequest *ask)
+{
+    return !ask->line && ask->op && ask->filters && ask->layer >= 0;
+}
+
+/* Generate the line of a small layer 1. */
+static bool generate_small(Work *work, WrDocument *small, WrPool *pool, const WrProgress *progress)
+{
+    const WrEditPreviewRequest *ask = &work->ask;
+    WrCall *call = NULL;
+    if (!wr_call_parse(ask->line, false, &call, &work->err)) return false;
+    small->active = 0;
+    small->selection = wr_coarse_reduce(work->coarse, work->document->selection, pool);
+    if (ask->target == WR_LINE_NEW_LAYER) add_layer(small, call);
+    else set_layer(ask, &small->layers[1]);
+    small->active = 1;
+    WrGenerateJob job = {
+        .pool = pool, .progress = progress, .coarse = true, .note = note, .note_ctx = &work->notes
+    };
+    const bool good = as_layer(small, call, &job, wr_coarse_factor(work->coarse), &work->err);
+    wr_call_free(call);
+    return good;
+}
+
+static bool change_small(Work *work, WrDocument *small, WrPool *pool, const WrProgress *progress)
+{
+    const WrEditPreviewRequest *ask = &work->ask;
+    if (ask->line) return generate_small(work, small, pool, progress);
+    if (is_setting(ask)) {
+        set_layer(ask, &small->layers[1]);
+        return true;
+    }
+    WrFilter made = { .op = ask->op };
+    memcpy(made.param, ask->param, sizeof made.param);
+    if (!wr_filter_check(&made, &work->err)) return false;
+    small->layers[1].filter = wr_coarse_filter(work->coarse, &made);
+    return true;
+}
+
+/* True if the request has a rough result of this kind. */
+static bool is_coarse(const Work *work)
+{
+    const WrEditPreviewRequest *ask = &work->ask;
+    for (int i = 0; i < WR_LAYERS_MAX; i++)
+        if (ask->also[i]) return false; /* the small copy has one changed layer */
+    if (!ask->rough || wr_coarse_step(work->document) == 1) return false;
+    if (!ask->line) return true;
+    WrCall *call = NULL;
+    if (ask->target == WR_LINE_INTO_ACTIVE || !wr_call_parse(ask->line, false, &call, NULL))
+        return false;
+    const WrGenerator *generator = wr_call_generator(call);
+    const bool any = generator && rough_step(generator, work->document->layers[0].heights) > 1;
+    wr_call_free(call);
+    return any;
+}
+
+/* Puts a share of `coarse` into the slot; NULL empties it. */
+static void slot_put(Slot *slot, const WrCoarse *coarse)
+{
+    wr_mutex_lock(&slot->lock);
+    wr_coarse_free(slot->coarse);
+    slot->coarse = wr_coarse_share(coarse);
+    wr_mutex_unlock(&slot->lock);
+}
+
+/* The small copy for changes of layer `index`. It is made whole though the request be cancelled: the next one needs it. */
+static void find_coarse(Work *work, int index, WrPool *pool)
+{
+    wr_mutex_lock(&work->slot->lock);
+    work->coarse = wr_coarse_share(work->slot->coarse);
+    wr_mutex_unlock(&work->slot->lock);
+    if (wr_coarse_fits(work->coarse, work->document, index, pool)) return;
+    wr_coarse_free(work->coarse);
+    const WrProgress *whole = wr_progress_set(NULL);
+    work->coarse = wr_coarse_new(work->document, index, pool);
+    wr_progress_set(whole);
+    slot_put(work->slot, work->coarse);
+}
+
+static void run_coarse(Work *work, WrPool *pool, const WrProgress *progress)
+{
+    const WrEditPreviewRequest *ask = &work->ask;
+    const bool is_new = ask->line && ask->target == WR_LINE_NEW_LAYER;
+    const int index = is_new ? work->document->active + 1 : ask->layer;
+    find_coarse(work, index, pool);
+    WrDocument *small = wr_coarse_begin(work->coarse);
+    if (change_small(work, small, pool, progress))
+        work->field = wr_coarse_end(work->coarse, small, pool);
+    wr_document_free(small);
+    if (!wr_progress_cancelled(progress)) return;
+    work->cancelled = true;
+    wr_field_free(work->field);
+    work->field = NULL;
 }
 
 static void run(void *arg, WrPool *pool, const WrProgress *progress)
@@ -339,6 +466,10 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
     Work *work = arg;
     const WrEditPreviewRequest *ask = &work->ask;
     double began = wr_clock_seconds();
+    if (is_coarse(work)) {
+        run_coarse(work, pool, progress);
+        return;
+    }
     if (ask->line) {
         bool moves = strncmp(ask->line, "transform", 9) == 0;
         if (moves ? !edit_preview_transform(work->document, ask->line, pool, progress, &work->err)
@@ -354,7 +485,7 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
     } else if (ask->dab) {
         dab(work, pool);
     } else {
-        set_layer(work);
+        set_layers(work);
     }
     wr_filters_forget();
     if (!work->field) work->field = wr_field_share(wr_document_composite(work->document, pool));
@@ -371,16 +502,26 @@ WrEditPreview *wr_edit_preview_new(int threads, Uint32 done_event)
 {
     static const WrJobKind kind = { run, drop };
     WrEditPreview *trial = wr_alloc(1, sizeof *trial);
+    wr_mutex_init(&trial->slot.lock);
     trial->job = wr_job_new(&kind, threads, done_event);
     return trial;
+}
+
+static void forget_next(WrEditPreview *trial)
+{
+    if (trial->next) drop(trial->next);
+    trial->next = NULL;
 }
 
 void wr_edit_preview_free(WrEditPreview *trial)
 {
     if (!trial) return;
+    forget_next(trial);
     wr_job_free(trial->job);
     wr_field_free(trial->field);
     wr_document_free(trial->made);
+    wr_coarse_free(trial->slot.coarse);
+    wr_mutex_fini(&trial->slot.lock);
     wr_text_fini(&trial->notes);
     wr_free(trial);
 }
@@ -391,13 +532,30 @@ static void forget_made(WrEditPreview *trial)
     trial->made = NULL;
 }
 
+/* A rough result that is due soon is not cancelled, so that changes in quick succession do not suppress all of them. */
+static void start(WrEditPreview *trial, Work *work)
+{
+    double seconds;
+    forget_next(trial);
+    if (trial->running_rough && wr_job_busy(trial->job, NULL, &seconds) &&
+        seconds < PATIENCE_SECONDS) {
+        trial->next = work;
+        return;
+    }
+    trial->running_rough = work->ask.rough;
+    wr_job_start(trial->job, work);
+}
+
 void wr_edit_preview_request(WrEditPreview *trial, const WrDocument *document,
                              const WrEditPreviewRequest *ask)
 {
     Work *work = wr_alloc(1, sizeof *work);
     work->document = wr_document_share(document);
     work->ask = *ask;
-    work->ask.rough = ask->line && ask->rough;
+    const bool changes = is_setting(ask) || is_filter_change(ask);
+    work->ask.rough =
+        (ask->line && ask->rough) || (changes && !trial->going_on && wr_coarse_step(document) > 1);
+    work->slot = &trial->slot;
     if (work->ask.rough) work->again = wr_document_share(document);
     if (ask->line) work->ask.line = work->line = wr_strdup(ask->line);
     if (ask->dab) {
@@ -408,14 +566,17 @@ void wr_edit_preview_request(WrEditPreview *trial, const WrDocument *document,
     }
     trial->failed = false;
     forget_made(trial);
-    wr_job_start(trial->job, work);
+    start(trial, work);
 }
 
 void wr_edit_preview_end(WrEditPreview *trial)
 {
+    forget_next(trial);
+    trial->running_rough = false;
     wr_job_cancel(trial->job);
     wr_field_free(trial->field);
     trial->field = NULL;
+    slot_put(&trial->slot, NULL);
     forget_made(trial);
     trial->failed = trial->rough = false;
     wr_text_clear(&trial->notes);
@@ -423,6 +584,8 @@ void wr_edit_preview_end(WrEditPreview *trial)
 
 void wr_edit_preview_stop(WrEditPreview *trial)
 {
+    forget_next(trial);
+    trial->running_rough = false;
     wr_job_interrupt(trial->job);
 }
 
@@ -431,7 +594,9 @@ static void go_on(WrEditPreview *trial, const Work *rough)
 {
     WrEditPreviewRequest ask = rough->ask;
     ask.rough = false;
+    trial->going_on = true;
     wr_edit_preview_request(trial, rough->again, &ask);
+    trial->going_on = false;
 }
 
 static void take(WrEditPreview *trial)
@@ -446,16 +611,21 @@ static void take(WrEditPreview *trial)
         trial->notes = work->notes;
         work->notes = notes;
         trial->rough = work->ask.rough;
+        trial->tag = work->ask.tag;
         bool whole = !trial->rough && !(work->ask.op && work->ask.op->reshapes);
         forget_made(trial);
         if (whole) trial->made = wr_document_share(work->document);
-        if (trial->rough) go_on(trial, work);
-        else trial->seconds = work->seconds;
+        if (trial->rough && !trial->next) go_on(trial, work);
+        else if (!trial->rough) trial->seconds = work->seconds;
     } else if (!work->cancelled) {
         trial->failed = true;
         trial->err = work->err;
     }
     drop(work);
+    if (!trial->next) return;
+    Work *next = trial->next;
+    trial->next = NULL;
+    start(trial, next);
 }
 
 const WrField *wr_edit_preview_field(WrEditPreview *trial)
@@ -473,6 +643,12 @@ const WrDocument *wr_edit_preview_made(WrEditPreview *trial)
 bool wr_edit_preview_busy(WrEditPreview *trial, double *fraction, double *seconds)
 {
     return wr_job_busy(trial->job, fraction, seconds);
+}
+
+int64_t wr_edit_preview_tag(WrEditPreview *trial)
+{
+    take(trial);
+    return trial->field ? trial->tag : 0;
 }
 
 bool wr_edit_preview_is_rough(WrEditPreview *trial)

@@ -34,6 +34,7 @@ typedef struct WrInputRouter WrInputRouter;
 typedef struct WrKeyMap WrKeyMap;
 typedef struct WrLatency WrLatency;
 typedef struct WrDeferred WrDeferred;
+typedef struct WrLayerPlanState WrLayerPlanState;
 typedef struct WrLayersState WrLayersState;
 typedef struct WrLayout WrLayout;
 typedef struct WrMarks WrMarks;
@@ -142,6 +143,7 @@ struct WrApp {
     WrMarks *marks;
     WrSelectState *select;
     WrLayersState *layers;
+    WrLayerPlanState *layer_plan;
     WrSurfaceState *surface;
     WrObjectsState *objects;
     WrSheetState *sheet;    /* state of the export sheet; owned; NULL until it is opened */

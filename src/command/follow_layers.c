@@ -1,0 +1,225 @@
+/* Generator layers, linked copies and live masks after each command: those that the picture needs, and changes below
+   them. */
+#include "base/error.h"
+#include "base/text.h"
+#include "command/command_line.h"
+#include "command/layer_plan.h"
+#include "command/linked_copies.h"
+#include "command/live_masks.h"
+#include "command/session_internal.h"
+#include "document/document.h"
+#include "field/field.h"
+#include "scene/objects.h"
+
+#include <string.h>
+
+/* ---- which layers are needed ---- */
+
+static const WrHash nothing;
+
+/* True if the layer's content depends on the composite of the layers below it. */
+static bool reads_below(const WrLayer *layer)
+{
+    return layer->filter.op || layer->mask_line || !wr_hash_equal(layer->below, nothing);
+}
+
+/* Marks the layers that a layer's line and the terms of its mask name. */
+static void mark_named(const WrSession *session, int index, bool *called)
+{
+    const WrDocument *document = session->state.document;
+    const char *line = document->layers[index].mask_line;
+    const int read = wr_session_line_layer(session, index);
+    if (read >= 0) called[read] = true;
+    WrMaskTerms terms;
+    if (!line || !wr_mask_terms_parse(line, &terms, NULL)) return;
+    for (int k = 0; k < terms.count; k++) {
+        const int found = wr_mask_term_layer(document, index, terms.calls[k]);
+        if (found >= 0) called[found] = true;
+    }
+    wr_mask_terms_free(&terms);
+}
+
+/* True if the layer is needed whatever is above it: it is shown alone, an object uses it, or it is edited, by brushes that may
+   read the layers below. */
+static bool is_called(const WrDocument *document, int index)
+{
+    if (index == document->solo) return true;
+    if (document->solo < 0 && wr_scene_uses_layer(document->scene, document->layers[index].name))
+        return true;
+    return index == document->active && wr_document_shows(document, index);
+}
+
+static bool is_visible(const WrDocument *document, int index)
+{
+    while (index >= 0 && document->layers[index].visible)
+        index = wr_document_parent(document, index);
+    return index < 0;
+}
+
+/* With groups or linked copies every visible layer counts as needed: a member's layers below are not all layers below, and
+   copies read layers above too. */
+static void needs_of_visible(const WrSession *session, WrLayerNeed needs[WR_LAYERS_MAX])
+{
+    const WrDocument *document = session->state.document;
+    bool called[WR_LAYERS_MAX] = { false };
+    for (int i = document->layer_count - 1; i >= 0; i--) {
+        const bool needed = called[i] || is_called(document, i) || is_visible(document, i) ||
+                            wr_document_shows(document, i);
+        needs[i] = (WrLayerNeed){ needed ? WR_LAYER_NEEDED : WR_LAYER_HIDDEN, -1 };
+        if (needed) mark_named(session, i, called);
+    }
+}
+
+static void needs_of_stack(const WrSession *session, WrLayerNeed needs[WR_LAYERS_MAX])
+{
+    const WrDocument *document = session->state.document;
+    bool called[WR_LAYERS_MAX] = { false };
+    WrLayerNeed below = { document->solo < 0 ? WR_LAYER_NEEDED : WR_LAYER_ALONE, document->solo };
+    for (int i = document->layer_count - 1; i >= 0; i--) {
+        const WrLayer *layer = &document->layers[i];
+        const bool edited = i == document->active && wr_document_shows(document, i);
+        called[i] |= is_called(document, i);
+        needs[i] = below;
+        if (called[i]) needs[i] = (WrLayerNeed){ WR_LAYER_NEEDED, -1 };
+        else if (!layer->visible) needs[i] = (WrLayerNeed){ WR_LAYER_HIDDEN, -1 };
+        else if (!(layer->opacity > 0.0f)) needs[i] = (WrLayerNeed){ WR_LAYER_CLEAR, -1 };
+        if (needs[i].why != WR_LAYER_NEEDED) continue;
+        if (reads_below(layer) || edited) below = needs[i];
+        else if (below.why == WR_LAYER_NEEDED && wr_layer_hides(layer))
+            below = (WrLayerNeed){ WR_LAYER_COVERED, i };
+        mark_named(session, i, called);
+    }
+}
+
+void wr_session_layer_needs(const WrSession *session, WrLayerNeed needs[WR_LAYERS_MAX])
+{
+    WrLinks links;
+    wr_session_links(session, &links);
+    if (links.any || wr_document_groups(session->state.document)) needs_of_visible(session, needs);
+    else needs_of_stack(session, needs);
+}
+
+/* ---- the layers below, as one number ---- */
+
+/* Keys of fields are unique over the life of the process, so one comparison of
+   numbers replaces composites and their hashes. */
+static void add_key(const WrDocument *document, int index, bool groups, WrBelowKey *key)
+{
+    const WrLayer *layer = &document->layers[index];
+    const int group = wr_document_parent(document, index);
+    const uint64_t keys[] = { wr_field_key(layer->heights),
+                              layer->cover ? wr_field_key(layer->cover) : 0,
+                              layer->mask ? wr_field_key(layer->mask) : 0,
+                              (uint64_t)layer->blend << 1 | layer->visible };
+    const float numbers[] = { layer->opacity, layer->radius,
+                              (float)(2 * layer->depth + layer->is_group),
+                              group < 0 ? -1.0f : (float)document->layers[group].blend };
+    WrHash hash = wr_hash_bytes(keys, sizeof keys, (WrHash){ 0, 0 });
+    hash = wr_hash_bytes(numbers, sizeof numbers, hash);
+    if (layer->filter.op) {
+        WrText filter = { 0 };
+        wr_filter_print(&layer->filter, &filter);
+        hash = wr_hash_bytes(wr_text_get(&filter), filter.length, hash);
+        wr_text_fini(&filter);
+    }
+    if (groups || (layer->visible && layer->opacity > 0.0f))
+        key->shown = wr_hash_bytes(&hash, sizeof hash, key->shown);
+    hash = wr_hash_bytes(layer->name, strlen(layer->name) + 1, hash);
+    key->all = wr_hash_bytes(&hash, sizeof hash, key->all);
+}
+
+void wr_session_below_key(const WrDocument *document, int index, WrBelowKey *key)
+{
+    const bool groups = wr_document_groups(document);
+    *key = (WrBelowKey){ { 0, 0 }, { 0, 0 } };
+    if (groups) { /* the same layers may have come into a group, or out of one */
+        const int group = wr_document_parent(document, index);
+        const int place[] = { wr_layers_first_sibling(document->layers, index),
+                              wr_layers_first(document->layers, index),
+                              group < 0 ? -1 : (int)document->layers[group].blend };
+        key->shown = key->all = wr_hash_bytes(place, sizeof place, key->all);
+    }
+    for (int i = 0; i < index; i++) add_key(document, i, groups, key);
+}
+
+/* ---- after each command ---- */
+
+/* One pass over the layers, from the bottom up; the layers that a layer reads are made before it, even those above. */
+typedef struct Following {
+    WrSession *session;
+    WrLinks links;
+    bool needed[WR_LAYERS_MAX];
+    bool heights[WR_LAYERS_MAX]; /* done, or being done */
+    bool masks[WR_LAYERS_MAX];
+} Following;
+
+/* Hidden copies that nothing reads wait until they are shown, as other lines do. */
+static bool is_read(const Following *f, int index)
+{
+    const WrDocument *document = f->session->state.document;
+    bool read =
+        f->needed[index] || wr_scene_uses_layer(document->scene, document->layers[index].name);
+    for (int i = 0; i < document->layer_count && !read; i++) read = f->links.source[i] == index;
+    return read;
+}
+
+static bool follow_line(Following *f, int index, WrError *err)
+{
+    /* cycles of links are refused only among lines that are shown (wr_layer_reads_below) */
+    const bool needed =
+        f->needed[index] && (!f->links.any || wr_document_shows(f->session->state.document, index));
+    const bool read = f->links.copies[index] && is_read(f, index);
+    return wr_session_follow_line(f->session, &f->links, index, needed, read, err);
+}
+
+static bool follow_heights(Following *f, int index, WrError *err);
+
+static bool follow_mask(Following *f, int index, WrError *err)
+{
+    if (f->masks[index]) return true;
+    f->masks[index] = true;
+    return !f->needed[index] || wr_session_follow_mask(f->session, index, err);
+}
+
+static bool follow_below(Following *f, int index, WrError *err)
+{
+    bool good = true;
+    for (int i = 0; good && i < index; i++)
+        good = follow_heights(f, i, err) && follow_mask(f, i, err);
+    return good;
+}
+
+static bool follow_heights(Following *f, int index, WrError *err)
+{
+    if (f->heights[index]) return true;
+    f->heights[index] = true; /* a cycle ends here; its copies keep their heights */
+    if (f->links.source[index] >= 0 && !follow_heights(f, f->links.source[index], err))
+        return false;
+    if (wr_layer_reads_below(f->session->state.document, &f->links, index) &&
+        !follow_below(f, index, err))
+        return false;
+    return follow_line(f, index, err);
+}
+
+/* all: layers that the picture does not need are made too */
+static bool follow(WrSession *session, bool all, WrError *err)
+{
+    if (!wr_document_generates(session->state.document)) return true;
+    Following f = { .session = session };
+    WrLayerNeed needs[WR_LAYERS_MAX];
+    const int count = session->state.document->layer_count;
+    wr_session_layer_needs(session, needs);
+    for (int i = 0; i < count; i++) f.needed[i] = all || needs[i].why == WR_LAYER_NEEDED;
+    wr_session_links(session, &f.links);
+    return follow_below(&f, count, err);
+}
+
+bool wr_session_follow_layers(WrSession *session, WrError *err)
+{
+    return follow(session, false, err);
+}
+
+bool wr_session_make_all_layers(WrSession *session, WrError *err)
+{
+    return follow(session, true, err);
+}
