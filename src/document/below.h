@@ -14,7 +14,7 @@ WrBelow *wr_below_share(const WrBelow *below);
 void wr_below_free(WrBelow *below); /* NULL is allowed */
 
 /* The composite of the visible rows below layer `index`; the caller owns it. Only tiles that changed are blended again. Without
- * groups, the chain has a link for each layer with a line or a live mask that asked: the composite up to the link before it is
+ * groups, the chain has a link for each layer with a line or a live mask that was requested: the composite up to the link before it is
  * blended with the layers between, so that n layers that read cost as much as one pass over all layers.
  *
  * below    the chain; *below NULL: created

@@ -1,4 +1,4 @@
-/* layer_times.h - times of the last makings of layers, by the key of what was made. Kept for the process, beside the
+/* layer_times.h - times of the last makings of layers, by the key of the result. Kept for the process, beside the
    documents: no file, hash or step contains them. Any thread. */
 #pragma once
 #include <stdbool.h>

@@ -9,7 +9,7 @@
 
 #include <stdio.h>
 
-/* Counting the tiles takes some milliseconds, so the plan is made once for each step, and not while a preview makes layers. */
+/* Counting the tiles costs some milliseconds, so the plan is made once for each step, and not while a preview makes layers. */
 static const WrLayerPlan *plan_of(WrApp *app)
 {
     WrLayerPlanState *state = app->layer_plan;
