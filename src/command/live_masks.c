@@ -428,10 +428,9 @@ static bool name_layer(const WrSession *session, int index, WrCall *term, WrErro
     else if (wr_document_find_below(document, index, document->layers[found].name) != found)
         good =
             wr_fail(err, "%s has the name of another layer: rename it first", wr_text_get(&name));
-    else if (strcmp(term->form_name, "mask") != 0 && document->layers[found].filter.op)
-        good = wr_fail(err, "%s is a filter, without heights of its own", wr_text_get(&name));
-    else if (strcmp(term->form_name, "mask") != 0 && document->layers[found].is_group)
-        good = wr_fail(err, "%s is a group, without heights of its own", wr_text_get(&name));
+    else if (strcmp(term->form_name, "mask") != 0 && !wr_layer_holds(&document->layers[found]))
+        good = wr_fail(err, "%s is a filter or a group, without heights of its own",
+                       wr_text_get(&name));
     else wr_call_set_text(term, OF, document->layers[found].name);
     wr_text_fini(&name);
     return good;

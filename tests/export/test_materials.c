@@ -71,7 +71,7 @@ static Written write_text(const WrDocument *document, const char *text, const ch
     WrMapSet *set = wr_map_set_parse("test", text, "test", &written.err);
     if (!set) fail_msg("%s", written.err.text);
     const char *const words[] = { word };
-    const WrMapSetRequest order = { set, ".", name, words, word != NULL };
+    const WrMapSetRequest order = { set, ".", name, words, word != NULL, NULL };
     written.good = wr_export_map_set(&order, document, NULL, &written.list, &written.err);
     wr_map_set_free(set);
     return written;
