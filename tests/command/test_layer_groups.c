@@ -187,7 +187,7 @@ static void masks_and_lines_in_a_group_read_what_is_below_there(void **state)
     must_run(s, "undo");
     must_run(s, "layer move b in=none"); /* nothing is below c any more */
     assert_true(wr_field_get(doc(s)->layers[1].mask, 9, 9) == 0);
-    must_fail(s, "layer mask b live=\"height of=G\"", "is a group, without heights");
+    must_fail(s, "layer mask b live=\"height of=G\"", "is a filter or a group");
     must_run(s, "layer mask G from=black");
     must_run(s, "layer mask b live=\"mask of=G\"");
     assert_true(wr_field_get(doc(s)->layers[3].mask, 9, 9) == 0);
