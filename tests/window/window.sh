@@ -256,9 +256,17 @@ xdotool key d
 ends 0
 sed -i '/^steady/d' "$folder/config/wrinkle/window.conf"
 
-# ---- a signal ends the program ----
+# ---- a signal ends the program; unsaved work is asked for first, and kept if a second signal comes before the answer ----
 start painted.exr
 kill -TERM "$pid"
 ends 0
+start painted.exr
+drag 180 300 8 0 25
+kill -TERM "$pid"
+settle
+kill -0 "$pid" 2>/dev/null || complain "a signal ended the program without the question"
+kill -TERM "$pid"
+ends 0
+"$program" recover | grep -q painted.exr || complain "work that no question was answered for is lost"
 
 [[ $failures == 0 ]] || { printf '%d failures\n' "$failures"; exit 1; }

@@ -70,6 +70,7 @@
 #include "base/array.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "command/session.h"
 #include "export/film.h"
 #include "field/seam_check.h"
 #include "scene/scene.h"
@@ -229,9 +230,14 @@ static void handle(WrApp *app, const SDL_Event *event)
     app->input_at = wr_clock_seconds();
     wr_app_redraw(app);
     if (wr_busy_view_event(app, event)) return;
-    if (event->type == SDL_QUIT) { /* a signal; a second one skips the question */
-        if (app->dialog->now == WR_DIALOG_UNSAVED) app->quit = true;
-        else wr_app_quit(app);
+    if (event->type == SDL_QUIT) { /* a signal; while the question is open, one skips it */
+        if (app->dialog->now == WR_DIALOG_UNSAVED) {
+            wr_session_journal_leave(
+                app->session); /* unanswered, as at a logout: recovered later */
+            app->quit = true;
+        } else {
+            wr_app_quit(app);
+        }
     } else if (event->type == SDL_WINDOWEVENT) {
         wr_window_event(app, event);
     } else if (event->type == SDL_DROPFILE) {
