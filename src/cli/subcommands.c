@@ -62,7 +62,8 @@ const WrSubcommand wr_subcommands[] = {
       "double\n"
       "precision; F, Fu, Fv carry the bump's height and the replication.",
       wr_cli_inspect },
-    { "explain", "explain [FILE] [--measure] [--layers] [--map FILE] [--full] [--json] [--size WxH]",
+    { "explain",
+      "explain [FILE] [--measure] [--layers] [--map FILE] [--full] [--json] [--size WxH]",
       "the plan of a picture, or of the layers, with reasons",
       BIT(JSON) | BIT(SIZE) | BIT(FULL) | BIT(EXPLAIN) | BIT(MAP),
       "Renders once and prints the effects that ran and those left out. class I: leaving it out "

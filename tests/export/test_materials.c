@@ -343,8 +343,8 @@ static void any_name_is_referred_to(void **state)
 {
     (void)state;
     static const char *const names[] = {
-        "clay",       "a b",     "\"q\" & <x> 'y'", "50%25 #1?",    "\xc3\xbc\xe6\xbc\x86",
-        "at@@@@@ @2", "--> ]]> &amp;",   "9.dots.in.it", "@"
+        "clay",       "a b",           "\"q\" & <x> 'y'", "50%25 #1?", "\xc3\xbc\xe6\xbc\x86",
+        "at@@@@@ @2", "--> ]]> &amp;", "9.dots.in.it",    "@"
     };
     static const char set[] = "packed *_orm.png depth=8 base=material\nnormal+y *_n.png depth=8\n";
     WrDocument *document = metal_document();

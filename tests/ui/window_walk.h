@@ -287,6 +287,16 @@ static inline bool walk_open_recover(Walk *walk, int which)
     return walk_name(walk, "dialog %s", "recover");
 }
 
+/* It needs a linked copy. */
+static inline bool walk_open_link(Walk *walk, int which)
+{
+    if (which > 0) return false;
+    walk_run(walk, "layer add copy from=\"link 1\"");
+    wr_action_run(walk->app, "filter_edit");
+    assert_int_equal(walk->app->dialog->now, WR_DIALOG_LINK);
+    return walk_name(walk, "dialog of a %s", "linked copy");
+}
+
 /* It needs an object with a mesh. */
 static inline bool walk_open_bake(Walk *walk, int which)
 {
@@ -317,6 +327,8 @@ static inline void walk_dialogs(Walk *walk)
     walk_each(walk, walk_open_rasterize, walk_close_dialog);
     walk_each(walk, walk_open_recover, walk_close_dialog);
     walk_each(walk, walk_open_bake, walk_close_dialog);
+    walk_run(walk, "undo");
+    walk_each(walk, walk_open_link, walk_close_dialog);
     walk_run(walk, "undo");
 }
 

@@ -442,10 +442,18 @@ void wr_generate_file(WrApp *app, const char *path)
 
 /* ---- preview ---- */
 
+/* The edge of a mask is that of the active layer's: a new layer has none. */
+static bool reads_own_mask(const WrGenerateState *hand)
+{
+    const int of = hand->generator ? wr_generator_param_find(hand->generator, "of") : -1;
+    const char *const *words = of >= 0 ? hand->generator->params[of].words : NULL;
+    return words && strcmp(words[(int)hand->value[of].number[0]], "mask") == 0;
+}
+
 WrLineTarget wr_generate_target(const WrGenerateState *hand)
 {
     if (hand->layer >= 0) return WR_LINE_OF_LAYER;
-    return hand->into_active ? WR_LINE_INTO_ACTIVE : WR_LINE_NEW_LAYER;
+    return hand->into_active || reads_own_mask(hand) ? WR_LINE_INTO_ACTIVE : WR_LINE_NEW_LAYER;
 }
 
 /* True if the preview shows this line in the present document. */
