@@ -323,14 +323,14 @@ done
 drawing='<svg xmlns="http://www.w3.org/2000/svg" width="9" height="5"><rect width="3" height="2"/></svg>'
 printf '%s' "$drawing" | xclip -selection clipboard -t image/svg+xml
 key ctrl+v
-becomes 'layer add "Vector drawing" from="picture svg *clipboard/drawing-*.svg*' "a drawing of another program is pasted"
+becomes 'picture svg *clipboard/drawing-*.svg*' "a drawing of another program is pasted"
 printf '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0,0 5,1 2,7Z"/></svg>' | xclip -selection clipboard
 key ctrl+v
-becomes 'layer add "Vector drawing" from="picture path*M0,0 5,1 2,7Z*' "one path is kept in its layer's line"
+becomes 'picture path "M0,0 5,1 2,7Z"*' "one path is kept in its layer's line"
 printf '%s' "$drawing" >'a logo.svg'
 printf 'file://%s/a%%20logo.svg\r\n' "$PWD" | xclip -selection clipboard -t text/uri-list
 key ctrl+v
-becomes 'layer add "a logo" from="picture svg *a logo.svg*' "a copied file is pasted"
+becomes 'picture svg *a logo.svg*' "a copied file is pasted"
 xdotool key ctrl+q
 settle
 xdotool key d
