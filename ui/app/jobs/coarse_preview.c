@@ -153,11 +153,12 @@ static bool any_shown(const WrDocument *document, int count)
     return false;
 }
 
-/* Hidden layers above the changed one are left out. */
+/* Hidden layers above the changed one are left out. A new layer on top has the number of the layers as its index. */
 static void fill(WrCoarse *coarse, const WrDocument *document, WrPool *pool)
 {
     const int index = coarse->index;
-    WrField *below = wr_document_below(document, index, pool);
+    WrField *below = index < document->layer_count ? wr_document_below(document, index, pool)
+                                                   : wr_field_share(coarse->exact);
     coarse->small = wr_document_new();
     wr_document_start_over(coarse->small, wr_coarse_reduce(coarse, below, pool));
     coarse->small->layers[0].visible = any_shown(document, index);
