@@ -28,17 +28,17 @@ struct WrDoc {
     int files;     /* in it */
 };
 
-/* A call of the interface: the document's progress is the thread's while it runs. */
-typedef struct Call {
+/* A running function of the interface: the thread reports to the document's progress until its end. */
+typedef struct ApiCall {
     WrDoc *doc;
     const WrProgress *outer;
     WrError err;
-} Call;
-void wr_call_begin(Call *call, const WrDoc *doc);
-/* Ends it and copies the error; returns good. */
-bool wr_call_end(Call *call, bool good, WrDocError *error);
+} ApiCall;
+void wr_api_begin(ApiCall *call, const WrDoc *doc);
+/* Restores the thread's progress and copies the error if not good. Returns good. */
+bool wr_api_end(ApiCall *call, bool good, WrDocError *error);
 /* Copies an error. */
-void wr_call_error(WrDocError *error, int status, const char *text);
+void wr_api_error(WrDocError *error, int status, const char *text);
 /* Writes the path of the document's folder for temporary files, which it makes at first use. */
 bool wr_api_scratch(WrDoc *doc, WrText *path, WrError *err);
 WrPool *wr_api_pool(const WrDoc *doc); /* may be NULL */

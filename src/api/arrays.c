@@ -132,12 +132,12 @@ static bool read_heights(const WrField *field, const WrDocArray *given, double *
 bool wr_doc_heights(WrDoc *doc, int32_t layer, const WrDocArray *array, double *low, double *high,
                     WrDocError *error)
 {
-    Call call;
-    wr_call_begin(&call, doc);
+    ApiCall call;
+    wr_api_begin(&call, doc);
     WrField *field = heights_of(doc, layer, &call.err);
     const bool good = field && read_heights(field, array, low, high, &call.err);
     wr_field_free(field);
-    return wr_call_end(&call, good, error);
+    return wr_api_end(&call, good, error);
 }
 
 /* Packed floats of the caller's array. NULL and an error: no memory. */
@@ -190,9 +190,9 @@ static bool write_heights(WrDoc *doc, const WrDocArray *given, double low, doubl
 bool wr_doc_set_heights(WrDoc *doc, const WrDocArray *array, double low, double high,
                         WrDocError *error)
 {
-    Call call;
-    wr_call_begin(&call, doc);
-    return wr_call_end(&call, write_heights(doc, array, low, high, &call.err), error);
+    ApiCall call;
+    wr_api_begin(&call, doc);
+    return wr_api_end(&call, write_heights(doc, array, low, high, &call.err), error);
 }
 
 /* ---- samples ---- */
@@ -220,9 +220,9 @@ static bool sample(WrDoc *doc, const char *name, const double *uv, size_t count,
 bool wr_doc_sample(WrDoc *doc, const char *scheme, const double *uv, size_t count, double *out,
                    WrDocError *error)
 {
-    Call call;
-    wr_call_begin(&call, doc);
-    return wr_call_end(&call, sample(doc, scheme, uv, count, out, &call.err), error);
+    ApiCall call;
+    wr_api_begin(&call, doc);
+    return wr_api_end(&call, sample(doc, scheme, uv, count, out, &call.err), error);
 }
 
 /* ---- maps and files ---- */
@@ -306,17 +306,17 @@ static bool make_map(WrDoc *doc, const char *kind, const WrDocArray *array, WrDo
 
 bool wr_doc_map_info(WrDoc *doc, const char *kind, WrDocMap *info, WrDocError *error)
 {
-    Call call;
-    wr_call_begin(&call, doc);
-    return wr_call_end(&call, make_map(doc, kind, NULL, info, &call.err), error);
+    ApiCall call;
+    wr_api_begin(&call, doc);
+    return wr_api_end(&call, make_map(doc, kind, NULL, info, &call.err), error);
 }
 
 bool wr_doc_map(WrDoc *doc, const char *kind, const WrDocArray *array, WrDocMap *info,
                 WrDocError *error)
 {
-    Call call;
-    wr_call_begin(&call, doc);
-    return wr_call_end(&call, make_map(doc, kind, array, info, &call.err), error);
+    ApiCall call;
+    wr_api_begin(&call, doc);
+    return wr_api_end(&call, make_map(doc, kind, array, info, &call.err), error);
 }
 
 static bool export_file(WrDoc *doc, const char *kind, const char *path, WrError *err)
@@ -350,10 +350,10 @@ static bool export_variant(void *ctx, const char *variant, WrError *err)
 
 bool wr_doc_export(WrDoc *doc, const char *kind, const char *path, WrDocError *error)
 {
-    Call call;
+    ApiCall call;
     FileExport export = { doc, kind, path };
-    wr_call_begin(&call, doc);
-    return wr_call_end(
+    wr_api_begin(&call, doc);
+    return wr_api_end(
         &call, wr_session_for_variants(doc->session, path, export_variant, &export, &call.err),
         error);
 }
@@ -384,9 +384,9 @@ bool wr_doc_export_bytes(WrDoc *doc, const char *kind, const char *name,
                          bool (*write)(void *ctx, const void *bytes, size_t count), void *ctx,
                          WrDocError *error)
 {
-    Call call;
-    wr_call_begin(&call, doc);
-    return wr_call_end(&call, export_bytes(doc, kind, name, write, ctx, &call.err), error);
+    ApiCall call;
+    wr_api_begin(&call, doc);
+    return wr_api_end(&call, export_bytes(doc, kind, name, write, ctx, &call.err), error);
 }
 
 /* ---- pictures ---- */
@@ -417,7 +417,7 @@ static bool render(WrDoc *doc, double turn, const WrDocArray *given, WrError *er
 
 bool wr_doc_render(WrDoc *doc, double turn, const WrDocArray *array, WrDocError *error)
 {
-    Call call;
-    wr_call_begin(&call, doc);
-    return wr_call_end(&call, render(doc, turn, array, &call.err), error);
+    ApiCall call;
+    wr_api_begin(&call, doc);
+    return wr_api_end(&call, render(doc, turn, array, &call.err), error);
 }

@@ -15,6 +15,7 @@
 #include "scene/scene.h"
 #include "system/path.h"
 #include "system/shared_object.h"
+#include "system/thread.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -28,7 +29,7 @@ const char *wr_doc_version(void)
 
 /* ---- calls ---- */
 
-void wr_call_error(WrDocError *error, int status, const char *text)
+void wr_api_error(WrDocError *error, int status, const char *text)
 {
     if (!error) return;
     error->status = status;
@@ -42,7 +43,7 @@ static void report(void *ctx, double fraction)
 }
 
 /* const: calls that only read have a progress too */
-void wr_call_begin(Call *call, const WrDoc *doc)
+void wr_api_begin(ApiCall *call, const WrDoc *doc)
 {
     call->doc = (WrDoc *)doc;
     call->err.text[0] = '\0';
@@ -54,11 +55,11 @@ void wr_call_begin(Call *call, const WrDoc *doc)
     wr_progress_set(&call->doc->progress);
 }
 
-bool wr_call_end(Call *call, bool good, WrDocError *error)
+bool wr_api_end(ApiCall *call, bool good, WrDocError *error)
 {
     if (!good)
-        wr_call_error(error, wr_progress_stopped() ? WR_DOC_CANCELLED : WR_DOC_FAILED,
-                      call->err.text);
+        wr_api_error(error, wr_progress_stopped() ? WR_DOC_CANCELLED : WR_DOC_FAILED,
+                     call->err.text);
     wr_progress_set(call->outer);
     return good;
 }
@@ -80,13 +81,8 @@ static void note(void *ctx, const char *text)
 #define WR_PROGRAM_FROM_LIBRARY "../bin"
 #endif
 
-/* In another program the reader process, modules and data are found from the library's own folder: beside it in a build
-   folder, else where the installation puts them. */
-static void find_files(void)
+static void set_program(const char *library)
 {
-    static const char here; /* any address of this library */
-    char library[4096];
-    if (!wr_object_path(&here, library, sizeof library)) return;
     char *folder = wr_path_folder(library);
     WrText path = { 0 };
     wr_text_addf(&path, "%s/wrinkle", folder);
@@ -99,6 +95,21 @@ static void find_files(void)
     }
     wr_text_fini(&path);
     wr_free(folder);
+}
+
+/* In another program the reader process, modules and data are found from the library's own folder: beside it in a build
+   folder, else where the installation puts them. Once, since documents of several threads may begin together. */
+static void find_program(void)
+{
+    static WrMutex lock = WR_MUTEX_READY;
+    static bool found;
+    static const char here; /* any address of this library */
+    char library[4096];
+    wr_mutex_lock(&lock);
+    const bool first = !found;
+    found = true;
+    if (first && wr_object_path(&here, library, sizeof library)) set_program(library);
+    wr_mutex_unlock(&lock);
 }
 
 WrPool *wr_api_pool(const WrDoc *doc)
@@ -134,13 +145,13 @@ WrDoc *wr_doc_new(const WrDocOptions *options, WrDocError *error)
 {
     const WrDocOptions all = complete(options);
     WrError err;
-    find_files();
+    find_program();
     const bool good =
         all.threads < 0 || all.threads > THREADS_MAX
             ? wr_fail(&err, "threads %d: must be 0..%d", (int)all.threads, THREADS_MAX)
             : wr_api_check_instruction_set(all.instruction_set, &err);
     if (!good) {
-        wr_call_error(error, WR_DOC_FAILED, err.text);
+        wr_api_error(error, WR_DOC_FAILED, err.text);
         return NULL;
     }
     WrDoc *doc = wr_alloc(1, sizeof *doc);
@@ -199,40 +210,40 @@ WrSession *wr_api_session(WrDoc *doc)
 
 bool wr_doc_open(WrDoc *doc, const char *path, WrDocError *error)
 {
-    Call call;
-    wr_call_begin(&call, doc);
-    return wr_call_end(&call, wr_session_open(doc->session, path, &call.err), error);
+    ApiCall call;
+    wr_api_begin(&call, doc);
+    return wr_api_end(&call, wr_session_open(doc->session, path, &call.err), error);
 }
 
 bool wr_doc_save(WrDoc *doc, const char *path, WrDocError *error)
 {
-    Call call;
-    wr_call_begin(&call, doc);
-    return wr_call_end(&call, wr_session_save(doc->session, path, &call.err), error);
+    ApiCall call;
+    wr_api_begin(&call, doc);
+    return wr_api_end(&call, wr_session_save(doc->session, path, &call.err), error);
 }
 
 bool wr_doc_save_history(WrDoc *doc, const char *path, WrDocError *error)
 {
-    Call call;
-    wr_call_begin(&call, doc);
-    return wr_call_end(&call, wr_session_save_history(doc->session, path, &call.err), error);
+    ApiCall call;
+    wr_api_begin(&call, doc);
+    return wr_api_end(&call, wr_session_save_history(doc->session, path, &call.err), error);
 }
 
 bool wr_doc_run(WrDoc *doc, const char *line, WrDocError *error)
 {
-    Call call;
-    wr_call_begin(&call, doc);
-    return wr_call_end(&call, wr_session_run(doc->session, line, &call.err), error);
+    ApiCall call;
+    wr_api_begin(&call, doc);
+    return wr_api_end(&call, wr_session_run(doc->session, line, &call.err), error);
 }
 
 bool wr_doc_run_script(WrDoc *doc, const char *path, WrDocError *error)
 {
-    Call call;
-    wr_call_begin(&call, doc);
+    ApiCall call;
+    wr_api_begin(&call, doc);
     const bool good = strcmp(path, "-") == 0
                           ? wr_session_run_stream(doc->session, stdin, "standard input", &call.err)
                           : wr_session_run_script(doc->session, path, &call.err);
-    return wr_call_end(&call, good, error);
+    return wr_api_end(&call, good, error);
 }
 
 /* ---- facts ---- */
@@ -292,16 +303,16 @@ void wr_doc_hash(const WrDoc *doc, char digits[33])
 
 bool wr_doc_stroke_begin(WrDoc *doc, const char *head, WrDocError *error)
 {
-    Call call;
-    wr_call_begin(&call, doc);
-    return wr_call_end(&call, wr_session_stroke_begin(doc->session, head, &call.err), error);
+    ApiCall call;
+    wr_api_begin(&call, doc);
+    return wr_api_end(&call, wr_session_stroke_begin(doc->session, head, &call.err), error);
 }
 
 bool wr_doc_stroke_add(WrDoc *doc, const WrDocSample *samples, size_t count, WrDocError *error)
 {
-    Call call;
+    ApiCall call;
     bool good = true;
-    wr_call_begin(&call, doc);
+    wr_api_begin(&call, doc);
     for (size_t i = 0; i < count && good; i++) {
         const WrSample sample = { .u = samples[i].u,
                                   .v = samples[i].v,
@@ -311,14 +322,14 @@ bool wr_doc_stroke_add(WrDoc *doc, const WrDocSample *samples, size_t count, WrD
                                   .seconds = samples[i].seconds };
         good = wr_session_stroke_add(doc->session, &sample, 1, &call.err);
     }
-    return wr_call_end(&call, good, error);
+    return wr_api_end(&call, good, error);
 }
 
 bool wr_doc_stroke_end(WrDoc *doc, WrDocError *error)
 {
-    Call call;
-    wr_call_begin(&call, doc);
-    return wr_call_end(&call, wr_session_stroke_end(doc->session, &call.err), error);
+    ApiCall call;
+    wr_api_begin(&call, doc);
+    return wr_api_end(&call, wr_session_stroke_end(doc->session, &call.err), error);
 }
 
 void wr_doc_stroke_cancel(WrDoc *doc)

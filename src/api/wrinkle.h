@@ -157,8 +157,8 @@ typedef struct WrDocMap {
         high; /* the numbers that code 0 and the last code stand for; both 0 if the kind has no such range */
 } WrDocMap;
 /* Any map that the command `export` writes as a picture: kind is its words, such as "normal+y", "slopes",
-   "curvature scheme=bspline", "occlusion". map_info reports its size; map copies it: floats are those of float files. Its
-   report may be NULL. */
+   "curvature scheme=bspline", "occlusion". wr_doc_map_info reports its size, wr_doc_map copies it; floats are
+   those of float files. info may be NULL in wr_doc_map. */
 WR_PUBLIC bool wr_doc_map_info(WrDoc *doc, const char *kind, WrDocMap *info, WrDocError *error);
 WR_PUBLIC bool wr_doc_map(WrDoc *doc, const char *kind, const WrDocArray *array, WrDocMap *info,
                           WrDocError *error);

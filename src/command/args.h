@@ -77,6 +77,21 @@ extern const WrArgSpec wr_args_brush[]; /* the last row has name NULL */
 
 /* ---- the brush ---- */
 
+/* turn= and scale= of commands that transform a layer's piece (generate/transform_piece.h). about: help of turn= */
+#define WR_TRANSFORM_ARGS(about)                                                                   \
+    { .name = "turn",                                                                              \
+      .type = WR_ARG_NUMBER,                                                                       \
+      .low = -36000,                                                                               \
+      .high = 36000,                                                                               \
+      .fallback = NUMBERS(0),                                                                      \
+      .unit = "degrees",                                                                           \
+      .help = (about) },                                                                           \
+    {                                                                                              \
+        .name = "scale", .type = WR_ARG_TUPLE, .components = 2, .shape = "su,sv",                  \
+        .low = -WR_PLACE_SCALE, .high = WR_PLACE_SCALE, .fallback = NUMBERS(1, 1),                 \
+        .help = "how much larger along u and v, before it is turned; below 0 mirrors"              \
+    }
+
 /* Arguments of commands that paint, with a brush or without. */
 #define PAINT_ARGS                                                                                 \
     { .name = "strength",                                                                          \

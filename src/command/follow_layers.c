@@ -49,13 +49,6 @@ static bool is_called(const WrDocument *document, int index)
     return index == document->active && wr_document_shows(document, index);
 }
 
-static bool is_visible(const WrDocument *document, int index)
-{
-    while (index >= 0 && document->layers[index].visible)
-        index = wr_document_parent(document, index);
-    return index < 0;
-}
-
 /* With groups or linked copies every visible layer counts as needed: a member's layers below are not all layers below, and
    copies read layers above too. */
 static void needs_of_visible(const WrSession *session, WrLayerNeed needs[WR_LAYERS_MAX])
@@ -63,8 +56,8 @@ static void needs_of_visible(const WrSession *session, WrLayerNeed needs[WR_LAYE
     const WrDocument *document = session->state.document;
     bool called[WR_LAYERS_MAX] = { false };
     for (int i = document->layer_count - 1; i >= 0; i--) {
-        const bool needed = called[i] || is_called(document, i) || is_visible(document, i) ||
-                            wr_document_shows(document, i);
+        const bool needed = called[i] || is_called(document, i) ||
+                            wr_document_is_visible(document, i) || wr_document_shows(document, i);
         needs[i] = (WrLayerNeed){ needed ? WR_LAYER_NEEDED : WR_LAYER_HIDDEN, -1 };
         if (needed) mark_named(session, i, called);
     }

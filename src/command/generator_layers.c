@@ -130,8 +130,8 @@ static bool by_generator(WrSession *session, int index, WrCall *call, const WrFi
     return good;
 }
 
-/* Hash of what the line reads: a layer that it names, or the composite of the layers below, which is stored in *below
-   (owned by the caller). `nothing` if it reads neither, or the layer is gone. */
+/* Hash of the line's input: the layer that it names, or the composite of the layers below. `nothing` if it reads neither, or
+   the layer is gone. *below: output, that composite, owned by the caller; or NULL */
 static WrHash read_below(const WrSession *session, int index, const WrCall *call, WrField **below)
 {
     const WrDocument *document = session->state.document;
@@ -140,11 +140,7 @@ static WrHash read_below(const WrSession *session, int index, const WrCall *call
     *below = NULL;
     if (named) {
         const int i = wr_document_find_below(document, index, named->text);
-        if (i < 0) return nothing;
-        const WrLayer *layer = &document->layers[i];
-        const WrHash hash = wr_field_hash(layer->heights);
-        const WrHash cover = layer->cover ? wr_field_hash(layer->cover) : nothing;
-        return wr_hash_bytes(&cover, sizeof cover, hash);
+        return i < 0 ? nothing : wr_layer_content_hash(&document->layers[i]);
     }
     if (!generator || !generator->reads) return nothing;
     *below = wr_document_below(document, index, session->options.pool);

@@ -21,7 +21,7 @@ typedef struct WrLayerNeed {
     int by; /* index of the layer that is alone or covers it; -1: none */
 } WrLayerNeed;
 
-/* What became of a layer at the last command that ran. */
+/* Result of the last command for a layer. */
 typedef enum WrLayerRun {
     WR_LAYER_EVALUATED, /* made again */
     WR_LAYER_REUSED,    /* nothing that it depends on has changed */
@@ -34,7 +34,7 @@ typedef struct WrLayerPlan {
     const char *kind;
     WrLayerRun run;
     char reason[80];   /* English */
-    char message[160]; /* the same with marks (message.h) */
+    char message[160]; /* the reason as a message (base/message.h), for translation */
     double
         seconds; /* of the last making of its heights and its mask in this process; 0: not made yet */
     size_t tiles,

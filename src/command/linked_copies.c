@@ -197,7 +197,7 @@ static uint64_t key_of(const WrLayer *layer)
     return wr_hash_bytes(keys, sizeof keys, (WrHash){ 0, 0 }).low | 1;
 }
 
-static WrHash hash_of(const WrLayer *layer)
+WrHash wr_layer_content_hash(const WrLayer *layer)
 {
     const WrHash hashes[] = { wr_field_hash(layer->heights),
                               layer->cover ? wr_field_hash(layer->cover) : (WrHash){ 0, 0 } };
@@ -215,7 +215,7 @@ bool wr_session_take_source(WrSession *session, int index, WrCall *call, WrHash 
     links.source[index] = -1;
     const int source = find_named(document, index, index + 1, wr_call_arg(call, SOURCE)->text);
     if (!check_cycle(session, &links, index, source, err)) return false;
-    *read = hash_of(&document->layers[source]);
+    *read = wr_layer_content_hash(&document->layers[source]);
     return true;
 }
 
@@ -242,8 +242,8 @@ bool wr_session_link_lags(WrSession *session, const WrLinks *links, int index)
     const uint64_t key = key_of(source);
     if (layer->copied == key) return false;
     WrCall *call = call_of(layer->line);
-    const bool lags =
-        has_values(call) ? !wr_hash_equal(hash_of(source), layer->below) : key_of(layer) != key;
+    const bool lags = has_values(call) ? !wr_hash_equal(wr_layer_content_hash(source), layer->below)
+                                       : key_of(layer) != key;
     wr_call_free(call);
     if (!lags) layer->copied = key;
     return lags;
@@ -396,21 +396,7 @@ static const WrArgSpec args_link[] = {
       .high = 4,
       .fallback = NUMBERS(0, 0),
       .help = "to the right and up, in widths and heights of the table" },
-    { .name = "turn",
-      .type = WR_ARG_NUMBER,
-      .low = -36000,
-      .high = 36000,
-      .fallback = NUMBERS(0),
-      .unit = "degrees",
-      .help = "anticlockwise, about the table's middle" },
-    { .name = "scale",
-      .type = WR_ARG_TUPLE,
-      .components = 2,
-      .shape = "su,sv",
-      .low = -WR_PLACE_SCALE,
-      .high = WR_PLACE_SCALE,
-      .fallback = NUMBERS(1, 1),
-      .help = "how much larger along u and v, before it is turned; below 0 mirrors" },
+    WR_TRANSFORM_ARGS("anticlockwise, about the table's middle"),
     { .name = "factor",
       .type = WR_ARG_NUMBER,
       .low = -WR_BIG_HEIGHT,

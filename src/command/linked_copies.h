@@ -29,9 +29,12 @@ bool wr_layer_reads_below(const WrDocument *document, const WrLinks *links, int 
    stands for another layer. */
 bool wr_session_name_source(const WrSession *session, int place, int above, WrCall *call,
                             WrError *err);
-/* The same for a copy that is about to be made at layer `index`; *read: the hash of what it reads. Error: a cycle. */
+/* Replace the number in the call of a copy that is about to be made at layer `index`, as wr_session_name_source does. *read:
+   output, content hash of its source. Error: also a cycle. */
 bool wr_session_take_source(WrSession *session, int index, WrCall *call, WrHash *read,
                             WrError *err);
+/* Hash of a layer's heights and coverage. */
+WrHash wr_layer_content_hash(const WrLayer *layer);
 /* Record that the layer's copy, if it is one, was made of its source as it is. */
 void wr_session_note_source(WrSession *session, int index);
 

@@ -201,11 +201,11 @@ static void set_in_use(WrDocument *document, const char *variant)
 }
 
 /* Note that a stored line is not used, since the layer is plain now: its own heights, or its mask, would be lost. */
-static void note_plain(WrSession *session, int index, const char *what)
+static void note_plain(WrSession *session, int index, const char *part)
 {
     WrText name = { 0 };
     wr_session_note(session, "%s has no %s any more: that of the variant is left out",
-                    wr_session_layer_name(session, index, &name), what);
+                    wr_session_layer_name(session, index, &name), part);
     wr_text_fini(&name);
 }
 

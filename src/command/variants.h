@@ -1,8 +1,8 @@
 /* variants.h - variants of a document: named sets of layers' values, so that one document holds several versions.
 
    A variant has the visibility, blend, opacity and radius of each layer, the line of a generator layer, the terms of a live
-   mask and the values of a filter; no heights and no scene. A layer that was added after the variant was stored is not in it,
-   and is left as it is. Names: document/variants.h. */
+   mask and the values of a filter; no heights and no scene. A layer that was added after the variant was stored is hidden in
+   it. Names: document/variants.h. */
 #pragma once
 #include "document/variants.h"
 

@@ -16,12 +16,12 @@ WrComposite *wr_composite_new(void);
 WrComposite *wr_composite_share(const WrComposite *composite);
 void wr_composite_free(WrComposite *composite); /* NULL is fine */
 
-/* How a group's members are composited. On what they act is decided by the group's own blend:
+/* Compositing of a group's members. The group's own blend selects their backdrop:
 
      add, subtract, mix   on a ground at height 0, as a document is. The group's result H is that composite.
      all others           on nothing: heights of partial coverage (wr_blend_tile_partial). So a group of one member,
-                          with its blend, is the member itself, bit for bit: a soft edge shows what is below the
-                          group, not a ground at 0.
+                          with its blend, is the member itself, bit for bit: a soft edge blends with the heights
+                          below the group, not with a ground at 0.
 
    The coverage C of a group is the union of its members': from 0, C + w (1 - C) for each from the bottom up, with w =
    opacity x mask x coverage of the member, whatever its blend; only mix fills its mask, so w is opacity x mask. An add or
@@ -34,7 +34,7 @@ void wr_composite_free(WrComposite *composite); /* NULL is fine */
    in another order: up to 2^-23 of the sum of all absolute heights there for each member. Groups with blend and members all
    max, or all min, opacities 1 and coverages and masks 0 or 1 equal their members bit for bit. */
 
-/* What is composited: rows of a document's layers. */
+/* Input of a composite: rows of a document's layers. */
 typedef struct WrRows {
     const WrLayer *layers;
     int from,
@@ -45,7 +45,7 @@ typedef struct WrRows {
 /* Updates it to the rows, bottom first; solo: index of one that is shown even if it is hidden, or -1. Any
    number of threads may call it at once, as long as nobody edits the layers. Borrowed: valid until the next call
    after an edit.
-   cover: gets their coverage, which is borrowed likewise and 0 if none is visible; NULL: not wanted */
+   cover: output, their coverage, 0 if none is visible; borrowed until the next call after an edit. NULL: none */
 const WrField *wr_composite_update(WrComposite *composite, const WrRows *rows, int solo,
                                    WrPool *pool, const WrField **cover);
 
@@ -60,7 +60,7 @@ WrField *wr_composite_below(WrComposite *composite, const WrRows *rows, int coun
 
 typedef struct WrError WrError;
 
-/* On what a layer is blended. */
+/* Backdrop on which a layer is blended. */
 typedef enum WrBackdrop {
     WR_BACKDROP_GROUND,  /* heights everywhere: wr_blend_tile */
     WR_BACKDROP_PARTIAL, /* heights of partial coverage: wr_blend_tile_partial */

@@ -253,10 +253,15 @@ int wr_document_find_below(const WrDocument *document, int index, const char *na
     return index;
 }
 
+bool wr_document_is_visible(const WrDocument *document, int index)
+{
+    return is_visible_up_to(document, index, -1);
+}
+
 bool wr_document_shows(const WrDocument *document, int index)
 {
     const int solo = document->solo;
-    if (solo < 0) return is_visible_up_to(document, index, -1);
+    if (solo < 0) return wr_document_is_visible(document, index);
     if (index == solo) return true;
     return wr_document_is_within(document, index, solo) && is_visible_up_to(document, index, solo);
 }
@@ -488,8 +493,11 @@ static void take_blend(const WrLayer *lowest, WrLayer *group)
     group->radius = same ? lowest->radius : 0.0f;
 }
 
-/* Lists the rows in the order that they have with a group of the chosen ones, without the group's row, and what each is
-   deeper by. Returns the number of rows up to the highest chosen one; lowest: gets the place of the lowest chosen one. */
+/* New order of the rows after the chosen ones are grouped, without the group's own row. Returns the number of rows up to the
+   highest chosen one.
+     order   output [layer_count], old index of each row
+     deeper  output [layer_count], increase of the depth of each old row
+     lowest  output, place of the lowest chosen row in `order` */
 static int list_grouped(const WrDocument *document, const bool chosen[], int order[], int deeper[],
                         int *lowest)
 {
@@ -788,7 +796,7 @@ int wr_document_rasterize_group(WrDocument *document, int index, WrPool *pool)
     return rows.from;
 }
 
-/* Heights of a layer with mode add that does what layers index - 1 and index do. */
+/* Heights of a layer with mode add that has the effect of layers index - 1 and index. */
 static WrField *joined(const WrDocument *document, int index, WrPool *pool)
 {
     const WrLayer *layers = document->layers;

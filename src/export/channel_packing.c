@@ -16,15 +16,20 @@
 typedef struct Filling {
     const char *word, *kind;
     bool turned; /* inverted: 1 - value */
+    WrMaterialRole role;
 } Filling;
 
 /* Without a kind: a constant of the material. */
 static const Filling fillings[] = {
-    { "occlusion", "occlusion", false }, { "roughness", "roughness", false },
-    { "smoothness", "roughness", true }, { "metalness", NULL, false },
-    { "height", "displacement", false }, { "cavity", "cavity", false },
-    { "curvature", "curvature", false }, { "mask", "mask", false },
-    { "wear", "wear", false },
+    { "occlusion", "occlusion", false, WR_ROLE_OCCLUSION },
+    { "roughness", "roughness", false, WR_ROLE_ROUGHNESS },
+    { "smoothness", "roughness", true, WR_ROLE_ROUGHNESS },
+    { "metalness", NULL, false, WR_ROLE_METALNESS },
+    { "height", "displacement", false, WR_ROLE_NONE },
+    { "cavity", "cavity", false, WR_ROLE_NONE },
+    { "curvature", "curvature", false, WR_ROLE_NONE },
+    { "mask", "mask", false, WR_ROLE_NONE },
+    { "wear", "wear", false, WR_ROLE_NONE },
 };
 #define FILLINGS ((int)WR_LENGTH(fillings))
 
@@ -99,11 +104,12 @@ static const Filling *filling_of(const WrExportPack *pack)
     return pack->filling > 0 ? &fillings[pack->filling - 1] : NULL;
 }
 
-const char *wr_export_packed_word(const WrExportOptions *options, int c)
+WrMaterialRole wr_export_packed_role(const WrExportOptions *options, int c, bool *turned)
 {
     const WrExportPack pack = pack_of(options, c);
     const Filling *filling = filling_of(&pack);
-    return filling ? filling->word : NULL;
+    *turned = filling && filling->turned;
+    return filling ? filling->role : WR_ROLE_NONE;
 }
 
 static void put_constant(WrExportJob *job, int c, float x)

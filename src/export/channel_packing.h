@@ -4,8 +4,9 @@
 #pragma once
 #include "export/option_parsers.h"
 
-/* Content of channel c, from 0, as the options name it: "occlusion"; NULL: a number everywhere. */
-const char *wr_export_packed_word(const WrExportOptions *options, int c);
+/* Role of channel c, from 0; WR_ROLE_NONE: a number everywhere, or a map without a role. *turned: output, its value is 1 less
+   the role's. */
+WrMaterialRole wr_export_packed_role(const WrExportOptions *options, int c, bool *turned);
 
 WrExportSet wr_export_set_red, wr_export_set_green, wr_export_set_blue, wr_export_set_alpha;
 

@@ -259,6 +259,19 @@ typedef struct WrExportOptionInfo {
 
 typedef struct WrExportJob WrExportJob; /* private to the module */
 
+/* Input of a material that a map can be (material_files.h). */
+typedef enum WrMaterialRole {
+    WR_ROLE_NONE,
+    WR_ROLE_NORMAL,
+    WR_ROLE_HEIGHT,
+    WR_ROLE_ROUGHNESS,
+    WR_ROLE_METALNESS,
+    WR_ROLE_OCCLUSION,
+    WR_ROLE_COLOUR,
+    WR_ROLES,
+    WR_ROLE_CHANNELS = WR_ROLES /* a role for each channel (channel_packing.h) */
+} WrMaterialRole;
+
 typedef struct WrExportKind {
     const char *name, *label, *help;
     WrExportOptionInfo options[WR_EXPORT_OPTIONS + 1]; /* a NULL name ends the list */
@@ -268,6 +281,8 @@ typedef struct WrExportKind {
     bool levels; /* has mip levels (mip_files.h) */
     const char *const *channel_names; /* [channels]; NULL: the default ones */
     double green;                     /* normals: sign of the second component */
+    WrMaterialRole role;
+    bool table_units;   /* the numbers are heights of the table; else final values of the role */
     bool on_surface;    /* it covers the scene's surface, in scene units, instead of the cell */
     const char *ending; /* required extension of its files; NULL: that of a picture or a drawing */
     /* Number of channels as a function of the options; NULL: `channels`, with default names. names: output

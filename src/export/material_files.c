@@ -27,10 +27,8 @@
 
 /* ---- textures and numbers of the material ---- */
 
-typedef enum Role { NORMAL, HEIGHT, ROUGHNESS, METALNESS, OCCLUSION, COLOUR, ROLES } Role;
-
-static const char *const role_names[ROLES] = { "normal",    "height",    "roughness",
-                                               "metalness", "occlusion", "colour" };
+static const char *const role_names[WR_ROLES] = { "none",      "normal",    "height", "roughness",
+                                                  "metalness", "occlusion", "colour" };
 
 /* A picture, or a channel of one: the value is scale * texel + bias. */
 typedef struct Texture {
@@ -45,7 +43,7 @@ typedef struct Texture {
 typedef struct Material {
     const WrMaterialRequest *order;
     const WrScene *scene;
-    Texture textures[ROLES];
+    Texture textures[WR_ROLES];
     const char *why[WR_MAP_SET_ENTRIES_MAX]; /* of maps without a role; else NULL */
     double colour[3], roughness, metalness, ior, specular;
     double repeat[2];
@@ -54,12 +52,12 @@ typedef struct Material {
     unsigned uses; /* bits of roles that the format in hand uses */
 } Material;
 
-static bool uses(const Material *m, Role role)
+static bool uses(const Material *m, WrMaterialRole role)
 {
     return m->uses >> role & 1;
 }
 
-static void give(Material *m, Role role, Texture texture, int map)
+static void give(Material *m, WrMaterialRole role, Texture texture, int map)
 {
     texture.map = map;
     texture.file = m->order->maps[map].file;
@@ -81,26 +79,17 @@ static Texture plain_texture(const Material *m, const WrMaterialMap *map, double
 
 static void give_packed(Material *m, int index)
 {
-    static const struct {
-        const char *word;
-        Role role;
-        bool turned;
-    } words[] = { { "occlusion", OCCLUSION, false },
-                  { "roughness", ROUGHNESS, false },
-                  { "smoothness", ROUGHNESS, true },
-                  { "metalness", METALNESS, false } };
     const WrMaterialMap *map = &m->order->maps[index];
     bool given = false;
     for (int c = 0; c < map->report.channels; c++) {
-        const char *word = wr_export_packed_word(&map->options, c);
-        for (size_t k = 0; word && k < WR_LENGTH(words); k++) {
-            if (strcmp(words[k].word, word) != 0 || m->textures[words[k].role].file) continue;
-            Texture t = plain_texture(m, map, 1);
-            t.channel = c;
-            t.scale = words[k].turned ? -1 : 1, t.bias = words[k].turned;
-            give(m, words[k].role, t, index);
-            given = true;
-        }
+        bool turned;
+        const WrMaterialRole role = wr_export_packed_role(&map->options, c, &turned);
+        if (role == WR_ROLE_NONE || m->textures[role].file) continue;
+        Texture t = plain_texture(m, map, 1);
+        t.channel = c;
+        t.scale = turned ? -1 : 1, t.bias = turned;
+        give(m, role, t, index);
+        given = true;
     }
     m->why[index] = given ? NULL : "no channel that a material needs";
 }
@@ -112,24 +101,22 @@ static void give_normal(Material *m, int index)
     Texture t = plain_texture(m, map, 1);
     t.green_down = convention[0] == '-';
     if (map->kind->on_surface) t.repeat[0] = t.repeat[1] = 1; /* covers the surface */
-    if (convention[1] == 'Y') give(m, NORMAL, t, index);
+    if (convention[1] == 'Y') give(m, WR_ROLE_NORMAL, t, index);
     else m->why[index] = "its axes are not those of a tangent space";
 }
 
 static void give_map(Material *m, int index)
 {
     const WrMaterialMap *map = &m->order->maps[index];
-    const char *kind = map->kind->name;
+    const WrMaterialRole role = map->kind->role;
     m->why[index] = "no input for it";
     if (map->kind->write) return;
     if (wr_is_raw_path(map->file)) m->why[index] = "a file of numbers";
     else if (map->kind->green != 0 && map->report.convention) give_normal(m, index);
-    else if (strcmp(kind, "height") == 0)
-        give(m, HEIGHT, plain_texture(m, map, wr_scene_relief(m->scene)), index);
-    else if (strcmp(kind, "displacement") == 0) give(m, HEIGHT, plain_texture(m, map, 1), index);
-    else if (strcmp(kind, "roughness") == 0) give(m, ROUGHNESS, plain_texture(m, map, 1), index);
-    else if (strcmp(kind, "occlusion") == 0) give(m, OCCLUSION, plain_texture(m, map, 1), index);
-    else if (strcmp(kind, "packed") == 0) give_packed(m, index);
+    else if (role == WR_ROLE_CHANNELS) give_packed(m, index);
+    else if (role != WR_ROLE_NONE)
+        give(m, role, plain_texture(m, map, map->kind->table_units ? wr_scene_relief(m->scene) : 1),
+             index);
 }
 
 static double within(double x, double most)
@@ -178,12 +165,12 @@ static void gather(const WrMaterialRequest *order, Material *m)
     WrText name = { 0 };
     wr_text_addf(&name, "%s_colour.png", order->name);
     m->picture = name.data;
-    m->textures[COLOUR] = (Texture){ .file = m->picture,
-                                     .channels = 3,
-                                     .scale = 1,
-                                     .repeat = { laid->own ? laid->ru : m->repeat[0],
-                                                 laid->own ? laid->rv : m->repeat[1] },
-                                     .map = -1 };
+    m->textures[WR_ROLE_COLOUR] = (Texture){ .file = m->picture,
+                                             .channels = 3,
+                                             .scale = 1,
+                                             .repeat = { laid->own ? laid->ru : m->repeat[0],
+                                                         laid->own ? laid->rv : m->repeat[1] },
+                                             .map = -1 };
 }
 
 /* A scale of 1 and a bias of 0: the texel itself. */
@@ -247,28 +234,28 @@ static void mtlx_arithmetic(WrText *out, const char *operation, const char *type
     snprintf(node, 64, "%s", name);
 }
 
-static const char *image_type(const Texture *t, Role role)
+static const char *image_type(const Texture *t, WrMaterialRole role)
 {
     static const char *const types[] = { "float", "vector2", "vector3", "vector4" };
-    return role == COLOUR ? "color3"
-                          : types[(t->channels < 1   ? 1
-                                   : t->channels > 4 ? 4
-                                                     : t->channels) -
-                                  1];
+    return role == WR_ROLE_COLOUR ? "color3"
+                                  : types[(t->channels < 1   ? 1
+                                           : t->channels > 4 ? 4
+                                                             : t->channels) -
+                                          1];
 }
 
-static void mtlx_image(WrText *out, const Texture *t, Role role, char node[64])
+static void mtlx_image(WrText *out, const Texture *t, WrMaterialRole role, char node[64])
 {
     const char *type = image_type(t, role);
     snprintf(node, 64, "%s_image", role_names[role]);
     wr_text_addf(out, "    <tiledimage name=\"%s\" type=\"%s\">\n", node, type);
     wr_text_addf(out, "      <input name=\"file\" type=\"filename\" colorspace=\"%s\" value=\"",
-                 role == COLOUR ? "srgb_texture" : "none");
+                 role == WR_ROLE_COLOUR ? "srgb_texture" : "none");
     add_xml(out, t->file);
     wr_text_add(out, "\" />\n");
     mtlx_numbers(out, "uvtiling", "vector2", t->repeat, 2);
     wr_text_add(out, "    </tiledimage>\n");
-    if (role == COLOUR || role == NORMAL || t->channels == 1) return;
+    if (role == WR_ROLE_COLOUR || role == WR_ROLE_NORMAL || t->channels == 1) return;
     wr_text_addf(out, "    <extract name=\"%s_channel\" type=\"float\">\n", role_names[role]);
     mtlx_link(out, "in", type, node);
     wr_text_addf(out,
@@ -291,23 +278,24 @@ static void mtlx_normal(WrText *out, const Texture *t, char node[64])
     snprintf(node, 64, "normal_map");
 }
 
-static const char *output_type(Role role)
+static const char *output_type(WrMaterialRole role)
 {
-    return role == NORMAL ? "vector3" : role == COLOUR ? "color3" : "float";
+    return role == WR_ROLE_NORMAL ? "vector3" : role == WR_ROLE_COLOUR ? "color3" : "float";
 }
 
 /* The nodes of one texture, and the graph's output. The heights' scale belongs to the displacement: here is the offset
    alone, x + bias / scale. */
-static void mtlx_texture(const Material *m, WrText *out, Role role)
+static void mtlx_texture(const Material *m, WrText *out, WrMaterialRole role)
 {
     const Texture *t = &m->textures[role];
     const char *name = role_names[role];
     const double offset = t->bias / t->scale;
     char node[64];
     mtlx_image(out, t, role, node);
-    if (role == NORMAL) mtlx_normal(out, t, node);
-    else if (role == COLOUR) mtlx_arithmetic(out, "multiply", "color3", node, name, m->colour, 3);
-    else if (role != HEIGHT && !is_plain(t)) {
+    if (role == WR_ROLE_NORMAL) mtlx_normal(out, t, node);
+    else if (role == WR_ROLE_COLOUR)
+        mtlx_arithmetic(out, "multiply", "color3", node, name, m->colour, 3);
+    else if (role != WR_ROLE_HEIGHT && !is_plain(t)) {
         mtlx_arithmetic(out, "multiply", "float", node, name, &t->scale, 1);
         mtlx_arithmetic(out, "add", "float", node, name, &t->bias, 1);
     } else if (isfinite(offset) && fabs(offset) > 0) {
@@ -318,8 +306,8 @@ static void mtlx_texture(const Material *m, WrText *out, Role role)
 }
 
 /* An input of a shader: the graph's output, or numbers. */
-static void mtlx_input(const Material *m, WrText *out, const char *name, Role role, const double *x,
-                       int count)
+static void mtlx_input(const Material *m, WrText *out, const char *name, WrMaterialRole role,
+                       const double *x, int count)
 {
     if (!uses(m, role)) {
         if (x) mtlx_numbers(out, name, output_type(role), x, count);
@@ -336,25 +324,25 @@ static void mtlx_shaders(const Material *m, WrText *out)
     const char *id = wr_text_get(&m->id);
     wr_text_addf(out, "  <standard_surface name=\"SR_%s\" type=\"surfaceshader\">\n", id);
     mtlx_numbers(out, "base", "float", &one, 1);
-    mtlx_input(m, out, "base_color", COLOUR, m->colour, 3);
+    mtlx_input(m, out, "base_color", WR_ROLE_COLOUR, m->colour, 3);
     mtlx_numbers(out, "specular", "float", &m->specular, 1);
-    mtlx_input(m, out, "specular_roughness", ROUGHNESS, &m->roughness, 1);
+    mtlx_input(m, out, "specular_roughness", WR_ROLE_ROUGHNESS, &m->roughness, 1);
     mtlx_numbers(out, "specular_IOR", "float", &m->ior, 1);
-    mtlx_input(m, out, "metalness", METALNESS, &m->metalness, 1);
-    mtlx_input(m, out, "normal", NORMAL, NULL, 0);
+    mtlx_input(m, out, "metalness", WR_ROLE_METALNESS, &m->metalness, 1);
+    mtlx_input(m, out, "normal", WR_ROLE_NORMAL, NULL, 0);
     wr_text_add(out, "  </standard_surface>\n");
-    if (uses(m, HEIGHT)) {
+    if (uses(m, WR_ROLE_HEIGHT)) {
         wr_text_addf(out, "  <!-- heights in %s -->\n", unit_of(m));
         wr_text_addf(out, "  <displacement name=\"DS_%s\" type=\"displacementshader\">\n", id);
-        mtlx_input(m, out, "displacement", HEIGHT, NULL, 0);
-        mtlx_numbers(out, "scale", "float", &m->textures[HEIGHT].scale, 1);
+        mtlx_input(m, out, "displacement", WR_ROLE_HEIGHT, NULL, 0);
+        mtlx_numbers(out, "scale", "float", &m->textures[WR_ROLE_HEIGHT].scale, 1);
         wr_text_add(out, "  </displacement>\n");
     }
     wr_text_addf(out, "  <surfacematerial name=\"M_%s\" type=\"material\">\n", id);
     wr_text_addf(
         out, "      <input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"SR_%s\" />\n",
         id);
-    if (uses(m, HEIGHT))
+    if (uses(m, WR_ROLE_HEIGHT))
         wr_text_addf(out,
                      "      <input name=\"displacementshader\" type=\"displacementshader\" "
                      "nodename=\"DS_%s\" />\n",
@@ -369,8 +357,8 @@ static bool mtlx_write(const Material *m, WrText *out, WrText *bin, WrError *err
                      "<materialx version=\"1.38\" colorspace=\"lin_rec709\">\n");
     if (m->uses) {
         wr_text_addf(out, "  <nodegraph name=\"NG_%s\">\n", wr_text_get(&m->id));
-        for (int role = 0; role < ROLES; role++)
-            if (uses(m, (Role)role)) mtlx_texture(m, out, (Role)role);
+        for (int role = 0; role < WR_ROLES; role++)
+            if (uses(m, (WrMaterialRole)role)) mtlx_texture(m, out, (WrMaterialRole)role);
         wr_text_add(out, "  </nodegraph>\n");
     }
     mtlx_shaders(m, out);
@@ -381,7 +369,7 @@ static bool mtlx_write(const Material *m, WrText *out, WrText *bin, WrError *err
 static const char *mtlx_refuses(const Material *m, int role)
 {
     (void)m;
-    return role == OCCLUSION ? "the standard surface has no input for it" : NULL;
+    return role == WR_ROLE_OCCLUSION ? "the standard surface has no input for it" : NULL;
 }
 
 static bool mtlx_check(const Material *m, const char *path, const WrText *out, WrError *err)
@@ -434,7 +422,7 @@ static void usd_shader(WrText *out, const char *name, const char *id)
 }
 
 /* Its (u,v): those of the mesh, repeated; and the picture, as codes become numbers. */
-static void usd_texture(const Material *m, WrText *out, Role role)
+static void usd_texture(const Material *m, WrText *out, WrMaterialRole role)
 {
     const Texture *t = &m->textures[role];
     static const double one[4] = { 1, 1, 1, 1 };
@@ -453,42 +441,43 @@ static void usd_texture(const Material *m, WrText *out, Role role)
     wr_text_add(out, "            asset inputs:file = ");
     usd_asset(out, t->file);
     wr_text_addf(out, "\n            token inputs:sourceColorSpace = \"%s\"\n",
-                 role == COLOUR ? "sRGB" : "raw");
+                 role == WR_ROLE_COLOUR ? "sRGB" : "raw");
     wr_text_add(out, "            token inputs:wrapS = \"repeat\"\n"
                      "            token inputs:wrapT = \"repeat\"\n");
     usd_link(m, out, "float2", "st", place, "result");
     usd_numbers(out, "float4", "scale",
-                role == NORMAL   ? normal[0]
-                : role == COLOUR ? tint
-                : is_plain(t)    ? one
-                                 : value[0],
+                role == WR_ROLE_NORMAL   ? normal[0]
+                : role == WR_ROLE_COLOUR ? tint
+                : is_plain(t)            ? one
+                                         : value[0],
                 4);
-    usd_numbers(out, "float4", "bias", role == NORMAL ? normal[1] : value[1], 4);
-    if (role == NORMAL || role == COLOUR) wr_text_add(out, "            float3 outputs:rgb\n");
+    usd_numbers(out, "float4", "bias", role == WR_ROLE_NORMAL ? normal[1] : value[1], 4);
+    if (role == WR_ROLE_NORMAL || role == WR_ROLE_COLOUR)
+        wr_text_add(out, "            float3 outputs:rgb\n");
     else wr_text_addf(out, "            float outputs:%c\n", "rgba"[t->channel & 3]);
     wr_text_add(out, "        }\n\n");
 }
 
-static void usd_input(const Material *m, WrText *out, const char *type, const char *name, Role role,
-                      const double *x, int count)
+static void usd_input(const Material *m, WrText *out, const char *type, const char *name,
+                      WrMaterialRole role, const double *x, int count)
 {
     const char output[2] = { "rgba"[m->textures[role].channel & 3], '\0' };
     if (uses(m, role))
         usd_link(m, out, type, name, role_names[role],
-                 role == NORMAL || role == COLOUR ? "rgb" : output);
+                 role == WR_ROLE_NORMAL || role == WR_ROLE_COLOUR ? "rgb" : output);
     else if (x) usd_numbers(out, type, name, x, count);
 }
 
 static void usd_surface(const Material *m, WrText *out)
 {
     usd_shader(out, "surface", "UsdPreviewSurface");
-    usd_input(m, out, "color3f", "diffuseColor", COLOUR, m->colour, 3);
-    usd_input(m, out, "float", "roughness", ROUGHNESS, &m->roughness, 1);
-    usd_input(m, out, "float", "metallic", METALNESS, &m->metalness, 1);
+    usd_input(m, out, "color3f", "diffuseColor", WR_ROLE_COLOUR, m->colour, 3);
+    usd_input(m, out, "float", "roughness", WR_ROLE_ROUGHNESS, &m->roughness, 1);
+    usd_input(m, out, "float", "metallic", WR_ROLE_METALNESS, &m->metalness, 1);
     usd_numbers(out, "float", "ior", &m->ior, 1);
-    usd_input(m, out, "normal3f", "normal", NORMAL, NULL, 0);
-    usd_input(m, out, "float", "occlusion", OCCLUSION, NULL, 0);
-    usd_input(m, out, "float", "displacement", HEIGHT, NULL, 0);
+    usd_input(m, out, "normal3f", "normal", WR_ROLE_NORMAL, NULL, 0);
+    usd_input(m, out, "float", "occlusion", WR_ROLE_OCCLUSION, NULL, 0);
+    usd_input(m, out, "float", "displacement", WR_ROLE_HEIGHT, NULL, 0);
     wr_text_add(out, "            token outputs:surface\n"
                      "            token outputs:displacement\n        }\n\n");
 }
@@ -534,7 +523,7 @@ static bool usda_write(const Material *m, WrText *out, WrText *bin, WrError *err
     wr_text_addf(out,
                  "        token outputs:surface.connect = </%s/Material/surface.outputs:surface>\n",
                  id);
-    if (uses(m, HEIGHT))
+    if (uses(m, WR_ROLE_HEIGHT))
         wr_text_addf(out,
                      "        token outputs:displacement.connect = "
                      "</%s/Material/surface.outputs:displacement>\n",
@@ -546,8 +535,8 @@ static bool usda_write(const Material *m, WrText *out, WrText *bin, WrError *err
         wr_text_add(out, "            string inputs:varname = \"st\"\n"
                          "            float2 outputs:result\n        }\n\n");
     }
-    for (int role = 0; role < ROLES; role++)
-        if (uses(m, (Role)role)) usd_texture(m, out, (Role)role);
+    for (int role = 0; role < WR_ROLES; role++)
+        if (uses(m, (WrMaterialRole)role)) usd_texture(m, out, (WrMaterialRole)role);
     wr_text_add(out, "    }\n}\n");
     return true;
 }
@@ -577,44 +566,46 @@ static void add_uri(WrText *out, const char *name, const char *ending)
 static const char *gltf_refuses(const Material *m, int role)
 {
     const Texture *t = &m->textures[role];
-    const Texture *rough = &m->textures[ROUGHNESS];
+    const Texture *rough = &m->textures[WR_ROLE_ROUGHNESS];
     const bool grey = t->channels == 1, level = m->metalness <= 0;
     char ending[16];
     wr_path_ending(t->file, ending);
-    if (role == HEIGHT) return "glTF has no displacement";
+    if (role == WR_ROLE_HEIGHT) return "glTF has no displacement";
     if (strcmp(ending, "png") != 0 && strcmp(ending, "jpg") != 0 && strcmp(ending, "jpeg") != 0)
         return "glTF reads PNG and JPEG only";
-    if (role == NORMAL && t->green_down) return "glTF needs +Y normals";
-    if (role == OCCLUSION && (t->channel != 0 || !is_plain(t))) return "glTF needs it in red";
-    if (role == ROUGHNESS && (!is_plain(t) || !(t->channel == 1 || (grey && level))))
+    if (role == WR_ROLE_NORMAL && t->green_down) return "glTF needs +Y normals";
+    if (role == WR_ROLE_OCCLUSION && (t->channel != 0 || !is_plain(t)))
+        return "glTF needs it in red";
+    if (role == WR_ROLE_ROUGHNESS && (!is_plain(t) || !(t->channel == 1 || (grey && level))))
         return "glTF needs it in green, with metalness in blue";
-    if (role == METALNESS && (t->channel != 2 || !rough->file || rough->channel != 1 ||
-                              strcmp(rough->file, t->file) != 0))
+    if (role == WR_ROLE_METALNESS && (t->channel != 2 || !rough->file || rough->channel != 1 ||
+                                      strcmp(rough->file, t->file) != 0))
         return "glTF needs it in blue, with roughness in green";
     return NULL;
 }
 
 /* The first role in use whose texture is of the same file. */
-static Role first_of_file(const Material *m, Role role)
+static WrMaterialRole first_of_file(const Material *m, WrMaterialRole role)
 {
     for (int k = 0; k < (int)role; k++)
-        if (uses(m, (Role)k) && strcmp(m->textures[k].file, m->textures[role].file) == 0)
-            return (Role)k;
+        if (uses(m, (WrMaterialRole)k) && strcmp(m->textures[k].file, m->textures[role].file) == 0)
+            return (WrMaterialRole)k;
     return role;
 }
 
 /* Index of the image and the texture of a role that is the first of its file. */
-static int gltf_index(const Material *m, Role role)
+static int gltf_index(const Material *m, WrMaterialRole role)
 {
     int index = 0;
     for (int k = 0; k < (int)role; k++)
-        index += uses(m, (Role)k) && first_of_file(m, (Role)k) == (Role)k;
+        index +=
+            uses(m, (WrMaterialRole)k) && first_of_file(m, (WrMaterialRole)k) == (WrMaterialRole)k;
     return index;
 }
 
 /* TEXCOORD_0 is (r u, 1 - r v) with the cells' repeat r. A picture of another repeat r' needs the scale s = r'/r, and along
    v the offset 1 - s, as in glb.c. */
-static void gltf_texture(const Material *m, WrText *out, const char *name, Role role)
+static void gltf_texture(const Material *m, WrText *out, const char *name, WrMaterialRole role)
 {
     const Texture *t = &m->textures[role];
     if (!uses(m, role)) return;
@@ -634,8 +625,8 @@ static void gltf_texture(const Material *m, WrText *out, const char *name, Role 
 static void gltf_material(const Material *m, WrText *out)
 {
     const double factor[4] = { m->colour[0], m->colour[1], m->colour[2], 1 };
-    const double roughness = uses(m, ROUGHNESS) ? 1 : m->roughness;
-    const double metalness = uses(m, METALNESS) ? 1 : m->metalness;
+    const double roughness = uses(m, WR_ROLE_ROUGHNESS) ? 1 : m->roughness;
+    const double metalness = uses(m, WR_ROLE_METALNESS) ? 1 : m->metalness;
     wr_text_add(out, ",\"materials\":[{\"name\":");
     wr_text_add_json_string(out, m->order->name);
     wr_text_add(out, ",\"pbrMetallicRoughness\":{\"baseColorFactor\":[");
@@ -644,11 +635,11 @@ static void gltf_material(const Material *m, WrText *out)
     wr_text_add_number(out, metalness);
     wr_text_add(out, ",\"roughnessFactor\":");
     wr_text_add_number(out, roughness);
-    gltf_texture(m, out, "baseColorTexture", COLOUR);
-    gltf_texture(m, out, "metallicRoughnessTexture", ROUGHNESS);
+    gltf_texture(m, out, "baseColorTexture", WR_ROLE_COLOUR);
+    gltf_texture(m, out, "metallicRoughnessTexture", WR_ROLE_ROUGHNESS);
     wr_text_add(out, "}");
-    gltf_texture(m, out, "normalTexture", NORMAL);
-    gltf_texture(m, out, "occlusionTexture", OCCLUSION);
+    gltf_texture(m, out, "normalTexture", WR_ROLE_NORMAL);
+    gltf_texture(m, out, "occlusionTexture", WR_ROLE_OCCLUSION);
     if (fabs(m->ior - 1.5) > 0) {
         wr_text_add(out, ",\"extensions\":{\"KHR_materials_ior\":{\"ior\":");
         wr_text_add_number(out, m->ior);
@@ -664,8 +655,10 @@ static void gltf_pictures(const Material *m, WrText *out)
     int count = 0;
     if (!m->uses) return;
     wr_text_add(out, ",\"samplers\":[{\"wrapS\":10497,\"wrapT\":10497}],\"images\":[");
-    for (int role = 0; role < ROLES; role++) {
-        if (!uses(m, (Role)role) || first_of_file(m, (Role)role) != (Role)role) continue;
+    for (int role = 0; role < WR_ROLES; role++) {
+        if (!uses(m, (WrMaterialRole)role) ||
+            first_of_file(m, (WrMaterialRole)role) != (WrMaterialRole)role)
+            continue;
         wr_text_add(out, count++ ? ",{\"uri\":" : "{\"uri\":");
         add_uri(out, m->textures[role].file, "");
         wr_text_add(out, "}");
@@ -680,8 +673,8 @@ static void gltf_extensions(const Material *m, WrText *out)
 {
     bool moved = false;
     const bool ior = fabs(m->ior - 1.5) > 0;
-    for (int role = 0; role < ROLES; role++)
-        for (int k = 0; k < 2 && uses(m, (Role)role); k++)
+    for (int role = 0; role < WR_ROLES; role++)
+        for (int k = 0; k < 2 && uses(m, (WrMaterialRole)role); k++)
             moved |= fabs(m->textures[role].repeat[k] / m->repeat[k] - 1) > 0;
     if (!moved && !ior) return;
     wr_text_addf(out, "\"extensionsUsed\":[%s%s%s],", moved ? "\"KHR_texture_transform\"" : "",
@@ -711,8 +704,9 @@ static bool gltf_check(const Material *m, const char *path, const WrText *out, W
     WrGltfMaterial read;
     (void)out;
     if (!wr_gltf_read_material(path, NULL, &read, err)) return false;
-    bool same = (read.normal >= 0) == uses(m, NORMAL) && (read.facets >= 0) == uses(m, ROUGHNESS) &&
-                (read.base >= 0) == uses(m, COLOUR);
+    bool same = (read.normal >= 0) == uses(m, WR_ROLE_NORMAL) &&
+                (read.facets >= 0) == uses(m, WR_ROLE_ROUGHNESS) &&
+                (read.base >= 0) == uses(m, WR_ROLE_COLOUR);
     for (int c = 0; c < 3; c++) same = same && fabs(read.colour[c] - m->colour[c]) <= 0;
     return same || wr_fail(err, "%s: does not read back as it was written", path);
 }
@@ -763,12 +757,12 @@ static void report(const Material *m, const WrMaterialFormat *format, const char
     const char *before = " with ";
     char number[WR_NUMBER_SIZE];
     wr_text_addf(list, "%s: %s", path, format->title);
-    for (int role = 0; role < ROLES; role++) {
+    for (int role = 0; role < WR_ROLES; role++) {
         const Texture *t = &m->textures[role];
-        if (!uses(m, (Role)role)) continue;
+        if (!uses(m, (WrMaterialRole)role)) continue;
         wr_text_addf(list, "%s%s", before, role_names[role]);
         before = ", ";
-        if (role != HEIGHT) continue;
+        if (role != WR_ROLE_HEIGHT) continue;
         wr_text_addf(list, " (texels 0..1 are %s",
                      wr_number_print_float((float)(t->bias + 0.0), number));
         wr_text_addf(list, "..%s %s)", wr_number_print_float((float)(t->bias + t->scale), number),
@@ -780,8 +774,8 @@ static void report(const Material *m, const WrMaterialFormat *format, const char
             wr_text_addf(list, "%s%s: %s", before, m->order->maps[i].file, m->why[i]);
             before = ", ";
         }
-    for (int role = 0; role < ROLES; role++)
-        if (m->textures[role].file && !uses(m, (Role)role)) {
+    for (int role = 0; role < WR_ROLES; role++)
+        if (m->textures[role].file && !uses(m, (WrMaterialRole)role)) {
             wr_text_addf(list, "%s%s of %s: %s", before, role_names[role], m->textures[role].file,
                          format->refuses(m, role));
             before = ", ";
@@ -809,7 +803,7 @@ static bool write_format(Material *m, const WrMaterialFormat *format, WrText *li
     WrText out = { 0 }, bin = { 0 }, path = { 0 };
     const double began = wr_clock_seconds();
     m->uses = 0;
-    for (int role = 0; role < ROLES; role++)
+    for (int role = 0; role < WR_ROLES; role++)
         if (m->textures[role].file && !format->refuses(m, role)) m->uses |= 1u << role;
     bool good = format->write(m, &out, &bin, err) &&
                 (!bin.length || put_file(m, "bin", &bin, &path, err)) &&

@@ -4,7 +4,7 @@
    Heights are displacements in the unit of the cell's size: millimetres (`cell mm=on`), else scene units. A texel x
    of 0..1 means bias + scale x with
      height        bias = h F0, scale = h (F1 - F0): F0, F1 heights of code 0 and the last code, h = wr_scene_relief
-     displacement  the same with h = 1
+     displacement  bias = F0, scale = F1 - F0
      float files   bias = 0, scale = h (or 1)
    Other modules use the formats' names alone. */
 #pragma once

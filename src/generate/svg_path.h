@@ -47,5 +47,5 @@ typedef struct WrSvgOutline {
 } WrSvgOutline;
 void wr_svg_path_outline(const WrSvgPath *path, WrSvgOutline *out);
 void wr_svg_outline_fini(WrSvgOutline *outline);
-/* x, y, width, height of what the filled path covers. */
+/* x, y, width, height of the bounding box of the filled path. */
 void wr_svg_outline_box(const WrSvgOutline *outline, double box[4]);

@@ -30,15 +30,12 @@ typedef struct WrAppLatency {
     bool turning;        /* the patch rotates meanwhile */
     int width, height;   /* of the window, pixels; 0: 1440 x 900 */
     double idle_seconds; /* idle period before, without rotation; 0: none */
-    int layer; /* number of a generator layer, from 1, whose first value is dragged instead; 0: none */
     /* results */
     double idle; /* fraction of one processor, 0..: the program's load while idle */
     int64_t events, pictures;
     WrAppDelays pointer; /* the brush outline is at the pointer's position */
     WrAppDelays canvas;  /* the canvas shows everything the event has painted */
     WrAppDelays preview; /* the patch shows everything the event has painted */
-    double
-        exact; /* of a dragged value: ms from the last event until table and patch show its exact heights */
 } WrAppLatency;
 
 /* Measure latency in a hidden window (no display needed): an idle period, then scribbling on the canvas, always the

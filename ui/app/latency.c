@@ -12,8 +12,6 @@
 #include "ui/patch/patch.h"
 #include "ui/canvas/tools/stroke_input.h"
 #include "ui/patch/preview/preview.h"
-#include "ui/app/jobs/edit_preview.h"
-#include "ui/panels/generate/generate_state.h"
 
 #include "base/array.h"
 #include "base/error.h"
@@ -51,10 +49,6 @@ struct WrLatency {
     Uint32 window_id;
     volatile int stop; /* atomic */
     WrThread thread;
-    int64_t *
-        upto; /* [count + 2] events that the preview of each request includes; NULL: not of a drag */
-    /* requests before the drag; then the last request, and the last one whose exact result the table shows */
-    int64_t before, asked, exact;
 };
 
 /* ---- the scribble ---- */
@@ -118,34 +112,11 @@ static void note(WrLatency *latency, int which, int64_t upto, double now)
         latency->delay[which][*seen] = (float)((now - latency->at[*seen]) * 1e3);
 }
 
-/* Number of the request whose result is the newest, as the patch's tag. */
-static void mark_shown(WrApp *app)
-{
-    const WrLatency *latency = app->latency;
-    const int64_t shown = wr_edit_preview_tag(app->trial) - latency->before;
-    app->brush->shown = shown > 0 && shown <= latency->asked ? shown : 0;
-    app->hand->events = app->brush->shown; /* which the canvas copies to `shown` as it draws */
-}
-
-/* The previews of a dragged value: the table shows the newest; the patch has the number of its own as its tag. */
-static void note_drag(WrApp *app, double now)
-{
-    WrLatency *latency = app->latency;
-    mark_shown(app);
-    if (!wr_edit_preview_is_rough(app->trial)) latency->exact = app->brush->shown;
-    note(latency, 1, latency->upto[app->brush->shown], now);
-    note(latency, 2, latency->upto[app->patch->seen], now);
-}
-
 static void drawn(WrApp *app)
 {
     WrLatency *latency = app->latency;
     double now = wr_clock_seconds();
     latency->pictures++;
-    if (latency->upto) {
-        note_drag(app, now);
-        return;
-    }
     note(latency, 0, app->hand->events, now);
     note(latency, 1, app->brush->shown, now);
     note(latency, 2, app->patch->seen, now);
@@ -274,87 +245,16 @@ static bool measure(WrApp *app, WrLatency *latency, WrError *err)
     return true;
 }
 
-/* ---- a dragged value ---- */
-
-#define DRAG_EVENTS 60 /* a second */
-#define DRAG_PERIOD 97 /* events to and fro */
-
-/* One step of the window; requests that it makes include all events before. */
-static void step_drag(WrApp *app, int64_t events)
-{
-    WrLatency *latency = app->latency;
-    SDL_Event nothing = { .type = app->job_event };
-    SDL_PushEvent(&nothing);
-    mark_shown(app);
-    wr_app_step(app);
-    while (latency->asked < app->generate->asks - latency->before &&
-           latency->asked <= latency->count)
-        latency->upto[++latency->asked] = events;
-}
-
-/* The first number of the generator. */
-static double *dragged_value(WrApp *app)
-{
-    WrGenerateState *hand = app->generate;
-    for (int i = 0; hand->generator && hand->generator->params[i].name; i++)
-        if (hand->generator->params[i].kind == WR_PARAM_NUMBER) return &hand->value[i].number[0];
-    return NULL;
-}
-
-static void drag(WrApp *app, double *value)
-{
-    WrLatency *latency = app->latency;
-    const double first = *value, start = wr_clock_seconds();
-    for (int64_t i = 0; i < latency->count && !stopped(app); i++) {
-        while (wr_clock_seconds() < start + (double)i / DRAG_EVENTS) {
-            step_drag(app, i);
-            SDL_Delay(1);
-        }
-        *value = first * (1.0 + 0.3 * sin(6.2831853 * (double)(i + 1) / DRAG_PERIOD));
-        latency->at[i] = wr_clock_seconds();
-        wr_generate_changed(app);
-        step_drag(app, i + 1);
-    }
-}
-
-/* Drag a value of a generator layer as its slider does, then wait for the exact heights. */
-static bool measure_drag(WrApp *app, WrLatency *latency, WrAppLatency *out, WrError *err)
-{
-    step_for(app, SETTLE_SECONDS);
-    wr_generate_edit_layer(app, out->layer - 1);
-    double *value = dragged_value(app);
-    if (!app->generate->active || !value)
-        return wr_fail(err, "layer %d: its generator has no value that could be dragged",
-                       out->layer);
-    step_for(app, SETTLE_SECONDS); /* the preview of the present value */
-    while (wr_edit_preview_busy(app->trial, NULL, NULL) && !stopped(app)) step_for(app, 0.02);
-    app->patch->seen = app->brush->shown = latency->pictures = 0;
-    latency->seen[1] = latency->seen[2] = latency->asked = latency->exact = 0;
-    latency->before = app->generate->asks;
-    drag(app, value);
-    const double last = latency->at[latency->count - 1], end = last + MAX_SECONDS;
-    while ((latency->upto[latency->exact] < latency->count || !all_seen(latency)) &&
-           wr_clock_seconds() < end && !stopped(app)) {
-        step_drag(app, latency->count);
-        SDL_Delay(1);
-    }
-    out->exact = 1e3 * (wr_clock_seconds() - last);
-    if (stopped(app)) return wr_fail(err, "interrupted");
-    wr_generate_cancel(app);
-    return true;
-}
-
 bool wr_app_latency(const WrAppOptions *options, WrAppLatency *out, WrError *err)
 {
     if (!(out->seconds >= 0.5 && out->seconds <= 600.0))
         return wr_fail(err, "%g seconds of scribbling: must be 0.5..600", out->seconds);
-    WrLatency latency = { .count = (int64_t)(out->seconds *
-                                             (out->layer > 0 ? DRAG_EVENTS : EVENTS_A_SECOND)) };
+    WrLatency latency = { .count = (int64_t)(out->seconds * EVENTS_A_SECOND) };
     latency.at = wr_alloc((size_t)latency.count, sizeof *latency.at);
     latency.paints = wr_alloc((size_t)latency.count, sizeof *latency.paints);
     for (int k = 0; k < 3; k++) latency.delay[k] = wr_alloc((size_t)latency.count, sizeof(float));
     for (int64_t i = 0; i < latency.count; i++)
-        latency.paints[i] = out->layer > 0 || i % (STROKE_EVENTS + PAUSE_EVENTS) < STROKE_EVENTS;
+        latency.paints[i] = i % (STROKE_EVENTS + PAUSE_EVENTS) < STROKE_EVENTS;
     WrAppOptions own = *options;
     own.width = out->width > 0 ? out->width : 1440;
     own.height = out->height > 0 ? out->height : 900;
@@ -373,9 +273,7 @@ bool wr_app_latency(const WrAppOptions *options, WrAppLatency *out, WrError *err
         app->settings->turning = out->turning;
         app->settings->brush.radius = out->radius;
         app->settings->brush.strength = 0.02;
-        if (out->layer > 0)
-            latency.upto = wr_alloc((size_t)latency.count + 2, sizeof *latency.upto);
-        good = out->layer > 0 ? measure_drag(app, &latency, out, err) : measure(app, &latency, err);
+        good = measure(app, &latency, err);
     }
     if (good) {
         out->events = latency.count;
@@ -386,7 +284,6 @@ bool wr_app_latency(const WrAppOptions *options, WrAppLatency *out, WrError *err
     }
     wr_app_end(app);
     wr_free(app);
-    wr_free(latency.upto);
     wr_free(latency.at);
     wr_free(latency.paints);
     for (int k = 0; k < 3; k++) wr_free(latency.delay[k]);

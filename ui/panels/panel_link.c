@@ -16,59 +16,27 @@
 
 #include <string.h>
 
-/* A number of an argument, as a row. */
+/* A number of an argument, as a row; its limits are the argument's. */
 static const struct {
     const char *argument, *label;
     int part;
     WrNumber number;
 } rows[] = {
-    { "shift",
-      "Shift u",
-      0,
-      { .low = -1, .high = 1, .hard_low = -4, .hard_high = 4, .decimals = 3 } },
-    { "shift",
-      "Shift v",
-      1,
-      { .low = -1, .high = 1, .hard_low = -4, .hard_high = 4, .decimals = 3 } },
-    { "turn",
-      "Turn",
-      0,
-      { .low = -180,
-        .high = 180,
-        .hard_low = -36000,
-        .hard_high = 36000,
-        .decimals = 1,
-        .unit = "degrees" } },
+    { "shift", "Shift u", 0, { .low = -1, .high = 1, .decimals = 3 } },
+    { "shift", "Shift v", 1, { .low = -1, .high = 1, .decimals = 3 } },
+    { "turn", "Turn", 0, { .low = -180, .high = 180, .decimals = 1, .unit = "degrees" } },
     { "scale",
       "Scale u",
       0,
-      { .low = -2,
-        .high = 2,
-        .hard_low = -64,
-        .hard_high = 64,
-        .reset = 1,
-        .decimals = 2,
-        .tip = "Below 0 it is mirrored" } },
+      { .low = -2, .high = 2, .reset = 1, .decimals = 2, .tip = "Below 0 it is mirrored" } },
     { "scale",
       "Scale v",
       1,
-      { .low = -2,
-        .high = 2,
-        .hard_low = -64,
-        .hard_high = 64,
-        .reset = 1,
-        .decimals = 2,
-        .tip = "Below 0 it is mirrored" } },
+      { .low = -2, .high = 2, .reset = 1, .decimals = 2, .tip = "Below 0 it is mirrored" } },
     { "factor",
       "Height",
       0,
-      { .low = -2,
-        .high = 2,
-        .hard_low = -1e6,
-        .hard_high = 1e6,
-        .reset = 1,
-        .decimals = 2,
-        .tip = "A factor of all heights" } },
+      { .low = -2, .high = 2, .reset = 1, .decimals = 2, .tip = "A factor of all heights" } },
 };
 
 static void change(WrApp *app, const char *words)
@@ -95,7 +63,7 @@ static void put_number(WrApp *app, const WrCall *call, const char *name, int par
     wr_text_fini(&words);
 }
 
-/* All layers but the copy itself and filters, from the top. */
+/* All layers that have heights but the copy itself, from the top. */
 static bool layer_row(WrApp *app, const WrCall *call)
 {
     const WrDocument *document = wr_app_document(app);
@@ -103,7 +71,7 @@ static bool layer_row(WrApp *app, const WrCall *call)
     const WrArg *source = &call->args[0];
     int count = 0, chosen = -1;
     for (int i = document->layer_count - 1; i >= 0; i--) {
-        if (i == document->active || document->layers[i].filter.op) continue;
+        if (i == document->active || !wr_layer_holds(&document->layers[i])) continue;
         names[count] = document->layers[i].name;
         if (chosen < 0 && strcmp(names[count], source->text) == 0) chosen = count;
         count++;
@@ -127,9 +95,14 @@ static bool layer_row(WrApp *app, const WrCall *call)
 static bool number_rows(WrApp *app, const WrCall *call)
 {
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        double value = wr_call_arg(call, rows[i].argument)->numbers[rows[i].part];
+        const WrArg *arg = wr_call_arg(call, rows[i].argument);
+        const WrArgSpec *spec = &call->specs[arg - call->args];
+        WrNumber number = rows[i].number;
+        number.hard_low = spec->low;
+        number.hard_high = spec->high;
+        double value = arg->numbers[rows[i].part];
         wr_gui_label(rows[i].label);
-        if (wr_gui_number(rows[i].label, 0, &rows[i].number, &value) != WR_EDIT_DONE) continue;
+        if (wr_gui_number(rows[i].label, 0, &number, &value) != WR_EDIT_DONE) continue;
         put_number(app, call, rows[i].argument, rows[i].part, value);
         return true;
     }

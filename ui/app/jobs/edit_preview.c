@@ -232,7 +232,6 @@ struct WrEditPreview {
     WrError err;
     bool failed;
     bool rough;         /* the field is a rough result */
-    int64_t tag;        /* of its request */
     bool going_on;      /* the exact result after a rough one is being requested */
     bool running_rough; /* the last request that was started is a rough one */
     Work *next;         /* waits until that one is done; owned; NULL: none */
@@ -611,7 +610,6 @@ static void take(WrEditPreview *trial)
         trial->notes = work->notes;
         work->notes = notes;
         trial->rough = work->ask.rough;
-        trial->tag = work->ask.tag;
         bool whole = !trial->rough && !(work->ask.op && work->ask.op->reshapes);
         forget_made(trial);
         if (whole) trial->made = wr_document_share(work->document);
@@ -643,12 +641,6 @@ const WrDocument *wr_edit_preview_made(WrEditPreview *trial)
 bool wr_edit_preview_busy(WrEditPreview *trial, double *fraction, double *seconds)
 {
     return wr_job_busy(trial->job, fraction, seconds);
-}
-
-int64_t wr_edit_preview_tag(WrEditPreview *trial)
-{
-    take(trial);
-    return trial->field ? trial->tag : 0;
 }
 
 bool wr_edit_preview_is_rough(WrEditPreview *trial)

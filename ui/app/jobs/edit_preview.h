@@ -40,8 +40,6 @@ typedef struct WrEditPreviewRequest {
     WrLineTarget target; /* of a generator's line */
     bool rough;          /* a fast rough result first, then the exact one */
 
-    int64_t tag; /* returned with the result */
-
     int layer; /* or a layer with changed settings; or the filter or generator layer */
     WrBlend blend;
     float opacity, radius;
@@ -63,8 +61,6 @@ void wr_edit_preview_stop(WrEditPreview *trial);
 
 /* The newest result, or NULL. Valid until the next call except wr_edit_preview_busy. */
 const WrField *wr_edit_preview_field(WrEditPreview *trial);
-/* Tag of the request of the newest result; 0: there is none. */
-int64_t wr_edit_preview_tag(WrEditPreview *trial);
 /* True while a computation runs; its progress (0..1) and elapsed seconds; either may be NULL. */
 bool wr_edit_preview_busy(WrEditPreview *trial, double *fraction, double *seconds);
 /* True if the newest result is a rough one of a generator and the exact one is being computed. */

@@ -475,9 +475,9 @@ static void ask(WrApp *app, const char *line)
     hand->asked = copy;
     hand->asked_of = hand->generator;
     hand->asked_at = wr_session_revision(app->session);
-    WrEditPreviewRequest request = {
-        .line = line, .target = wr_generate_target(hand), .tag = ++hand->asks, .rough = slow
-    };
+    WrEditPreviewRequest request = { .line = line,
+                                     .target = wr_generate_target(hand),
+                                     .rough = slow };
     if (hand->layer >= 0) {
         request.layer = hand->layer;
         request.blend = (WrBlend)hand->blend;

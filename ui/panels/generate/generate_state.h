@@ -60,7 +60,6 @@ typedef struct WrGenerateState {
     bool into_active;  /* the result goes into the active layer, not to a new one */
     char *asked;       /* line of the requested preview, owned; NULL: none */
     uint64_t asked_at; /* the document's revision at the request */
-    int64_t asks;      /* requests so far: the tag of the last one */
     double seconds;    /* duration of its last exact result; 0: unknown */
     const WrGenerator *asked_of; /* generator of that line */
     WrLineTarget asked_into;
