@@ -418,15 +418,15 @@ static bool link_layer(WrSession *session, int index, int place, int depth, WrEr
 {
     WrDocument *document = session->state.document;
     const WrLayer *source = &document->layers[index];
-    if (!wr_layer_holds(source))
-        return wr_fail(err,
-                       "linked=on: layer %d is a filter or a group, without heights of its own",
+    if (source->filter.op)
+        return wr_fail(err, "linked=on: layer %d is a filter, without heights to be copied",
                        index + 1);
     WrLayer layer = wr_layer_share(source);
     wr_free(layer.name);
     layer.name = copy_name(source->name);
     layer.locked = false;
     layer.depth = depth;
+    layer.is_group = layer.collapsed = false;
     wr_layer_link(&layer, source->name);
     wr_document_insert(document, place, layer);
     return wr_session_generate_again(session, place, err);

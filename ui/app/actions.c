@@ -363,7 +363,7 @@ const WrAction wr_actions[] = {
     EDIT(select_mask, "Select by the mask", wr_act_select_mask, wr_has_mask, NULL, .row_menu = 4),
     EDIT(layer_add, "New layer", wr_act_layer_add, NULL, NULL),
     EDIT(layer_duplicate, "Duplicate layer", wr_act_layer_duplicate, NULL, NULL, .row_menu = 1),
-    EDIT(layer_link, "Linked copy", wr_act_layer_link, wr_has_heights, NULL, .row_menu = 1),
+    EDIT(layer_link, "Linked copy", wr_act_layer_link, wr_can_link, NULL, .row_menu = 1),
     LAYER(layer_delete, "Delete layer", wr_act_layer_delete, wr_can_delete, NULL, .row_menu = 1),
     EDIT(layer_rename, "Rename layer", wr_act_layer_rename, NULL, NULL, .row_menu = 1),
     EDIT(filter_edit, "Edit filter or generator...", wr_act_filter_edit, wr_has_values, NULL,

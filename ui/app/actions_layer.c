@@ -338,6 +338,11 @@ bool wr_can_flatten(const WrApp *app)
     return wr_can_several_layers(app) && wr_can_change_all(app);
 }
 
+bool wr_can_link(const WrApp *app)
+{
+    return !active(app)->filter.op;
+}
+
 bool wr_has_heights(const WrApp *app)
 {
     return wr_layer_holds(active(app));

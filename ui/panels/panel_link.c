@@ -63,7 +63,7 @@ static void put_number(WrApp *app, const WrCall *call, const char *name, int par
     wr_text_fini(&words);
 }
 
-/* All layers that have heights but the copy itself, from the top. */
+/* All layers but filters, the copy itself and the groups that it is in, from the top. */
 static bool layer_row(WrApp *app, const WrCall *call)
 {
     const WrDocument *document = wr_app_document(app);
@@ -71,7 +71,9 @@ static bool layer_row(WrApp *app, const WrCall *call)
     const WrArg *source = &call->args[0];
     int count = 0, chosen = -1;
     for (int i = document->layer_count - 1; i >= 0; i--) {
-        if (i == document->active || !wr_layer_holds(&document->layers[i])) continue;
+        if (i == document->active || document->layers[i].filter.op ||
+            wr_document_is_within(document, document->active, i))
+            continue;
         names[count] = document->layers[i].name;
         if (chosen < 0 && strcmp(names[count], source->text) == 0) chosen = count;
         count++;
@@ -119,9 +121,10 @@ void wr_dialog_link(WrApp *app)
         return;
     }
     if (wr_gui_dialog_begin_at("Linked copy", wr_dialog_side(app))) {
-        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
-                            "It follows the heights of its layer. Blend, opacity and mask are its "
-                            "own.");
+        wr_gui_text_wrapped(
+            WR_FONT_SMALL, WR_COLOUR_LABEL,
+            "It follows the heights of its layer or group. Blend, opacity and mask are its "
+            "own.");
         wr_gui_space(4);
         wr_busy_hold(app);
         if (!layer_row(app, call)) number_rows(app, call);
