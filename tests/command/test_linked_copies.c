@@ -338,13 +338,16 @@ static void a_hidden_group_is_followed_for_its_copies(void **state)
     WrSession *s = grouped(), *shown = grouped();
     WrSession *both[] = { s, shown };
     for (int i = 0; i < 2; i++) {
+        must_run(both[i], "layer add dots from=\"pattern dots across=3\" in=g");
+        must_run(both[i], "layer add c from=\"link dots turn=33\" in=g");
         must_run(both[i], "layer add worn from=\"terrain terraces steps=3\" in=g");
-        must_run(both[i], "layer add c from=\"link low turn=33\" in=g");
+        must_run(both[i], "layer set worn blend=max");
         must_run(both[i], "layer duplicate g linked=on");
         must_run(both[i], i == 0 ? "layer set g visible=off" : "layer set g opacity=0.3");
+        must_run(both[i], "layer set dots change=\"across=7\"");
     }
-    /* layers of a hidden group cannot be edited by brushes: by another command */
-    for (int i = 0; i < 2; i++) must_run(both[i], "adjust multiply factor=1.7 layers=all");
+    assert_true(same_field(layer(s, "c")->heights, layer(shown, "c")->heights));
+    assert_true(same_field(layer(s, "worn")->heights, layer(shown, "worn")->heights));
     assert_true(same_field(layer(s, "g copy")->heights, layer(shown, "g copy")->heights));
     assert_true(same_cover(layer(s, "g copy")->cover, layer(shown, "g copy")->cover));
     wr_session_free(s);
