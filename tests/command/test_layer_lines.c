@@ -87,7 +87,7 @@ static void an_edge_follows_the_outline_of_a_layer(void **state)
     check_bevel(s, 20);
     must_run(s, "layer set form change=\"at=0.541666667,0.541666667\"");
     check_bevel(s, 40);
-    must_run(s, "layer rename form other");
+    must_run(s, "layer set form name=other");
     assert_non_null(strstr(doc(s)->layers[2].line, "layer=other"));
     must_run(s, "layer set other change=\"at=0.333333333,0.541666667\"");
     check_bevel(s, 20);

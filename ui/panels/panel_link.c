@@ -39,16 +39,17 @@ static const struct {
       { .low = -2, .high = 2, .reset = 1, .decimals = 2, .tip = "A factor of all heights" } },
 };
 
-static void change(WrApp *app, const char *words)
+static void change(WrApp *app, const char *words, WrEdit edit)
 {
     WrText line = { 0 };
     wr_text_addf(&line, "layer set %d change=", wr_app_document(app)->active + 1);
     wr_text_add_word(&line, words);
-    wr_app_run_slow(app, wr_text_get(&line));
+    wr_app_try_command(app, edit, wr_text_get(&line));
     wr_text_fini(&line);
 }
 
-static void put_number(WrApp *app, const WrCall *call, const char *name, int part, double value)
+static void put_number(WrApp *app, const WrCall *call, const char *name, int part, double value,
+                       WrEdit edit)
 {
     const int index = (int)(wr_call_arg(call, name) - call->args);
     const int count = wr_arg_width(&call->specs[index]);
@@ -59,7 +60,7 @@ static void put_number(WrApp *app, const WrCall *call, const char *name, int par
         wr_text_add_number(&words,
                            k == part ? wr_line_round(value, 6) : call->args[index].numbers[k]);
     }
-    change(app, wr_text_get(&words));
+    change(app, wr_text_get(&words), edit);
     wr_text_fini(&words);
 }
 
@@ -89,7 +90,7 @@ static bool layer_row(WrApp *app, const WrCall *call)
     if (!changed) return false;
     WrText words = { 0 };
     wr_text_add_word(&words, names[chosen]);
-    change(app, wr_text_get(&words));
+    change(app, wr_text_get(&words), WR_EDIT_DONE);
     wr_text_fini(&words);
     return true;
 }
@@ -104,8 +105,9 @@ static bool number_rows(WrApp *app, const WrCall *call)
         number.hard_high = spec->high;
         double value = arg->numbers[rows[i].part];
         wr_gui_label(rows[i].label);
-        if (wr_gui_number(rows[i].label, 0, &number, &value) != WR_EDIT_DONE) continue;
-        put_number(app, call, rows[i].argument, rows[i].part, value);
+        const WrEdit edit = wr_gui_number(rows[i].label, 0, &number, &value);
+        if (edit == WR_EDIT_NONE) continue;
+        put_number(app, call, rows[i].argument, rows[i].part, value, edit);
         return true;
     }
     return false;
@@ -129,7 +131,10 @@ void wr_dialog_link(WrApp *app)
         wr_busy_hold(app);
         if (!layer_row(app, call)) number_rows(app, call);
         wr_busy_hold_end();
-        if (wr_gui_button("Done", true) || wr_gui_escape_pressed()) wr_dialog_close(app);
+        if (wr_gui_button("Done", true) || wr_gui_escape_pressed()) {
+            wr_app_try_end(app);
+            wr_dialog_close(app);
+        }
         wr_gui_dialog_end();
     }
     wr_call_free(call);
