@@ -12,6 +12,8 @@
 #include "ui/app/state/pointer_state.h"
 #include "ui/app/state/registry.h"
 #include "ui/app/state/settings.h"
+#include "ui/app/state/action.h"
+#include "ui/panels/panels.h"
 #include "ui/panels/layer_choice.h"
 #include "ui/panels/layer_rows.h"
 #include "ui/panels/panel_layers.h"
@@ -599,6 +601,9 @@ static void actions_change_all_chosen_layers_in_one_step(void **state)
         click(&bench, 4, PLAIN);
         click(&bench, 2, CTRL);
         assert_list(&bench, "fedcba", "bD");
+        char label[WR_ACTION_LABEL];
+        const WrAction *action = wr_action_find(bench.app, "layer_delete");
+        assert_string_equal(wr_menu_label(bench.app, action, label), "Delete 2 layers");
         const int before = steps(&bench);
         wr_action_run(bench.app, acts[i].action);
         settle(&bench);
@@ -617,6 +622,9 @@ static void copies_are_chosen_and_merged(void **state)
     Bench bench;
     open_list(&bench, 4);
     click(&bench, 3, PLAIN);
+    char label[WR_ACTION_LABEL];
+    const WrAction *action = wr_action_find(bench.app, "layer_delete");
+    assert_string_equal(wr_menu_label(bench.app, action, label), "Delete layer");
     click(&bench, 1, CTRL);
     wr_action_run(bench.app, "layer_duplicate");
     settle(&bench);
