@@ -331,7 +331,7 @@ static void a_copy_of_a_group_follows_its_composite(void **state)
     wr_session_free(s);
 }
 
-/* A hidden group is a usual source: its copies show what is in it, also what is computed. */
+/* A hidden group is a usual source: its copies show its layers, computed ones too. */
 static void a_hidden_group_is_followed_for_its_copies(void **state)
 {
     (void)state;
