@@ -108,7 +108,7 @@ static bool number_rows(WrApp *app, const WrCall *call)
         const WrEdit edit = wr_gui_number(rows[i].label, 0, &number, &value);
         if (edit == WR_EDIT_NONE) continue;
         put_number(app, call, rows[i].argument, rows[i].part, value, edit);
-        return true;
+        if (edit == WR_EDIT_DONE) return true;
     }
     return false;
 }

@@ -139,7 +139,7 @@ static bool number_row(WrApp *app, const WrMaskTerms *terms, int index, int arg)
     wr_text_add_number(&text, wr_line_round(value, 6));
     put_value(app, terms, index, arg, wr_text_get(&text), edit);
     wr_text_fini(&text);
-    return true;
+    return edit == WR_EDIT_DONE; /* the terms stay while it is dragged */
 }
 
 static bool choice_row(WrApp *app, const WrMaskTerms *terms, int index, int arg)
