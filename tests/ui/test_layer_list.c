@@ -5,6 +5,7 @@
 #include "app.h"
 
 #include "base/text.h"
+#include "base/error.h"
 #include "document/document.h"
 
 #include "ui/app/state/chosen_layers.h"
@@ -13,6 +14,8 @@
 #include "ui/app/state/registry.h"
 #include "ui/app/state/settings.h"
 #include "ui/app/state/action.h"
+#include "ui/app/state/dialog.h"
+#include "ui/panels/panel_search.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/layer_choice.h"
 #include "ui/panels/layer_rows.h"
@@ -616,6 +619,24 @@ static void actions_change_all_chosen_layers_in_one_step(void **state)
     finish(&bench);
 }
 
+/* A ramp has no sliders. */
+static void the_line_of_a_ramp_opens_as_text(void **state)
+{
+    (void)state;
+    WrError err;
+    Bench bench;
+    open_list(&bench, 2);
+    assert_true(wr_session_run(bench.session,
+                               "layer add r from=\"ramp linear from=0.25,0.5 to=0.75,0.5\"", &err));
+    settle(&bench);
+    wr_action_run(bench.app, "filter_edit");
+    settle(&bench);
+    assert_int_equal(bench.app->dialog->now, WR_DIALOG_SEARCH);
+    assert_string_equal(bench.app->finder->text,
+                        "layer set 3 from=\"ramp linear from=0.25,0.5 to=0.75,0.5\"");
+    finish(&bench);
+}
+
 static void copies_are_chosen_and_merged(void **state)
 {
     (void)state;
@@ -782,6 +803,7 @@ int main(void)
         cmocka_unit_test(steps_lead_through_groups_and_back),
         cmocka_unit_test(rows_are_chosen_by_clicks_and_keys),
         cmocka_unit_test(actions_change_all_chosen_layers_in_one_step),
+        cmocka_unit_test(the_line_of_a_ramp_opens_as_text),
         cmocka_unit_test(copies_are_chosen_and_merged),
         cmocka_unit_test(eyes_of_several_layers),
         cmocka_unit_test(rows_are_dragged_together),
