@@ -131,10 +131,8 @@ void wr_dialog_link(WrApp *app)
         wr_busy_hold(app);
         if (!layer_row(app, call)) number_rows(app, call);
         wr_busy_hold_end();
-        if (wr_gui_button("Done", true) || wr_gui_escape_pressed()) {
-            wr_app_try_end(app);
-            wr_dialog_close(app);
-        }
+        wr_dialog_close_button(app, "Done");
+        if (app->dialog->now == WR_DIALOG_NONE) wr_app_try_end(app);
         wr_gui_dialog_end();
     }
     wr_call_free(call);
