@@ -26,17 +26,11 @@ static bool reads_below(const WrLayer *layer)
 /* Marks the layers that a layer's line and the terms of its mask name. */
 static void mark_named(const WrSession *session, int index, bool *called)
 {
-    const WrDocument *document = session->state.document;
-    const char *line = document->layers[index].mask_line;
+    int named[WR_MASK_TERMS];
     const int read = wr_session_line_layer(session, index);
     if (read >= 0) called[read] = true;
-    WrMaskTerms terms;
-    if (!line || !wr_mask_terms_parse(line, &terms, NULL)) return;
-    for (int k = 0; k < terms.count; k++) {
-        const int found = wr_mask_term_layer(document, index, terms.calls[k]);
-        if (found >= 0) called[found] = true;
-    }
-    wr_mask_terms_free(&terms);
+    const int count = wr_mask_named(session->state.document, index, named);
+    for (int k = 0; k < count; k++) called[named[k]] = true;
 }
 
 /* True if the layer is needed whatever is above it: it is shown alone, an object uses it, or it is edited, by brushes that may
@@ -51,12 +45,13 @@ static bool is_called(const WrDocument *document, int index)
 
 /* With groups or linked copies every visible layer counts as needed: a member's layers below are not all layers below, and
    copies read layers above too. */
-static void needs_of_visible(const WrSession *session, WrLayerNeed needs[WR_LAYERS_MAX])
+static void needs_of_visible(const WrSession *session, const WrLinks *links,
+                             WrLayerNeed needs[WR_LAYERS_MAX])
 {
     const WrDocument *document = session->state.document;
     bool called[WR_LAYERS_MAX] = { false };
     for (int i = document->layer_count - 1; i >= 0; i--) {
-        const bool needed = called[i] || is_called(document, i) ||
+        const bool needed = called[i] || links->within[i] || is_called(document, i) ||
                             wr_document_is_visible(document, i) || wr_document_shows(document, i);
         needs[i] = (WrLayerNeed){ needed ? WR_LAYER_NEEDED : WR_LAYER_HIDDEN, -1 };
         if (needed) mark_named(session, i, called);
@@ -88,7 +83,8 @@ void wr_session_layer_needs(const WrSession *session, WrLayerNeed needs[WR_LAYER
 {
     WrLinks links;
     wr_session_links(session, &links);
-    if (links.any || wr_document_groups(session->state.document)) needs_of_visible(session, needs);
+    if (links.any || wr_document_groups(session->state.document))
+        needs_of_visible(session, &links, needs);
     else needs_of_stack(session, needs);
 }
 
@@ -135,6 +131,15 @@ void wr_session_below_key(const WrDocument *document, int index, WrBelowKey *key
     for (int i = 0; i < index; i++) add_key(document, i, groups, key);
 }
 
+WrHash wr_session_group_key(const WrDocument *document, int group)
+{
+    const int blend = (int)document->layers[group].blend;
+    WrBelowKey key = { .shown = wr_hash_bytes(&blend, sizeof blend, (WrHash){ 1, 0 }) };
+    for (int i = wr_layers_first(document->layers, group); i < group; i++)
+        add_key(document, i, true, &key);
+    return key.shown;
+}
+
 /* ---- after each command ---- */
 
 /* One pass over the layers, from the bottom up; the layers that a layer reads are made before it, even those above. */
@@ -150,48 +155,56 @@ typedef struct Following {
 static bool is_read(const Following *f, int index)
 {
     const WrDocument *document = f->session->state.document;
-    bool read =
-        f->needed[index] || wr_scene_uses_layer(document->scene, document->layers[index].name);
+    bool read = f->needed[index] || f->links.within[index] ||
+                wr_scene_uses_layer(document->scene, document->layers[index].name);
     for (int i = 0; i < document->layer_count && !read; i++) read = f->links.source[i] == index;
     return read;
 }
 
 static bool follow_line(Following *f, int index, WrError *err)
 {
-    /* cycles of links are refused only among lines that are shown (wr_layer_reads_below) */
+    /* cycles of links are refused only among lines that are followed */
     const bool needed =
-        f->needed[index] && (!f->links.any || wr_document_shows(f->session->state.document, index));
+        f->needed[index] &&
+        (!f->links.any || wr_layer_is_followed(f->session->state.document, &f->links, index));
     const bool read = f->links.copies[index] && is_read(f, index);
     return wr_session_follow_line(f->session, &f->links, index, needed, read, err);
 }
 
-static bool follow_heights(Following *f, int index, WrError *err);
+static bool follow_rows(Following *f, int from, int to, WrError *err);
 
 static bool follow_mask(Following *f, int index, WrError *err)
 {
     if (f->masks[index]) return true;
     f->masks[index] = true;
-    return !f->needed[index] || wr_session_follow_mask(f->session, index, err);
-}
-
-static bool follow_below(Following *f, int index, WrError *err)
-{
-    bool good = true;
-    for (int i = 0; good && i < index; i++)
-        good = follow_heights(f, i, err) && follow_mask(f, i, err);
-    return good;
+    if (!f->needed[index]) return true;
+    const WrDocument *document = f->session->state.document;
+    int named[WR_MASK_TERMS];
+    const int count = f->links.any ? wr_mask_named(document, index, named) : 0;
+    if (document->layers[index].mask_line && f->links.any &&
+        !follow_rows(f, wr_layers_first_sibling(document->layers, index), index, err))
+        return false;
+    for (int i = 0; i < count; i++)
+        if (!follow_rows(f, named[i], named[i] + 1, err)) return false;
+    return wr_session_follow_mask(f->session, index, err);
 }
 
 static bool follow_heights(Following *f, int index, WrError *err)
 {
     if (f->heights[index]) return true;
     f->heights[index] = true; /* a cycle ends here; its copies keep their heights */
-    if (f->links.source[index] >= 0 && !follow_heights(f, f->links.source[index], err))
-        return false;
-    if (wr_layer_reads_below(f->session->state.document, &f->links, index) &&
-        !follow_below(f, index, err))
-        return false;
+    const WrReads reads = wr_session_reads(f->session, &f->links, index);
+    if (reads.layer >= 0 && !follow_heights(f, reads.layer, err)) return false;
+    if (!follow_rows(f, reads.from, reads.to, err)) return false;
     return follow_line(f, index, err);
+}
+
+static bool follow_rows(Following *f, int from, int to, WrError *err)
+{
+    bool good = true;
+    for (int i = from; good && i < to; i++)
+        good = follow_heights(f, i, err) && follow_mask(f, i, err);
+    return good;
 }
 
 /* all: layers that the picture does not need are made too */
@@ -204,7 +217,7 @@ static bool follow(WrSession *session, bool all, WrError *err)
     wr_session_layer_needs(session, needs);
     for (int i = 0; i < count; i++) f.needed[i] = all || needs[i].why == WR_LAYER_NEEDED;
     wr_session_links(session, &f.links);
-    return follow_below(&f, count, err);
+    return follow_rows(&f, 0, count, err);
 }
 
 bool wr_session_follow_layers(WrSession *session, WrError *err)

@@ -11,6 +11,7 @@
 #include "document/layer_times.h"
 #include "field/field.h"
 #include "generate/generator.h"
+#include "image/font.h"
 #include "system/clock.h"
 #include "system/path.h"
 
@@ -20,6 +21,8 @@
 /* The layer's heights and coverage are those of the line, so that composites, exports and other programs need to know
    nothing of lines. The line's own blend mode and radius become the layer's: the composite then has the bits of the
    plain command run on the layers below. */
+
+#define FONT_FILE "file" /* argument in place of an installed font */
 
 static const WrHash nothing; /* WrLayer.below of a line that reads no heights */
 
@@ -318,6 +321,20 @@ static bool names_file(const WrCall *call)
     return false;
 }
 
+/* True if the line names an installed font, not a file, and that font is not here. */
+static bool is_font_missing(const WrCall *call, WrText *path)
+{
+    const WrGenerator *generator = wr_call_generator(call);
+    const WrParam *p = generator ? generator->params : NULL;
+    while (p && p->name && p->words != wr_font_names) p++;
+    if (!p || !p->name || wr_call_given(call, FONT_FILE)) return false;
+    char *file = wr_font_path(wr_call_choice(call, p->name), 32.0);
+    const bool missing = !wr_path_can_read(file);
+    if (missing) wr_text_add(path, file);
+    wr_free(file);
+    return missing;
+}
+
 const char *wr_line_missing_file(const char *line, WrText *path)
 {
     WrCall *call = NULL;
@@ -328,6 +345,7 @@ const char *wr_line_missing_file(const char *line, WrText *path)
         name = call->specs[i].positional ? "" : call->specs[i].name;
         wr_text_add(path, call->args[i].text);
     }
+    if (!name && is_font_missing(call, path)) name = FONT_FILE;
     wr_call_free(call);
     return name;
 }

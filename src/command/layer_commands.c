@@ -418,15 +418,15 @@ static bool link_layer(WrSession *session, int index, int place, int depth, WrEr
 {
     WrDocument *document = session->state.document;
     const WrLayer *source = &document->layers[index];
-    if (!wr_layer_holds(source))
-        return wr_fail(err,
-                       "linked=on: layer %d is a filter or a group, without heights of its own",
+    if (source->filter.op)
+        return wr_fail(err, "linked=on: layer %d is a filter, without heights to be copied",
                        index + 1);
     WrLayer layer = wr_layer_share(source);
     wr_free(layer.name);
     layer.name = copy_name(source->name);
     layer.locked = false;
     layer.depth = depth;
+    layer.is_group = layer.collapsed = false;
     wr_layer_link(&layer, source->name);
     wr_document_insert(document, place, layer);
     return wr_session_generate_again(session, place, err);
@@ -660,11 +660,9 @@ static bool layer_move(WrSession *session, WrCall *call, WrError *err)
     return move_rows(document, &layers, to - members, in, group, to + 1, err);
 }
 
-static bool layer_rename(WrSession *session, WrCall *call, WrError *err)
+/* Lines, terms of masks, variants and objects that name the layer follow. */
+static void rename_layer(WrSession *session, int index, const char *name)
 {
-    int index;
-    if (!find(session, call, "N", &index, err)) return false;
-    const char *name = wr_call_arg(call, "NAME")->text;
     WrDocument *document = session->state.document;
     WrLayer *layer = &document->layers[index];
     wr_session_rename_in_variants(session, index, name);
@@ -675,6 +673,13 @@ static bool layer_rename(WrSession *session, WrCall *call, WrError *err)
     if (scene) wr_session_replace_scene(session, scene); /* objects still use it as their table */
     wr_free(layer->name);
     layer->name = wr_strdup(name);
+}
+
+static bool layer_rename(WrSession *session, WrCall *call, WrError *err)
+{
+    int index;
+    if (!find(session, call, "N", &index, err)) return false;
+    rename_layer(session, index, wr_call_arg(call, "NAME")->text);
     return true;
 }
 
@@ -694,6 +699,7 @@ static bool set_one(WrSession *session, WrCall *call, int index, WrError *err)
     if (wr_call_given(call, "visible")) layer->visible = wr_call_choice(call, "visible") == 1;
     if (wr_call_given(call, "collapsed")) layer->collapsed = wr_call_choice(call, "collapsed") == 1;
     if (wr_call_given(call, "lock")) layer->locked = wr_call_choice(call, "lock") == 1;
+    if (wr_call_given(call, "name")) rename_layer(session, index, wr_call_arg(call, "name")->text);
     return true;
 }
 
@@ -703,9 +709,12 @@ static bool layer_set(WrSession *session, WrCall *call, WrError *err)
     bool any = false;
     for (int i = 0; i < call->count; i++) any |= call->args[i].given && !call->specs[i].positional;
     if (!any)
-        return wr_fail(err, "nothing to set: give blend=, opacity=, radius=, visible= or lock=, "
-                            "of a generator layer change= or from=, or of a group collapsed=");
+        return wr_fail(err,
+                       "nothing to set: give name=, blend=, opacity=, radius=, visible= or lock=, "
+                       "of a generator layer change= or from=, or of a group collapsed=");
     if (!find_all(session, call, "N", &layers, err)) return false;
+    if (wr_call_given(call, "name") && layers.count > 1)
+        return wr_fail(err, "name= is for one layer: N names %d", layers.count);
     for (int i = 0; i < layers.count; i++)
         if (!set_one(session, call, layers.index[i], err)) return false;
     return true;
@@ -990,6 +999,9 @@ static const WrForm layer_forms[] = {
                                         .help = "of a generator layer: values of its command line "
                                                 "that change" },
                                       LAYER_FROM("of a generator layer: its new command line"),
+                                      { .name = "name",
+                                        .type = WR_ARG_NAME,
+                                        .help = "the new name, as `layer rename` gives it" },
                                       { .name = "visible",
                                         .type = WR_ARG_CHOICE,
                                         .words = wr_off_on,

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
+#include "command/live_masks.h"
 #include "command/session_internal.h"
 #include "document/document.h"
 #include "document/edit.h"
@@ -20,6 +21,9 @@
 /* A copy without values shares the tiles of its source: it costs no memory, and it is up to date exactly if the keys of
    both tables are equal. Other copies compare the source's keys with those of the last time, and after opening a file,
    which has no keys, the hash of its content.
+
+   The copy of a group has its composite. That of the last group copied is kept in the session, so that several copies of it
+   cost one composite.
 
    The source may be above or below. A line that reads the composite of the layers below reads all of them, so that a copy
    below it can close a cycle too. Cycles are refused when a copy is made; if another change closes one, such as a move, its
@@ -70,25 +74,37 @@ static bool is_link(const WrCall *call)
     return call->command && call->command->links;
 }
 
+static bool can_be_copied(const WrLayer *layer)
+{
+    return layer->is_group || wr_layer_holds(layer);
+}
+
 /* The source of a copy at layer `index`; -1: no layer has its name, or only a filter. */
 static int source_of(const WrDocument *document, int index, const char *line)
 {
     WrCall *call = call_of(line);
     int found = call ? find_named(document, index, index + 1, wr_call_arg(call, SOURCE)->text) : -1;
-    if (found >= 0 && !wr_layer_holds(&document->layers[found])) found = -1;
+    if (found >= 0 && !can_be_copied(&document->layers[found])) found = -1;
     wr_call_free(call);
     return found;
+}
+
+static void mark_within(const WrDocument *document, int group, WrLinks *links)
+{
+    for (int i = wr_layers_first(document->layers, group); i < group; i++)
+        links->within[i] |= wr_document_is_visible_up_to(document, i, group);
 }
 
 void wr_session_links(const WrSession *session, WrLinks *links)
 {
     const WrDocument *document = session->state.document;
-    links->any = false;
+    *links = (WrLinks){ .any = false };
     for (int i = 0; i < document->layer_count; i++) {
         const char *line = document->layers[i].line;
         links->copies[i] = wr_line_links(line);
         links->source[i] = links->copies[i] ? source_of(document, i, line) : -1;
         links->any |= links->copies[i];
+        if (links->source[i] >= 0) mark_within(document, links->source[i], links);
     }
 }
 
@@ -108,9 +124,8 @@ bool wr_session_name_source(const WrSession *session, int place, int above, WrCa
     else if (find_named(document, place, above, document->layers[found].name) != found)
         good =
             wr_fail(err, "%s has the name of another layer: rename it first", wr_text_get(&name));
-    else if (!wr_layer_holds(&document->layers[found]))
-        good = wr_fail(err, "%s is a filter or a group, without heights of its own",
-                       wr_text_get(&name));
+    else if (!can_be_copied(&document->layers[found]))
+        good = wr_fail(err, "%s is a filter, without heights to be copied", wr_text_get(&name));
     else wr_call_set_text(call, SOURCE, document->layers[found].name);
     wr_text_fini(&name);
     return good;
@@ -122,16 +137,29 @@ typedef struct Search {
     const WrSession *session;
     const WrLinks *links;
     int target;
-    bool seen[WR_LAYERS_MAX];
+    bool seen[WR_LAYERS_MAX], seen_masks[WR_LAYERS_MAX];
     WrText path; /* "layer 3 "b" > layer 1 "a"": each reads the next, on success */
 } Search;
 
-bool wr_layer_reads_below(const WrDocument *document, const WrLinks *links, int index)
+bool wr_layer_is_followed(const WrDocument *document, const WrLinks *links, int index)
 {
-    const WrHash none = { 0, 0 };
+    return links->within[index] || wr_document_shows(document, index);
+}
+
+WrReads wr_session_reads(const WrSession *session, const WrLinks *links, int index)
+{
+    const WrDocument *document = session->state.document;
     const WrLayer *layer = &document->layers[index];
-    return layer->line && !links->copies[index] && !wr_hash_equal(layer->below, none) &&
-           wr_document_shows(document, index);
+    WrReads reads = { .layer = links->source[index] };
+    if (links->copies[index]) return reads;
+    if (layer->is_group) reads.from = wr_layers_first(document->layers, index);
+    else if (!layer->line || wr_hash_equal(layer->below, (WrHash){ 0, 0 }) ||
+             !wr_layer_is_followed(document, links, index))
+        return reads;
+    else if ((reads.layer = wr_session_line_layer(session, index)) < 0)
+        reads.from = wr_layers_first_sibling(document->layers, index);
+    reads.to = reads.layer < 0 ? index : 0;
+    return reads;
 }
 
 static void prepend(Search *search, int index)
@@ -144,18 +172,41 @@ static void prepend(Search *search, int index)
     wr_text_fini(&rest);
 }
 
+static bool rows_reach(Search *search, int from, int to);
+
 /* True if the heights of layer `from` depend on those of the target. */
 static bool reaches(Search *search, int from)
 {
-    const WrDocument *document = search->session->state.document;
     bool found = from == search->target;
     if (!found && search->seen[from]) return false;
     search->seen[from] = true;
-    const int source = search->links->source[from];
-    if (!found && source >= 0) found = reaches(search, source);
-    if (!found && wr_layer_reads_below(document, search->links, from))
-        for (int i = from - 1; i >= 0 && !found; i--) found = reaches(search, i);
+    const WrReads reads = wr_session_reads(search->session, search->links, from);
+    if (!found && reads.layer >= 0) found = reaches(search, reads.layer);
+    found = found || rows_reach(search, reads.from, reads.to);
     if (found) prepend(search, from);
+    return found;
+}
+
+static bool mask_reaches(Search *search, int index);
+
+static bool rows_reach(Search *search, int from, int to)
+{
+    bool found = false;
+    for (int i = to - 1; i >= from && !found; i--) found = reaches(search, i);
+    for (int i = to - 1; i >= from && !found; i--) found = mask_reaches(search, i);
+    return found;
+}
+
+static bool mask_reaches(Search *search, int index)
+{
+    const WrDocument *document = search->session->state.document;
+    int named[WR_MASK_TERMS];
+    if (!document->layers[index].mask_line || search->seen_masks[index]) return false;
+    search->seen_masks[index] = true;
+    bool found = rows_reach(search, wr_layers_first_sibling(document->layers, index), index);
+    const int count = wr_mask_named(document, index, named);
+    for (int i = 0; i < count && !found; i++) found = rows_reach(search, named[i], named[i] + 1);
+    if (found) prepend(search, index);
     return found;
 }
 
@@ -190,8 +241,11 @@ static bool check_source(const WrSession *session, const WrLinks *links, int ind
 
 /* ---- staleness ---- */
 
-static uint64_t key_of(const WrLayer *layer)
+/* Key of heights and coverage, of a group of those of its members. */
+static uint64_t key_of(const WrDocument *document, int index)
 {
+    const WrLayer *layer = &document->layers[index];
+    if (layer->is_group) return wr_session_group_key(document, index).low | 1;
     const uint64_t keys[] = { wr_field_key(layer->heights),
                               layer->cover ? wr_field_key(layer->cover) : 0 };
     return wr_hash_bytes(keys, sizeof keys, (WrHash){ 0, 0 }).low | 1;
@@ -202,6 +256,22 @@ WrHash wr_layer_content_hash(const WrLayer *layer)
     const WrHash hashes[] = { wr_field_hash(layer->heights),
                               layer->cover ? wr_field_hash(layer->cover) : (WrHash){ 0, 0 } };
     return wr_hash_bytes(hashes, sizeof hashes, (WrHash){ 1, 0 });
+}
+
+/* Heights and coverage of a layer, or of a group's composite. Borrowed until the next call. */
+static const WrLayer *content_of(WrSession *session, int index)
+{
+    const WrDocument *document = session->state.document;
+    if (!document->layers[index].is_group) return &document->layers[index];
+    const uint64_t key = key_of(document, index);
+    if (session->group_key == key) return &session->group;
+    WrDocument *copy = wr_document_snapshot(document);
+    const int row = wr_document_rasterize_group(copy, index, session->options.pool);
+    wr_layer_fini(&session->group);
+    session->group = wr_layer_share(&copy->layers[row]);
+    session->group_key = wr_progress_stopped() ? 0 : key;
+    wr_document_free(copy);
+    return &session->group;
 }
 
 bool wr_session_take_source(WrSession *session, int index, WrCall *call, WrHash *read, WrError *err)
@@ -215,8 +285,8 @@ bool wr_session_take_source(WrSession *session, int index, WrCall *call, WrHash 
     links.source[index] = -1;
     const int source = find_named(document, index, index + 1, wr_call_arg(call, SOURCE)->text);
     if (!check_cycle(session, &links, index, source, err)) return false;
-    *read = wr_layer_content_hash(&document->layers[source]);
-    return true;
+    *read = wr_layer_content_hash(content_of(session, source));
+    return !wr_progress_stopped() || wr_fail(err, "cancelled");
 }
 
 void wr_session_note_source(WrSession *session, int index)
@@ -224,7 +294,7 @@ void wr_session_note_source(WrSession *session, int index)
     WrDocument *document = session->state.document;
     WrLayer *layer = &document->layers[index];
     const int source = wr_line_links(layer->line) ? source_of(document, index, layer->line) : -1;
-    layer->copied = source >= 0 ? key_of(&document->layers[source]) : 0;
+    layer->copied = source >= 0 ? key_of(document, source) : 0;
 }
 
 static bool has_values(const WrCall *call)
@@ -238,12 +308,14 @@ bool wr_session_link_lags(WrSession *session, const WrLinks *links, int index)
 {
     WrDocument *document = session->state.document;
     WrLayer *layer = &document->layers[index];
-    const WrLayer *source = &document->layers[links->source[index]];
-    const uint64_t key = key_of(source);
+    const int source = links->source[index];
+    const uint64_t key = key_of(document, source);
     if (layer->copied == key) return false;
     WrCall *call = call_of(layer->line);
-    const bool lags = has_values(call) ? !wr_hash_equal(wr_layer_content_hash(source), layer->below)
-                                       : key_of(layer) != key;
+    const bool lags =
+        has_values(call) || document->layers[source].is_group
+            ? !wr_hash_equal(wr_layer_content_hash(content_of(session, source)), layer->below)
+            : key_of(document, index) != key;
     wr_call_free(call);
     if (!lags) layer->copied = key;
     return lags;
@@ -377,7 +449,7 @@ static bool run_link(WrSession *session, WrCall *call, WrError *err)
     WrLayer *layer = wr_session_layer(session, err);
     if (!layer || !wr_session_name_source(session, index, index + 1, call, err)) return false;
     const int source = find_named(document, index, index + 1, wr_call_arg(call, SOURCE)->text);
-    WrLayer piece = wr_layer_share(&document->layers[source]);
+    WrLayer piece = wr_layer_share(content_of(session, source));
     wr_field_free(piece.mask);
     piece.mask = NULL;
     const bool good = place(session, call, &piece, err) && multiply(session, call, &piece, err);
@@ -387,7 +459,8 @@ static bool run_link(WrSession *session, WrCall *call, WrError *err)
 }
 
 static const WrArgSpec args_link[] = {
-    { PLACE(SOURCE), .type = WR_ARG_LAYER, .help = "the layer that is copied, above or below" },
+    { PLACE(SOURCE), .type = WR_ARG_LAYER,
+      .help = "the layer or group that is copied, above or below" },
     { .name = "shift",
       .type = WR_ARG_TUPLE,
       .components = 2,
@@ -413,7 +486,7 @@ const WrCommand wr_command_link = {
     .run = run_link,
     .generates = true,
     .links = true,
-    .help = "copy the heights and the coverage of another layer",
+    .help = "copy the heights and the coverage of another layer or group",
     .details =
         "As the line of a generator layer it is a linked copy, which is made again when that layer "
         "changes: `layer duplicate linked=on` makes one. The values are those of `transform` "

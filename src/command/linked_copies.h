@@ -14,15 +14,23 @@ typedef struct WrLinks {
     bool any;
     bool copies[WR_LAYERS_MAX];
     int source[WR_LAYERS_MAX];
+    bool within[WR_LAYERS_MAX]; /* in a group that is copied, and visible up to that */
 } WrLinks;
+
+/* Layers that the heights of one depend on: one layer (-1: none), and the composite of rows from..to - 1. */
+typedef struct WrReads {
+    int layer, from, to;
+} WrReads;
 
 /* True if that line of a generator layer makes a linked copy; NULL: false. */
 bool wr_line_links(const char *line);
 /* Makes it the line of the layer to copy the layer of that name; its content stays as it is. */
 void wr_layer_link(WrLayer *layer, const char *source);
 void wr_session_links(const WrSession *session, WrLinks *links);
-/* True if the layer's line reads the composite of the layers below, and is followed. */
-bool wr_layer_reads_below(const WrDocument *document, const WrLinks *links, int index);
+/* True if the layer is shown, or a copy shows it: its line is generated again when layers that it reads change. */
+bool wr_layer_is_followed(const WrDocument *document, const WrLinks *links, int index);
+/* The source of a copy, the members of a group, or the layers below that another line reads. */
+WrReads wr_session_reads(const WrSession *session, const WrLinks *links, int index);
 
 /* Replace the layer's number in a call of `link` by its name. The copy is, or will be, between the layers below `place` and
    those from `above` on. Another call is left as it is. Error: no such layer, the copy itself, a filter, or a name that
@@ -33,7 +41,7 @@ bool wr_session_name_source(const WrSession *session, int place, int above, WrCa
    output, content hash of its source. Error: also a cycle. */
 bool wr_session_take_source(WrSession *session, int index, WrCall *call, WrHash *read,
                             WrError *err);
-/* Hash of a layer's heights and coverage. */
+/* Hash of a layer's own heights and coverage. */
 WrHash wr_layer_content_hash(const WrLayer *layer);
 /* Record that the layer's copy, if it is one, was made of its source as it is. */
 void wr_session_note_source(WrSession *session, int index);

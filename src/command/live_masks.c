@@ -55,6 +55,20 @@ int wr_mask_term_layer(const WrDocument *document, int index, const WrCall *term
     return name ? wr_document_find_below(document, index, name) : -1;
 }
 
+int wr_mask_named(const WrDocument *document, int index, int named[WR_MASK_TERMS])
+{
+    const char *line = document->layers[index].mask_line;
+    int count = 0;
+    WrMaskTerms terms;
+    if (!line || !strstr(line, OF "=") || !wr_mask_terms_parse(line, &terms, NULL)) return 0;
+    for (int k = 0; k < terms.count; k++) {
+        named[count] = wr_mask_term_layer(document, index, terms.calls[k]);
+        count += named[count] >= 0;
+    }
+    wr_mask_terms_free(&terms);
+    return count;
+}
+
 static bool takes_layer(const WrCall *term)
 {
     bool takes = false;

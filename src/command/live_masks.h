@@ -21,3 +21,5 @@ void wr_mask_terms_print(const WrMaskTerms *terms, WrText *line);
 void wr_mask_terms_free(WrMaskTerms *terms);
 /* Index of the layer that a term of the mask of layer `index` names; -1: none, or it is not below. */
 int wr_mask_term_layer(const WrDocument *document, int index, const WrCall *term);
+/* Indices of all layers that the live mask of layer `index` names; returns their number. */
+int wr_mask_named(const WrDocument *document, int index, int named[WR_MASK_TERMS]);

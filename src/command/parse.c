@@ -127,6 +127,13 @@ static bool add_form_of_file(const WrCommand *command, const char *word, WrText 
     return true;
 }
 
+static bool add_command(const char *word, WrText *text)
+{
+    if (!wr_command_find(word)) return false;
+    wr_text_add(text, word);
+    return true;
+}
+
 /* "light directional to=-1,1,2": the first form with an argument that accepts this value. */
 static bool add_form_for_value(const WrCommand *command, const char *value, WrText *text);
 
@@ -167,7 +174,9 @@ static bool fail_form(const WrCommand *command, const char *word, const char *re
         wr_fail(err, "%s: %s is missing: one of %s", command->name, command->form_word,
                 wr_text_get(&names));
     else if (add_form_of_file(command, word, &near) || wr_suggest(word, form_name, &list, &near) ||
-             add_commands_of_form(word, &near) || add_form_for_value(command, word, &near))
+             add_forms_of_argument(command, word, strlen(word), &near) ||
+             add_commands_of_form(word, &near) || add_command(word, &near) ||
+             add_form_for_value(command, word, &near))
         wr_fail(err, "%s: unknown %s \"%s\": did you mean %s? It must be one of %s", command->name,
                 command->form_word, excerpt, wr_text_get(&near), wr_text_get(&names));
     else

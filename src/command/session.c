@@ -386,6 +386,7 @@ void wr_session_free(WrSession *session)
     wr_brush_files_free(session->brush_files);
     wr_mesh_texels_free(session->mesh_texels);
     session_forget_inputs(session);
+    wr_layer_fini(&session->group);
     wr_free((char *)session->options.isa);
     wr_free(session->unsafe_words);
     wr_free(session);

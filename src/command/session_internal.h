@@ -62,6 +62,8 @@ struct WrSession {
     WrSessionState state;
     uint64_t last_revision; /* highest revision used so far */
     size_t budget;          /* of the history, in bytes */
+    WrLayer group; /* the last group that was copied, as a layer: heights and coverage; owned */
+    uint64_t group_key;     /* of its members; 0: none */
     const WrDocument *made; /* result of the running line if already computed; borrowed */
     int depth;              /* nesting depth of running commands; only the outermost is a step */
     char *folder;           /* folder of the running script; borrowed; NULL: the current folder */
@@ -188,6 +190,8 @@ typedef struct WrBelowKey {
     WrHash shown, all;
 } WrBelowKey;
 void wr_session_below_key(const WrDocument *document, int index, WrBelowKey *key);
+/* Identity of a group's composite: of its members and its blend. */
+WrHash wr_session_group_key(const WrDocument *document, int group);
 
 /* For each layer whether the picture needs it, and if not, why. */
 void wr_session_layer_needs(const WrSession *session, WrLayerNeed needs[WR_LAYERS_MAX]);

@@ -236,8 +236,7 @@ bool wr_document_check_groups(const WrDocument *document, WrError *err)
     return true;
 }
 
-/* True if layer `index` and all groups that it is in, up to `top`, are visible. */
-static bool is_visible_up_to(const WrDocument *document, int index, int top)
+bool wr_document_is_visible_up_to(const WrDocument *document, int index, int top)
 {
     while (index >= 0 && index != top) {
         if (!document->layers[index].visible) return false;
@@ -255,7 +254,7 @@ int wr_document_find_below(const WrDocument *document, int index, const char *na
 
 bool wr_document_is_visible(const WrDocument *document, int index)
 {
-    return is_visible_up_to(document, index, -1);
+    return wr_document_is_visible_up_to(document, index, -1);
 }
 
 bool wr_document_shows(const WrDocument *document, int index)
@@ -263,7 +262,8 @@ bool wr_document_shows(const WrDocument *document, int index)
     const int solo = document->solo;
     if (solo < 0) return wr_document_is_visible(document, index);
     if (index == solo) return true;
-    return wr_document_is_within(document, index, solo) && is_visible_up_to(document, index, solo);
+    return wr_document_is_within(document, index, solo) &&
+           wr_document_is_visible_up_to(document, index, solo);
 }
 
 /* ---- documents ---- */
@@ -781,7 +781,7 @@ int wr_document_rasterize_group(WrDocument *document, int index, WrPool *pool)
                           wr_blends[group->blend].uses_cover };
     bool any = false;
     for (int i = rows.from; i < rows.to; i++)
-        any |= !document->layers[i].is_group && is_visible_up_to(document, i, index);
+        any |= !document->layers[i].is_group && wr_document_is_visible_up_to(document, i, index);
     group->is_group = group->collapsed = false;
     if (!any) { /* nothing, as before: a layer of mode mix would show its heights, 0 */
         if (group->blend == WR_BLEND_MIX) group->blend = WR_BLEND_ADD;

@@ -150,6 +150,8 @@ bool wr_document_shows(const WrDocument *document, int index);
 int wr_document_find_below(const WrDocument *document, int index, const char *name);
 /* True if the layer and all groups that it is in are visible. */
 bool wr_document_is_visible(const WrDocument *document, int index);
+/* True if the layer and all groups that it is in, up to but not including group `top` (-1: all), are visible. */
+bool wr_document_is_visible_up_to(const WrDocument *document, int index, int top);
 /* True if the layer has heights of its own: it is neither a filter nor a group. */
 bool wr_layer_holds(const WrLayer *layer);
 

@@ -15,9 +15,12 @@
 #include <errno.h>
 #include <fontconfig/fontconfig.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- names ---- */
+
+#define SYSTEM_FONTS "/usr/share/fonts"
 
 const char *const wr_font_names[] = { WR_FONT_FAMILIES(WR_WORD) NULL };
 
@@ -29,22 +32,20 @@ WR_ROWS(places);
 static const Place places[] = {
     [WR_ROW(WR_FONT_TERMINUS)] = { "n", "xfonts-terminus" },
     [WR_ROW(WR_FONT_TERMINUS_BOLD)] = { "b", "xfonts-terminus" },
-    [WR_ROW(WR_FONT_SANS)] = { "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+    [WR_ROW(WR_FONT_SANS)] = { SYSTEM_FONTS "/truetype/dejavu/DejaVuSans.ttf",
                                "fonts-dejavu-core" },
-    [WR_ROW(WR_FONT_SANS_BOLD)] = { "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf",
+    [WR_ROW(WR_FONT_SANS_BOLD)] = { SYSTEM_FONTS "/truetype/dejavu/DejaVuSans-Bold.ttf",
                                     "fonts-dejavu-core" },
-    [WR_ROW(WR_FONT_SERIF)] = { "/usr/share/fonts/truetype/dejavu/DejaVuSerif.ttf",
+    [WR_ROW(WR_FONT_SERIF)] = { SYSTEM_FONTS "/truetype/dejavu/DejaVuSerif.ttf",
                                 "fonts-dejavu-core" },
-    [WR_ROW(WR_FONT_SERIF_BOLD)] = { "/usr/share/fonts/truetype/dejavu/DejaVuSerif-Bold.ttf",
+    [WR_ROW(WR_FONT_SERIF_BOLD)] = { SYSTEM_FONTS "/truetype/dejavu/DejaVuSerif-Bold.ttf",
                                      "fonts-dejavu-core" },
-    [WR_ROW(WR_FONT_MONO)] = { "/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf",
+    [WR_ROW(WR_FONT_MONO)] = { SYSTEM_FONTS "/truetype/dejavu/DejaVuSansMono.ttf",
                                "fonts-dejavu-core" },
-    [WR_ROW(WR_FONT_MONO_BOLD)] = { "/usr/share/fonts/truetype/dejavu/DejaVuSansMono-Bold.ttf",
+    [WR_ROW(WR_FONT_MONO_BOLD)] = { SYSTEM_FONTS "/truetype/dejavu/DejaVuSansMono-Bold.ttf",
                                     "fonts-dejavu-core" },
-    [WR_ROW(WR_FONT_INTER)] = { "/usr/share/fonts/opentype/inter/Inter-Regular.otf",
-                                "fonts-inter" },
-    [WR_ROW(WR_FONT_INTER_BOLD)] = { "/usr/share/fonts/opentype/inter/Inter-Bold.otf",
-                                     "fonts-inter" },
+    [WR_ROW(WR_FONT_INTER)] = { SYSTEM_FONTS "/opentype/inter/Inter-Regular.otf", "fonts-inter" },
+    [WR_ROW(WR_FONT_INTER_BOLD)] = { SYSTEM_FONTS "/opentype/inter/Inter-Bold.otf", "fonts-inter" },
 };
 WR_ROWS_END(places, WR_FONT_FAMILY_COUNT);
 
@@ -61,16 +62,26 @@ static int terminus_dots(double size)
     return smaller ? smaller : 12;
 }
 
-char *wr_font_find(int index, double size, WrError *err)
+char *wr_font_path(int index, double size)
 {
-    WrText path = { 0 };
+    WrText path = { 0 }, moved = { 0 };
+    const char *folder = getenv("WRINKLE_FONTS");
     const Place *place = &places[index];
     if (place->path[0] == '/') wr_text_add(&path, place->path);
     else
-        wr_text_addf(&path, "/usr/share/fonts/X11/misc/ter-u%d%s_unicode.pcf.gz",
-                     terminus_dots(size), place->path);
-    char *found = wr_strdup(wr_text_get(&path));
+        wr_text_addf(&path, SYSTEM_FONTS "/X11/misc/ter-u%d%s_unicode.pcf.gz", terminus_dots(size),
+                     place->path);
+    if (folder) wr_text_addf(&moved, "%s%s", folder, wr_text_get(&path) + strlen(SYSTEM_FONTS));
+    char *found = wr_strdup(wr_text_get(folder ? &moved : &path));
     wr_text_fini(&path);
+    wr_text_fini(&moved);
+    return found;
+}
+
+char *wr_font_find(int index, double size, WrError *err)
+{
+    const Place *place = &places[index];
+    char *found = wr_font_path(index, size);
     if (wr_path_can_read(found)) return found;
     wr_fail(err, "the font %s is not installed (%s): install the package %s", wr_font_names[index],
             found, place->package);

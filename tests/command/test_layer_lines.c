@@ -3,7 +3,9 @@
 #include "test_folder.h"
 #include "session_help.h"
 
+#include "base/memory.h"
 #include "base/text.h"
+#include "image/font.h"
 #include "command/command_line.h"
 #include "image/image.h"
 
@@ -87,7 +89,7 @@ static void an_edge_follows_the_outline_of_a_layer(void **state)
     check_bevel(s, 20);
     must_run(s, "layer set form change=\"at=0.541666667,0.541666667\"");
     check_bevel(s, 40);
-    must_run(s, "layer rename form other");
+    must_run(s, "layer set form name=other");
     assert_non_null(strstr(doc(s)->layers[2].line, "layer=other"));
     must_run(s, "layer set other change=\"at=0.333333333,0.541666667\"");
     check_bevel(s, 20);
@@ -237,6 +239,41 @@ static void missing_files_are_noted_once_and_their_heights_stay(void **state)
     wr_session_free(s);
 }
 
+/* Of a font by its name, the file that it has on this machine. */
+static void a_font_that_is_not_installed_is_a_missing_file(void **state)
+{
+    (void)state;
+    Said said = { "" };
+    WrError err;
+    WrText path = { 0 };
+    char line[600];
+    char *there = wr_font_find(WR_FONT_SERIF, 32, &err);
+    assert_non_null(there);
+    WrSession *s = listening(&said);
+    must_run(s, "table 61x43");
+    must_run(s, "layer add one from=\"text A font=serif size=30\"");
+    must_run(s, "layer add two from=\"text B font=serif size=20\"");
+    if (!wr_session_save(s, "serif.exr", &err)) fail_msg("%s", err.text);
+    const WrHash before = wr_session_hash(s);
+    setenv("WRINKLE_FONTS", "/nowhere", 1);
+    said.text[0] = '\0';
+    if (!wr_session_open(s, "serif.exr", &err)) fail_msg("%s", err.text);
+    assert_true(wr_hash_equal(before, wr_session_hash(s)));
+    const char *first = strstr(said.text, "/nowhere/truetype/dejavu/DejaVuSerif.ttf is missing");
+    assert_true(first && strstr(said.text, "change=\"file=PATH\""));
+    assert_null(strstr(first + 45, "is missing"));
+    must_fail(s, "layer set two change=size=21", "is not installed");
+    snprintf(line, sizeof line, "layer set two change=\"file=%s\"", there);
+    must_run(s, line);
+    assert_null(wr_line_missing_file(doc(s)->layers[2].line, &path));
+    assert_string_equal(wr_line_missing_file(doc(s)->layers[1].line, &path), "file");
+    unsetenv("WRINKLE_FONTS");
+    assert_null(wr_line_missing_file(doc(s)->layers[1].line, &path));
+    wr_text_fini(&path);
+    wr_free(there);
+    wr_session_free(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -247,6 +284,7 @@ int main(void)
         cmocka_unit_test(copies_vary_in_angle_depth_and_size),
         cmocka_unit_test(a_layer_is_scattered_and_followed),
         cmocka_unit_test(missing_files_are_noted_once_and_their_heights_stay),
+        cmocka_unit_test(a_font_that_is_not_installed_is_a_missing_file),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
 }

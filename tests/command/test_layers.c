@@ -175,6 +175,7 @@ static void layers_that_do_not_exist_are_named_in_the_message(void **state)
     must_fail(s, "layer use a", "2 layers are called \"a\": say which by its number");
     must_fail(s, "layer move 1 to=4", "to=4: must be 1..3");
     must_fail(s, "layer set 1", "nothing to set");
+    must_fail(s, "layer set 1..2 name=a", "name= is for one layer: N names 2");
     must_fail(s, "layer merge 1", "none below");
     must_fail(s, "layer mask 1 from=selection", "nothing is selected");
     must_run(s, "layer delete 1");

@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "document/document_file.h"
 
+#include <math.h>
 #include <stdio.h>
 
 #define GROUND "table 97x61", "noise gradient cells=3 amplitude=0.731 level=0.113 seed=29"
@@ -263,6 +264,140 @@ static void a_lost_source_leaves_the_heights(void **state)
     wr_session_free(s);
 }
 
+/* ---- groups ---- */
+
+/* A group whose members overlap with soft edges, an opacity and a mask. */
+static WrSession *grouped(void)
+{
+    return session_of((const char *[]){
+        GROUND, "layer add low", "dab 0.31,0.42 radius=19.3 strength=0.613", "layer add high",
+        "dab 0.44,0.57 radius=17.1 strength=0.377", "layer set high blend=max opacity=0.71",
+        "layer mask high live=\"noise cells=3 low=0.3 high=0.6 seed=5\"",
+        "layer group g of=low..high", "layer set g opacity=0.4 blend=add", NULL });
+}
+
+/* Height and coverage of the group at one texel, by the rules of groups (composite.h). */
+static void expect_group(const WrSession *s, int x, int y, double *height, double *cover)
+{
+    const WrLayer *low = layer(s, "low"), *high = layer(s, "high");
+    const double h = (double)wr_field_get(low->heights, x, y);
+    const double other = (double)wr_field_get(high->heights, x, y);
+    const double area =
+        0.71 * (double)wr_field_get(high->mask, x, y) * (double)wr_field_get(high->cover, x, y);
+    const double below = (double)wr_field_get(low->cover, x, y);
+    *height = h + area * (fmax(h, other) - h);
+    *cover = below + area * (1 - below);
+}
+
+static void check_group_copy(const WrSession *s, const char *name, int dx, int dy, double factor)
+{
+    const WrLayer *copy = layer(s, name);
+    for (int y = 0; y < 61; y++)
+        for (int x = 0; x < 97; x++) {
+            double height, cover;
+            const int to_x = (x + dx + 97) % 97, to_y = (y + dy + 61) % 61;
+            expect_group(s, x, y, &height, &cover);
+            assert_float_equal(wr_field_get(copy->heights, to_x, to_y), factor * height, 1e-6);
+            assert_float_equal(wr_field_get(copy->cover, to_x, to_y), cover, 1e-6);
+        }
+}
+
+static void a_copy_of_a_group_follows_its_composite(void **state)
+{
+    (void)state;
+    static const char *const edits[] = {
+        "layer use low",           "dab 0.61,0.27 radius=7.1 strength=-0.4",
+        "layer use high",          "stroke points=0.1,0.3;0.6,0.9 radius=4",
+        "layer set g opacity=0.9", "layer mask g from=black"
+    };
+    WrSession *s = grouped();
+    must_run(s, "layer duplicate g linked=on");
+    assert_false(layer(s, "g copy")->is_group);
+    assert_true(layer(s, "g copy")->opacity == 0.4f);
+    must_run(s, "layer add moved from=\"link g shift=-0.216494845360824748,0.114754098360655737 "
+                "factor=-0.37\" above=1");
+    for (int i = 0; i < 6; i++) {
+        const uint64_t key = wr_field_key(layer(s, "moved")->heights);
+        must_run(s, edits[i]);
+        check_group_copy(s, "g copy", 0, 0, 1);
+        check_group_copy(s, "moved", -21, -7, -0.37);
+        const bool edits_members = i == 1 || i == 3;
+        assert_int_equal(wr_field_key(layer(s, "moved")->heights) != key, edits_members);
+    }
+    must_run(s, "layer set high visible=off");
+    assert_true(same_field(layer(s, "g copy")->heights, layer(s, "low")->heights));
+    must_run(s, "layer rename g leaves");
+    assert_string_equal(layer(s, "g copy")->line, "link leaves");
+    wr_session_free(s);
+}
+
+/* A hidden group is a usual source: its copies show its layers, computed ones too. */
+static void a_hidden_group_is_followed_for_its_copies(void **state)
+{
+    (void)state;
+    WrSession *s = grouped(), *shown = grouped();
+    WrSession *both[] = { s, shown };
+    for (int i = 0; i < 2; i++) {
+        must_run(both[i], "layer add dots from=\"pattern dots across=3\" in=g");
+        must_run(both[i], "layer add c from=\"link dots turn=33\" in=g");
+        must_run(both[i], "layer add worn from=\"terrain terraces steps=3\" in=g");
+        must_run(both[i], "layer set worn blend=max");
+        must_run(both[i], "layer duplicate g linked=on");
+        must_run(both[i], i == 0 ? "layer set g visible=off" : "layer set g opacity=0.3");
+        must_run(both[i], "layer set dots change=\"across=7\"");
+    }
+    assert_true(same_field(layer(s, "c")->heights, layer(shown, "c")->heights));
+    assert_true(same_field(layer(s, "worn")->heights, layer(shown, "worn")->heights));
+    assert_true(same_field(layer(s, "g copy")->heights, layer(shown, "g copy")->heights));
+    assert_true(same_cover(layer(s, "g copy")->cover, layer(shown, "g copy")->cover));
+    wr_session_free(s);
+    wr_session_free(shown);
+}
+
+static void cycles_through_groups_are_refused(void **state)
+{
+    (void)state;
+    Said said;
+    WrSession *s = grouped();
+    must_fail(s, "layer add c from=\"link g\" above=2",
+              "a cycle of links: layer 3 \"c\" > layer 5 \"g\" > layer 3 \"c\"");
+    must_run(s, "layer group outer of=g");
+    must_fail(s, "layer add c from=\"link outer\" in=g",
+              "layer 4 \"c\" > layer 6 \"outer\" > layer 5 \"g\" > layer 4 \"c\"");
+    must_run(s, "layer add c from=\"link outer\" above=1"); /* below the group: no cycle */
+    wr_session_free(s);
+    s = listening(&said);
+    must_run(s, "table 97x61");
+    must_run(s, "layer add a");
+    must_run(s, "dab 0.3,0.4 radius=11.3");
+    must_run(s, "layer group g of=a");
+    must_run(s, "layer duplicate g linked=on");
+    const WrHash heights = wr_field_hash(layer(s, "g copy")->heights);
+    said.text[0] = '\0';
+    must_run(s, "layer move \"g copy\" in=g");
+    assert_non_null(strstr(said.text, "keeps its heights (a cycle of links: layer 3 \"g copy\" > "
+                                      "layer 4 \"g\" > layer 3 \"g copy\")"));
+    must_run(s, "layer use a");
+    must_run(s, "dab 0.6,0.4 radius=11.3");
+    assert_true(wr_hash_equal(heights, wr_field_hash(layer(s, "g copy")->heights)));
+    wr_session_free(s);
+}
+
+/* A mask in the group reads a layer that reads the copy. */
+static void a_cycle_through_a_mask_of_a_member_is_refused(void **state)
+{
+    (void)state;
+    WrSession *s = ground();
+    must_run(s, "layer add x from=\"pattern dots\"");
+    must_run(s, "layer add m");
+    must_run(s, "layer group g of=m");
+    must_run(s, "layer mask m live=\"height of=x\"");
+    must_fail(s, "layer set x from=\"link g\"",
+              "layer 3 \"x\" > layer 5 \"g\" > layer 4 \"m\" > layer 3 \"x\"");
+    must_run(s, "layer add y from=\"link g\" above=1"); /* nothing in the group reads it */
+    wr_session_free(s);
+}
+
 /* ---- names ---- */
 
 static void of_several_names_the_nearest_counts(void **state)
@@ -335,15 +470,19 @@ static void save_and_open(const char *name)
     must_run(s, "dab 0.3,0.4 radius=11.3");
     must_run(s, "layer duplicate a linked=on");
     must_run(s, "layer add b from=\"link a turn=33\"");
+    must_run(s, "layer group g of=a");
+    must_run(s, "layer duplicate g linked=on");
     snprintf(line, sizeof line, "save %s", name);
     must_run(s, line);
     snprintf(line, sizeof line, "open %s", name);
     must_run(again, line);
     assert_true(wr_hash_equal(wr_session_hash(s), wr_session_hash(again)));
     const uint64_t key = wr_field_key(layer(again, "b")->heights);
+    const uint64_t group_key = wr_field_key(layer(again, "g copy")->heights);
     must_run(again, "layer use 1"); /* tiles are shared again; others are not made again */
     assert_true(shares(again, "a", "a copy"));
     assert_int_equal(wr_field_key(layer(again, "b")->heights), key);
+    assert_int_equal(wr_field_key(layer(again, "g copy")->heights), group_key);
     static const char *const edits[] = { "layer use a", "dab 0.7,0.2 radius=9" };
     for (int i = 0; i < 2; i++) {
         must_run(s, edits[i]);
@@ -403,6 +542,10 @@ int main(void)
         cmocka_unit_test(cycles_are_refused),
         cmocka_unit_test(a_cycle_closed_by_a_move_keeps_the_heights),
         cmocka_unit_test(a_lost_source_leaves_the_heights),
+        cmocka_unit_test(a_copy_of_a_group_follows_its_composite),
+        cmocka_unit_test(a_hidden_group_is_followed_for_its_copies),
+        cmocka_unit_test(cycles_through_groups_are_refused),
+        cmocka_unit_test(a_cycle_through_a_mask_of_a_member_is_refused),
         cmocka_unit_test(of_several_names_the_nearest_counts),
         cmocka_unit_test(commands_on_all_tables_keep_the_link),
         cmocka_unit_test(the_command_copies_into_the_active_layer),

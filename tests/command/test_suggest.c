@@ -315,6 +315,20 @@ static void lines_of_newcomers_are_answered(void **state)
 {
     (void)state;
     static const char *const rows[][2] = {
+        { "layer copy base", "did you mean duplicate?" },
+        { "layer remove base", "did you mean delete" },
+        { "layer select base", "did you mean use?" },
+        { "layer opacity base 0.5", "did you mean layer add or layer set?" },
+        { "layer hide base", "did you mean set?" },
+        { "layer merge-down base", "did you mean merge?" },
+        { "layer filter blur", "did you mean filter?" },
+        { "layer set base mode=max", "did you mean blend=?" },
+        { "layer set base alpha=0.5", "did you mean opacity=?" },
+        { "layer mask base kind=slope", "did you mean live=?" },
+        { "layer mask base live=edges", "did you mean wear or curvature?" },
+        { "mask add kind=slope", "did you mean layer?" },
+        { "instance base", "did you mean link?" },
+        { "variant switch worn", "did you mean use?" },
         { "tolerance 0.004", "did you mean rms=0.004 or max=0.004?" },
         { "bump 0.1", "did you mean height=0.1?" },
         { "bump blinn", "did you mean mode=blinn?" },

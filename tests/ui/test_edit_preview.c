@@ -71,6 +71,15 @@ static void an_operation_that_is_tried_comes_out_as_its_command(void **state)
         "adjust invert about=zero layers=all");
 }
 
+static void a_command_that_is_tried_comes_out_as_it_runs(void **state)
+{
+    (void)state;
+    static const char *const lines[] = { "layer mask 2 live=\"wear low=0.02 seed=7\"",
+                                         "layer duplicate 2 linked=on" };
+    for (int i = 0; i < 2; i++)
+        try_then_run(&(WrEditPreviewRequest){ .command = lines[i] }, lines[i]);
+}
+
 /* Coverage moves along if texels only move. */
 static void an_offset_that_is_tried_moves_what_layers_say_too(void **state)
 {
@@ -343,6 +352,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_operation_that_is_tried_comes_out_as_its_command),
+        cmocka_unit_test(a_command_that_is_tried_comes_out_as_it_runs),
         cmocka_unit_test(an_offset_that_is_tried_moves_what_layers_say_too),
         cmocka_unit_test(a_layers_settings_that_are_tried_come_out_as_their_command),
         cmocka_unit_test(a_generator_that_is_tried_comes_out_as_its_command),

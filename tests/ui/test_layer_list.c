@@ -5,6 +5,7 @@
 #include "app.h"
 
 #include "base/text.h"
+#include "base/error.h"
 #include "document/document.h"
 
 #include "ui/app/state/chosen_layers.h"
@@ -12,6 +13,11 @@
 #include "ui/app/state/pointer_state.h"
 #include "ui/app/state/registry.h"
 #include "ui/app/state/settings.h"
+#include "ui/app/state/action.h"
+#include "ui/app/state/dialog.h"
+#include "ui/canvas/view.h"
+#include "ui/panels/panel_search.h"
+#include "ui/panels/panels.h"
 #include "ui/panels/layer_choice.h"
 #include "ui/panels/layer_rows.h"
 #include "ui/panels/panel_layers.h"
@@ -599,6 +605,9 @@ static void actions_change_all_chosen_layers_in_one_step(void **state)
         click(&bench, 4, PLAIN);
         click(&bench, 2, CTRL);
         assert_list(&bench, "fedcba", "bD");
+        char label[WR_ACTION_LABEL];
+        const WrAction *action = wr_action_find(bench.app, "layer_delete");
+        assert_string_equal(wr_menu_label(bench.app, action, label), "Delete 2 layers");
         const int before = steps(&bench);
         wr_action_run(bench.app, acts[i].action);
         settle(&bench);
@@ -611,12 +620,69 @@ static void actions_change_all_chosen_layers_in_one_step(void **state)
     finish(&bench);
 }
 
+/* A ramp has no sliders. */
+static void the_line_of_a_ramp_opens_as_text(void **state)
+{
+    (void)state;
+    WrError err;
+    Bench bench;
+    open_list(&bench, 2);
+    assert_true(wr_session_run(bench.session,
+                               "layer add r from=\"ramp linear from=0.25,0.5 to=0.75,0.5\"", &err));
+    settle(&bench);
+    wr_action_run(bench.app, "filter_edit");
+    settle(&bench);
+    assert_int_equal(bench.app->dialog->now, WR_DIALOG_SEARCH);
+    assert_string_equal(bench.app->finder->text,
+                        "layer set 3 from=\"ramp linear from=0.25,0.5 to=0.75,0.5\"");
+    finish(&bench);
+}
+
+/* A drag of a point on the canvas, whatever the tool, is one change of the line. */
+static void points_of_a_shape_are_dragged_on_the_canvas(void **state)
+{
+    (void)state;
+    WrError err;
+    Bench bench;
+    open_list(&bench, 2);
+    assert_true(wr_session_run(bench.session,
+                               "layer add p from=\"shape polygon "
+                               "points=0.3,0.4;0.7,0.45;0.5,0.8 paint=fill\"",
+                               &err));
+    settle(&bench);
+    WrApp *app = bench.app;
+    const WrCanvasView *view = app->view;
+    const int before = steps(&bench);
+    double x, y;
+    wr_view_to_pixel(view, 0.7 * view->table_w, (1 - 0.45) * view->table_h, &x, &y);
+    const int from[] = { (int)x, (int)y }, to[] = { (int)x - 31, (int)y - 17 };
+    press(&bench, true, SDL_BUTTON_LEFT, from[0], from[1]);
+    push_motion(app, to[0] + 5, to[1]);
+    settle(&bench);
+    press(&bench, false, SDL_BUTTON_LEFT, to[0], to[1]);
+    settle(&bench);
+    double u[3], v[3];
+    const char *line = wr_session_document(bench.session)->layers[2].line;
+    assert_non_null(line);
+    assert_int_equal(sscanf(strstr(line, "points="), "points=%lf,%lf;%lf,%lf;%lf,%lf", &u[0], &v[0],
+                            &u[1], &v[1], &u[2], &v[2]),
+                     6);
+    assert_float_equal(u[1], 0.7 - 31 / view->zoom / view->table_w, 1e-5);
+    assert_float_equal(v[1], 0.45 + 17 / view->zoom / view->table_h, 1e-5);
+    assert_true(u[0] == 0.3 && v[0] == 0.4 && u[2] == 0.5 && v[2] == 0.8);
+    assert_int_equal(steps(&bench), before + 1);
+    finish(&bench);
+}
+
 static void copies_are_chosen_and_merged(void **state)
 {
     (void)state;
     Bench bench;
     open_list(&bench, 4);
     click(&bench, 3, PLAIN);
+    char label[WR_ACTION_LABEL];
+    const WrAction *action = wr_action_find(bench.app, "layer_delete");
+    assert_string_equal(wr_menu_label(bench.app, action, label), "Delete layer");
     click(&bench, 1, CTRL);
     wr_action_run(bench.app, "layer_duplicate");
     settle(&bench);
@@ -774,6 +840,8 @@ int main(void)
         cmocka_unit_test(steps_lead_through_groups_and_back),
         cmocka_unit_test(rows_are_chosen_by_clicks_and_keys),
         cmocka_unit_test(actions_change_all_chosen_layers_in_one_step),
+        cmocka_unit_test(the_line_of_a_ramp_opens_as_text),
+        cmocka_unit_test(points_of_a_shape_are_dragged_on_the_canvas),
         cmocka_unit_test(copies_are_chosen_and_merged),
         cmocka_unit_test(eyes_of_several_layers),
         cmocka_unit_test(rows_are_dragged_together),

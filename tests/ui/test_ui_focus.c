@@ -262,7 +262,7 @@ static void arrows_move_numbers_and_a_press_types_into_them(void **state)
     assert_false(wr_gui_wants_text(walk.app->gui));
     tap(&walk, SDL_SCANCODE_TAB, KMOD_LSHIFT);
     tap(&walk, SDL_SCANCODE_DELETE, 0);
-    assert_float_equal(brush->hardness, 0.5, 1e-12); /* as a double click resets it */
+    assert_float_equal(brush->hardness, 0.5, 1e-12); /* as Ctrl+click resets it */
     leave_bench(&walk);
 }
 

@@ -147,6 +147,38 @@ static void keys_after_a_click_on_a_number_go_into_it(void **state)
     finish(&bench);
 }
 
+static void add_ctrl(Feed *feed, Uint32 type, Uint16 mod)
+{
+    const SDL_Keysym key = { .scancode = SDL_SCANCODE_LCTRL, .sym = SDLK_LCTRL, .mod = mod };
+    add(feed, &(SDL_Event){ .key = { .type = type, .keysym = key } }, GAP_MS);
+}
+
+/* A click types, and Ctrl+click restores the default without opening the field. */
+static void ctrl_click_resets_a_number(void **state)
+{
+    (void)state;
+    Bench bench;
+    Feed feed = { .count = 0 };
+    int x, y;
+    begin(&bench);
+    WrApp *app = bench.app;
+    assert_true(find(app, WR_STOP_NUMBER, &all_of_it, 0, &x, &y));
+    add_click(app, &feed, x, y, GAP_MS);
+    add_key(&feed, SDL_SCANCODE_6, 0, '6', GAP_MS);
+    add_key(&feed, SDL_SCANCODE_RETURN, 0, 0, GAP_MS);
+    run(app, &feed);
+    assert_float_equal(app->settings->brush.radius, 3.0, 1e-9);
+    feed.count = 0;
+    feed.done = 0;
+    add_ctrl(&feed, SDL_KEYDOWN, KMOD_LCTRL);
+    add_click(app, &feed, x, y, GAP_MS);
+    add_ctrl(&feed, SDL_KEYUP, 0);
+    run(app, &feed);
+    assert_float_equal(app->settings->brush.radius, 16.0, 1e-9); /* size 32, the default */
+    assert_false(wr_gui_wants_text(app->gui));
+    finish(&bench);
+}
+
 /* Two action keys after the number belong to the canvas again. */
 static void keys_after_enter_are_the_canvas_s(void **state)
 {
@@ -322,6 +354,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(keys_after_a_click_on_a_number_go_into_it),
+        cmocka_unit_test(ctrl_click_resets_a_number),
         cmocka_unit_test(keys_after_enter_are_the_canvas_s),
         cmocka_unit_test(what_is_typed_after_a_key_that_opens_a_dialog_goes_to_it),
         cmocka_unit_test(a_click_is_for_what_was_on_the_screen),

@@ -8,8 +8,12 @@
 #include "ui/app/state/pointer_state.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/focus.h"
+#include "ui/panels/generate/generate_state.h"
 #include "ui/panels/panel_search.h"
 
+#include "base/error.h"
+#include "base/text.h"
+#include "command/session.h"
 #include "document/document.h"
 
 #include <string.h>
@@ -196,9 +200,49 @@ static void the_second_text_is_a_layer_with_a_name_of_its_own(void **state)
     }
     const WrDocument *document = wr_session_document(bench.session);
     assert_int_equal(document->layer_count, 4);
-    assert_string_equal(document->layers[1].name, "Text");
-    assert_string_equal(document->layers[2].name, "Text 2");
-    assert_string_equal(document->layers[3].name, "Text 3");
+    assert_string_equal(document->layers[1].name, "Text: elm");
+    assert_string_equal(document->layers[2].name, "Text: elm 2");
+    assert_string_equal(document->layers[3].name, "Text: elm 3");
+    finish(&bench);
+}
+
+/* Names of new layers, and of a layer whose line is replaced by another one. */
+static void automatic_names_follow_the_line(void **state)
+{
+    (void)state;
+    static const char *const cases[][2] = {
+        { "text \"OLD MILL\" size=40", "\"Text: OLD MILL\"" },
+        { "text \"The quick brown foxes jump\"", "\"Text: The quick brown foxes…\"" },
+        { "text \"The quick brown wolverines jump\"", "\"Text: The quick brown…\"" },
+        { "text \"Ölmühle\\\\nNord\"", "\"Text: Ölmühle Nord\"" },
+        { "text Donaudampfschifffahrtsgesellschaft", "\"Text: Donaudampfschifffahrtsge…\"" },
+        { "solid mesh \"/tmp/a b/teapot.obj\"", "\"Mesh file: teapot.obj\"" },
+        { "pattern bricks rows=3", "Bricks" },
+        { "picture path \"M0,0 L1,0 1,1 Z\"", "\"Vector path\"" },
+    };
+    Bench bench;
+    begin(&bench);
+    WrText text = { 0 };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        wr_text_clear(&text);
+        wr_generate_add_name(bench.app, cases[i][0], &text);
+        assert_string_equal(wr_text_get(&text), cases[i][1]);
+    }
+    WrError err;
+    static const char *const names[] = { "Bricks", "Bricks 2", "Bricks 2b", "wall" };
+    static const char *const follows[] = { " name=Dots", " name=Dots", "", "" };
+    for (int i = 0; i < 4; i++) {
+        wr_text_clear(&text);
+        wr_text_addf(&text, "layer add \"%s\" from=\"pattern bricks\"", names[i]);
+        assert_true(wr_session_run(bench.session, wr_text_get(&text), &err));
+        wr_text_clear(&text);
+        wr_generate_follow_name(bench.app, i + 1, "pattern dots", &text);
+        assert_string_equal(wr_text_get(&text), follows[i]);
+        wr_text_clear(&text);
+        wr_generate_follow_name(bench.app, i + 1, "pattern bricks rows=3", &text);
+        assert_string_equal(wr_text_get(&text), "");
+    }
+    wr_text_fini(&text);
     finish(&bench);
 }
 
@@ -246,6 +290,7 @@ int main(void)
         cmocka_unit_test(nothing_typed_is_no_answer),
         cmocka_unit_test(a_text_scrolled_out_of_sight_leaves_the_window_alive),
         cmocka_unit_test(the_second_text_is_a_layer_with_a_name_of_its_own),
+        cmocka_unit_test(automatic_names_follow_the_line),
         cmocka_unit_test(a_click_on_the_title_of_a_menu_only_opens_it),
     };
     return cmocka_run_group_tests(tests, enter_window, remove_folder);

@@ -105,7 +105,8 @@ bool wr_can_lower(const WrApp *app); /* there is a layer below the chosen ones *
 bool wr_can_merge(const WrApp *app);
 bool wr_can_flatten(const WrApp *app);
 bool wr_can_change_all(const WrApp *app); /* no layer is locked */
-bool wr_has_heights(const WrApp *app);    /* the active layer is no filter */
+bool wr_can_link(const WrApp *app);       /* the active layer is no filter */
+bool wr_has_heights(const WrApp *app);    /* the active layer is neither a filter nor a group */
 bool wr_can_raise(const WrApp *app);
 bool wr_can_mask_selection(const WrApp *app); /* the selection is not empty */
 void wr_act_copy(WrApp *app);

@@ -9,10 +9,13 @@
 #include "ui/panels/layer_choice.h"
 #include "ui/panels/panel_adjust.h"
 #include "ui/panels/panel_layers.h"
+#include "ui/panels/panel_search.h"
 #include "ui/panels/panels.h"
 #include "ui/toolkit/focus.h"
 
 #include "base/text.h"
+#include "command/command_line.h"
+#include "command/commands.h"
 #include "command/linked_copies.h"
 #include "document/document.h"
 #include "field/field.h"
@@ -250,9 +253,29 @@ static bool is_filter(const WrApp *app)
     return active(app)->filter.op != NULL;
 }
 
+/* The line of a shape or a ramp has no sliders: it is changed as text. */
+static bool is_edited_as_text(const char *line)
+{
+    WrCall *call = NULL;
+    const bool known = line && wr_call_parse(line, false, &call, NULL);
+    const bool text = known && !wr_line_links(line) && !wr_call_generator(call);
+    wr_call_free(call);
+    return text;
+}
+
+static void edit_as_text(WrApp *app)
+{
+    WrText line = { 0 };
+    wr_text_addf(&line, "layer set %d from=", number(app));
+    wr_text_add_word(&line, active(app)->line);
+    wr_search_line(app, wr_text_get(&line));
+    wr_text_fini(&line);
+}
+
 void wr_act_filter_edit(WrApp *app)
 {
-    if (wr_line_links(active(app)->line)) wr_dialog_open(app, WR_DIALOG_LINK);
+    if (is_edited_as_text(active(app)->line)) edit_as_text(app);
+    else if (wr_line_links(active(app)->line)) wr_dialog_open(app, WR_DIALOG_LINK);
     else if (generated(active(app))) wr_generate_edit_layer(app, wr_app_document(app)->active);
     else wr_filter_edit(app);
 }
@@ -336,6 +359,11 @@ bool wr_can_change_all(const WrApp *app)
 bool wr_can_flatten(const WrApp *app)
 {
     return wr_can_several_layers(app) && wr_can_change_all(app);
+}
+
+bool wr_can_link(const WrApp *app)
+{
+    return !active(app)->filter.op;
 }
 
 bool wr_has_heights(const WrApp *app)

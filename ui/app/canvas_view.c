@@ -17,6 +17,7 @@
 #include "ui/app/state/registry.h"
 #include "ui/patch/preview/preview.h"
 #include "ui/canvas/tools/stroke_input.h"
+#include "ui/canvas/tools/layer_points.h"
 #include "ui/canvas/tools/symmetry.h"
 #include "ui/canvas/tools/tool.h"
 #include "ui/canvas/tools/tool_stamp.h"
@@ -364,6 +365,7 @@ void wr_canvas_view_overlay(WrApp *app)
     const WrTool *tool = wr_tool_now(app);
     bool panning = app->hand->grab == WR_GRAB_PAN || app->hand->space;
     wr_symmetry_marks(app);
+    wr_layer_points_marks(app);
     if (app->hand->on_canvas && tool->overlay && !panning) tool->overlay(app);
     if (tool->marks) tool->marks(app);
     wr_strokes_marks(app);

@@ -140,16 +140,6 @@ static bool passes(const WrInput *input, const SDL_Event *event)
     return false;
 }
 
-/* A clicked number field accepts keys at once, though the click might have become a double click. */
-static bool begins_typing(WrApp *app, const SDL_Event *event)
-{
-    const bool key = event->type == SDL_KEYDOWN && !is_modifier(event->key.keysym.scancode);
-    if (!key || !wr_gui_type_now(app->gui)) return false;
-    app->hand->input->hold = WR_INPUT_ALL;
-    wr_app_redraw(app);
-    return true;
-}
-
 /* True for a press at a position where another widget is now, and for its release. */
 static bool is_stale(WrApp *app, const WrInputItem *item)
 {
@@ -183,7 +173,7 @@ bool wr_input_next(WrApp *app, SDL_Event *event)
     if (!app->visible) input->hold = WR_INPUT_FREE; /* no frame will follow */
     while (wr_input_waits(app)) {
         const WrInputItem item = input->items.data[input->first];
-        if (!passes(input, &item.event) || begins_typing(app, &item.event)) return false;
+        if (!passes(input, &item.event)) return false;
         input->first++;
         __atomic_fetch_sub(&input->waiting, 1, __ATOMIC_RELEASE);
         if (is_stale(app, &item)) continue;

@@ -26,6 +26,7 @@
 #include "ui/input/pen.h"
 #include "ui/input/pen_curve.h"
 #include "ui/canvas/tools/stroke_input.h"
+#include "ui/canvas/tools/layer_points.h"
 #include "ui/canvas/tools/symmetry.h"
 #include "ui/canvas/tools/tool.h"
 #include "ui/canvas/tools/tool_brush.h"
@@ -99,6 +100,10 @@ static void press_canvas(WrApp *app, const WrPointer *at)
     }
     const bool needs_idle = tool->paints ? app->busy && !wr_busy_lets_wait(app) : !tool->meanwhile;
     if (needs_idle && wr_busy_refuse(app)) return;
+    if (!app->busy && wr_layer_points_press(app, at)) {
+        hand->grab = WR_GRAB_POINT;
+        return;
+    }
     if (tool->paints && !app->busy && wr_rasterize_ask(app)) return;
     hand->grab = WR_GRAB_TOOL;
     if (tool->paints && !hand->line && wr_keys_hold(app->keys, WR_ACT(hold_size), at->mods)) {
@@ -165,6 +170,7 @@ static void release(WrApp *app, const WrPointer *at)
     if (grab == WR_GRAB_TOOL && tool->release) tool->release(app, at);
     if (grab == WR_GRAB_PATCH_PAINT) wr_patch_paint_release(app, at);
     if (grab == WR_GRAB_RESIZE) finish_resize(app, at);
+    if (grab == WR_GRAB_POINT) wr_layer_points_release(app, at);
     if (wr_grab_on_patch(grab)) {
         app->hand->grab = grab;
         wr_patch_release(app);
@@ -195,6 +201,10 @@ static void end_held(WrApp *app)
 /* End a drag, discarding its result. */
 static void cancel_held(WrApp *app)
 {
+    if (app->hand->grab == WR_GRAB_POINT) {
+        wr_layer_points_cancel(app);
+        app->hand->grab = WR_GRAB_NONE;
+    }
     if (app->select->active) {
         wr_select_cancel(app);
         app->hand->grab = WR_GRAB_NONE;
@@ -228,6 +238,7 @@ static void drag(WrApp *app, const WrPointer *at)
         break;
     case WR_GRAB_PATCH_PAINT: wr_patch_paint_drag(app, at); break;
     case WR_GRAB_SYMMETRY: wr_symmetry_drag(app, at); break;
+    case WR_GRAB_POINT: wr_layer_points_drag(app, at); break;
     case WR_GRAB_PICK: pick(app, at); break;
     case WR_GRAB_PAN: wr_tool_pan_drag(app, at); break;
     case WR_GRAB_TURN: wr_tool_turn_drag(app, at); break;

@@ -200,7 +200,7 @@ static void setting(WrApp *app, int index)
     char tip[512];
     snprintf(tip, sizeof tip, "%.300s\n%.60s%s%s", wr_words(info->meaning), info->name,
              curve ? wr_words("; the pen or the motion turns it too") : "",
-             changed ? wr_words(". Changed: a double click restores the preset's value") : "");
+             changed ? wr_words(". Changed: Ctrl+click restores the preset's value") : "");
     WrNumber spec = { .low = info->low,
                       .high = info->high > info->low ? info->high : info->low + 1,
                       .reset = own,

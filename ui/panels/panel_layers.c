@@ -33,8 +33,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#define ROW_UNITS 42
-#define THUMB_UNITS 30
+#define ROW_UNITS 34
+#define THUMB_UNITS 26
 
 void wr_panel_layers_forget(WrApp *app)
 {
@@ -508,14 +508,14 @@ static void foot(WrApp *app)
         }
         const WrAction *action = wr_action_find(app, buttons[i].action);
         bool enabled = wr_action_can(app, action);
-        char keys[32], tip[96];
+        char keys[32], tip[WR_ACTION_LABEL + 40], label[WR_ACTION_LABEL];
         if (i) wr_gui_same_line(8);
         wr_gui_disable(!enabled);
         if (wr_gui_glyph(buttons[i].action, buttons[i].icon, 24,
                          enabled ? WR_COLOUR_TEXT : WR_COLOUR_OFF))
             wr_action_run(app, buttons[i].action);
         wr_gui_disable_end();
-        snprintf(tip, sizeof tip, "%s   %s", action->label,
+        snprintf(tip, sizeof tip, "%s   %s", wr_menu_label(app, action, label),
                  wr_keys_label(app->keys, buttons[i].action, keys));
         wr_gui_tip(tip);
     }

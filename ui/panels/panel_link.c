@@ -39,16 +39,17 @@ static const struct {
       { .low = -2, .high = 2, .reset = 1, .decimals = 2, .tip = "A factor of all heights" } },
 };
 
-static void change(WrApp *app, const char *words)
+static void change(WrApp *app, const char *words, WrEdit edit)
 {
     WrText line = { 0 };
     wr_text_addf(&line, "layer set %d change=", wr_app_document(app)->active + 1);
     wr_text_add_word(&line, words);
-    wr_app_run_slow(app, wr_text_get(&line));
+    wr_app_try_command(app, edit, wr_text_get(&line));
     wr_text_fini(&line);
 }
 
-static void put_number(WrApp *app, const WrCall *call, const char *name, int part, double value)
+static void put_number(WrApp *app, const WrCall *call, const char *name, int part, double value,
+                       WrEdit edit)
 {
     const int index = (int)(wr_call_arg(call, name) - call->args);
     const int count = wr_arg_width(&call->specs[index]);
@@ -59,11 +60,11 @@ static void put_number(WrApp *app, const WrCall *call, const char *name, int par
         wr_text_add_number(&words,
                            k == part ? wr_line_round(value, 6) : call->args[index].numbers[k]);
     }
-    change(app, wr_text_get(&words));
+    change(app, wr_text_get(&words), edit);
     wr_text_fini(&words);
 }
 
-/* All layers that have heights but the copy itself, from the top. */
+/* All layers but filters, the copy itself and the groups that it is in, from the top. */
 static bool layer_row(WrApp *app, const WrCall *call)
 {
     const WrDocument *document = wr_app_document(app);
@@ -71,7 +72,9 @@ static bool layer_row(WrApp *app, const WrCall *call)
     const WrArg *source = &call->args[0];
     int count = 0, chosen = -1;
     for (int i = document->layer_count - 1; i >= 0; i--) {
-        if (i == document->active || !wr_layer_holds(&document->layers[i])) continue;
+        if (i == document->active || document->layers[i].filter.op ||
+            wr_document_is_within(document, document->active, i))
+            continue;
         names[count] = document->layers[i].name;
         if (chosen < 0 && strcmp(names[count], source->text) == 0) chosen = count;
         count++;
@@ -87,7 +90,7 @@ static bool layer_row(WrApp *app, const WrCall *call)
     if (!changed) return false;
     WrText words = { 0 };
     wr_text_add_word(&words, names[chosen]);
-    change(app, wr_text_get(&words));
+    change(app, wr_text_get(&words), WR_EDIT_DONE);
     wr_text_fini(&words);
     return true;
 }
@@ -102,9 +105,10 @@ static bool number_rows(WrApp *app, const WrCall *call)
         number.hard_high = spec->high;
         double value = arg->numbers[rows[i].part];
         wr_gui_label(rows[i].label);
-        if (wr_gui_number(rows[i].label, 0, &number, &value) != WR_EDIT_DONE) continue;
-        put_number(app, call, rows[i].argument, rows[i].part, value);
-        return true;
+        const WrEdit edit = wr_gui_number(rows[i].label, 0, &number, &value);
+        if (edit == WR_EDIT_NONE) continue;
+        put_number(app, call, rows[i].argument, rows[i].part, value, edit);
+        if (edit == WR_EDIT_DONE) return true;
     }
     return false;
 }
@@ -119,14 +123,16 @@ void wr_dialog_link(WrApp *app)
         return;
     }
     if (wr_gui_dialog_begin_at("Linked copy", wr_dialog_side(app))) {
-        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
-                            "It follows the heights of its layer. Blend, opacity and mask are its "
-                            "own.");
+        wr_gui_text_wrapped(
+            WR_FONT_SMALL, WR_COLOUR_LABEL,
+            "It follows the heights of its layer or group. Blend, opacity and mask are its "
+            "own.");
         wr_gui_space(4);
         wr_busy_hold(app);
         if (!layer_row(app, call)) number_rows(app, call);
         wr_busy_hold_end();
         wr_dialog_close_button(app, "Done");
+        if (app->dialog->now == WR_DIALOG_NONE) wr_app_try_end(app);
         wr_gui_dialog_end();
     }
     wr_call_free(call);

@@ -38,8 +38,10 @@ static const char *label_of(const char *name)
 
 /* ---- changes ---- */
 
-/* Replace term `index` by these words; index = count: a new one. Empty words: it is removed. */
-static void put_term(WrApp *app, const WrMaskTerms *terms, int index, const char *words)
+/* Replace term `index` by these words; index = count: a new one. Empty words: it is removed. While a value is dragged, only
+   the preview changes. */
+static void put_term(WrApp *app, const WrMaskTerms *terms, int index, const char *words,
+                     WrEdit edit)
 {
     WrText all = { 0 }, line = { 0 };
     for (int i = 0; i < terms->count + (index == terms->count); i++) {
@@ -51,13 +53,14 @@ static void put_term(WrApp *app, const WrMaskTerms *terms, int index, const char
     }
     wr_text_addf(&line, "layer mask %d live=", wr_app_document(app)->active + 1);
     wr_text_add_word(&line, all.length ? wr_text_get(&all) : "off");
-    wr_app_run_slow(app, wr_text_get(&line));
+    wr_app_try_command(app, edit, wr_text_get(&line));
     wr_text_fini(&all);
     wr_text_fini(&line);
 }
 
 /* Change one argument of a term; value NULL: it is left out. */
-static void put_value(WrApp *app, const WrMaskTerms *terms, int index, int arg, const char *value)
+static void put_value(WrApp *app, const WrMaskTerms *terms, int index, int arg, const char *value,
+                      WrEdit edit)
 {
     WrCall *term = terms->calls[index];
     const char *name = term->specs[arg].name;
@@ -73,7 +76,7 @@ static void put_value(WrApp *app, const WrMaskTerms *terms, int index, int arg, 
     wr_text_clear(&words);
     const WrMaskTerms one = { .count = 1, .calls = { term } };
     wr_mask_terms_print(&one, &words);
-    if (good) put_term(app, terms, index, wr_text_get(&words));
+    if (good) put_term(app, terms, index, wr_text_get(&words), edit);
     wr_text_fini(&words);
 }
 
@@ -86,6 +89,7 @@ static void words_of_kind(const WrApp *app, const char *kind, WrText *words)
         wr_text_add(words, " of=");
         wr_text_add_word(words, document->layers[document->active - 1].name);
     }
+    if (strcmp(kind, "slope") == 0) wr_text_add(words, " low=20"); /* its default is everything */
     if (strcmp(kind, "height") == 0) {
         float low, high;
         WrField *below = wr_document_below(document, document->active, NULL);
@@ -129,12 +133,13 @@ static bool number_row(WrApp *app, const WrMaskTerms *terms, int index, int arg)
     for (int i = 0; strcmp(spec->name, "soft") == 0 && i < term->count; i++)
         if (strcmp(term->specs[i].name, "high") == 0 && term->specs[i].high < 1000.0)
             number.high = term->specs[i].high; /* it fades in the units of the range */
-    if (wr_gui_number(spec->name, 0, &number, &value) != WR_EDIT_DONE) return false;
+    const WrEdit edit = wr_gui_number(spec->name, 0, &number, &value);
+    if (edit == WR_EDIT_NONE) return false;
     WrText text = { 0 };
     wr_text_add_number(&text, wr_line_round(value, 6));
-    put_value(app, terms, index, arg, wr_text_get(&text));
+    put_value(app, terms, index, arg, wr_text_get(&text), edit);
     wr_text_fini(&text);
-    return true;
+    return edit == WR_EDIT_DONE; /* the terms stay while it is dragged */
 }
 
 static bool choice_row(WrApp *app, const WrMaskTerms *terms, int index, int arg)
@@ -148,7 +153,7 @@ static bool choice_row(WrApp *app, const WrMaskTerms *terms, int index, int arg)
         count++;
     }
     if (!wr_gui_choice(spec->name, 0, words, count, &chosen)) return false;
-    put_value(app, terms, index, arg, spec->words[chosen]);
+    put_value(app, terms, index, arg, spec->words[chosen], WR_EDIT_DONE);
     return true;
 }
 
@@ -172,7 +177,8 @@ static bool layer_row(WrApp *app, const WrMaskTerms *terms, int index, int arg)
     wr_gui_as_it_is(true);
     const bool changed = wr_gui_choice("of", 0, names, count, &chosen);
     wr_gui_as_it_is(false);
-    if (changed) put_value(app, terms, index, arg, chosen < first ? NULL : names[chosen]);
+    if (changed)
+        put_value(app, terms, index, arg, chosen < first ? NULL : names[chosen], WR_EDIT_DONE);
     return changed;
 }
 
@@ -208,12 +214,12 @@ static bool term_rows(WrApp *app, const WrMaskTerms *terms, int index)
                 if (strcmp(term->specs[i].name, "op") == 0 && term->args[i].given)
                     wr_text_addf(&words, " op=%s", term->specs[i].words[term->args[i].choice]);
         }
-        put_term(app, terms, index, wr_text_get(&words));
+        put_term(app, terms, index, wr_text_get(&words), WR_EDIT_DONE);
         wr_text_fini(&words);
     }
     changed = changed || value_rows(app, terms, index);
     if (!changed && terms->count > 1 && wr_gui_button("Remove this term", false)) {
-        put_term(app, terms, index, "");
+        put_term(app, terms, index, "", WR_EDIT_DONE);
         changed = true;
     }
     wr_gui_space(8);
@@ -238,9 +244,10 @@ void wr_dialog_mask(WrApp *app)
         wr_busy_hold(app);
         for (int i = 0; i < terms.count && !changed; i++) changed = term_rows(app, &terms, i);
         if (!changed && terms.count < WR_MASK_TERMS && wr_gui_button("Add a term", false))
-            put_term(app, &terms, terms.count, "noise");
+            put_term(app, &terms, terms.count, "noise", WR_EDIT_DONE);
         wr_busy_hold_end();
         wr_dialog_close_button(app, "Done");
+        if (app->dialog->now == WR_DIALOG_NONE) wr_app_try_end(app);
         wr_gui_dialog_end();
     }
     wr_mask_terms_free(&terms);

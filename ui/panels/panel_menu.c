@@ -10,6 +10,7 @@
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
+#include "ui/panels/layer_choice.h"
 #include "ui/panels/panels.h"
 
 #include "base/array.h"
@@ -270,16 +271,24 @@ static void scale(WrApp *app)
 
 void (*wr_menu_listed)(const char *action);
 
+const char *wr_menu_label(const WrApp *app, const WrAction *action, char text[WR_ACTION_LABEL])
+{
+    const int chosen = action->several ? wr_chosen_count(wr_app_chosen(app)) : 1;
+    if (chosen > 1) snprintf(text, WR_ACTION_LABEL, wr_words(action->several), chosen);
+    else snprintf(text, WR_ACTION_LABEL, "%s", wr_words(action->label));
+    return text;
+}
+
 void wr_menu_item(WrApp *app, const char *name)
 {
-    char keys[32];
+    char keys[32], label[WR_ACTION_LABEL];
     if (wr_menu_listed) wr_menu_listed(name);
     const WrAction *action = wr_action_find(app, name);
     WR_ASSERT(action);
     if (!action) return;
     bool checked = action->checked && action->checked(app);
-    if (wr_gui_menu_item(action->label, wr_keys_label(app->keys, name, keys), checked,
-                         wr_action_can(app, action)))
+    if (wr_gui_menu_item(wr_menu_label(app, action, label), wr_keys_label(app->keys, name, keys),
+                         checked, wr_action_can(app, action)))
         wr_action_run(app, name);
     wr_gui_tip(wr_action_help(app, action));
 }

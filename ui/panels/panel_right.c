@@ -15,7 +15,7 @@
 
 #include <SDL.h>
 
-#define LONG_UNITS 400 /* least height of a long tab above the layers */
+#define LONG_UNITS 320 /* least height of a long tab above the layers */
 #define MAX_TABS 16
 
 static SDL_Rect below_head(SDL_Rect room, const char *const *labels, int count, SDL_Rect *head)

@@ -7,6 +7,7 @@
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/dialog.h"
 #include "ui/app/state/keys.h"
+#include "ui/app/state/messages.h"
 #include "ui/app/state/registry.h"
 #include "ui/app/state/search_score.h"
 #include "ui/panels/generate/generate_state.h"
@@ -201,11 +202,22 @@ static void help_line(const Found *found)
     wr_gui_list_end();
 }
 
+void wr_search_line(WrApp *app, const char *line)
+{
+    if (strlen(line) >= sizeof app->finder->text) {
+        wr_app_say(app, "The line of this layer is too long to be shown here");
+        return;
+    }
+    *app->finder = (WrFinder){ .fill = true, .line = true };
+    strcpy(app->finder->text, line);
+    wr_dialog_open(app, WR_DIALOG_SEARCH);
+}
+
 void wr_dialog_search(WrApp *app)
 {
     Found found[FOUND_MAX];
     WrFinder *finder = app->finder;
-    if (app->dialog->fresh) *finder = (WrFinder){ 0 };
+    if (app->dialog->fresh && !finder->fill) *finder = (WrFinder){ 0 };
     if (!wr_gui_dialog_begin("Search actions", 460)) return;
     char before[sizeof finder->text];
     memcpy(before, finder->text, sizeof before);

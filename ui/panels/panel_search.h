@@ -12,3 +12,5 @@ typedef struct WrFinder { /* the search */
 } WrFinder;
 
 void wr_dialog_search(WrApp *app);
+/* Opens the search with a command line, to be changed and run. */
+void wr_search_line(WrApp *app, const char *line);

@@ -6,6 +6,9 @@
 #include <SDL.h>
 
 void wr_panel_menu(WrApp *app);
+#define WR_ACTION_LABEL 96 /* bytes of a label */
+/* An action's label in the menus, in the user's language: with the number of the chosen layers if it changes several. */
+const char *wr_menu_label(const WrApp *app, const WrAction *action, char text[WR_ACTION_LABEL]);
 void wr_menu_item(WrApp *app, const char *action); /* item of an open menu */
 void wr_menu_filters(WrApp *app);                  /* operations usable as a new filter layer */
 /* Called for each action in a menu, if set; for tests. */

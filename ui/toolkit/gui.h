@@ -36,11 +36,9 @@ bool wr_gui_owns_point(const WrGui *gui, int x, int y);
 /* Identifier of the widget, panel or menu at that pixel of the displayed frame. It differs if another widget is
    there, or another menu or dialog is open. 0: a view, and nothing is open. */
 unsigned wr_gui_widget_at(const WrGui *gui, int x, int y);
-/* Start typing in a clicked number field without waiting for a double click. True if there is one. */
-bool wr_gui_type_now(WrGui *gui);
 bool wr_gui_holds_mouse(const WrGui *gui); /* a widget is being dragged */
 bool wr_gui_wants_text(const WrGui *gui);  /* a text field has the keyboard focus */
-/* True if a widget waits for a time (a possible double click, a tip): draw again soon. */
+/* True if a widget waits for a time (a tip, a drag that scrolls): draw again soon. */
 bool wr_gui_has_pending_timer(const WrGui *gui);
 /* True if the last frame does not show the effect of all events: a short press, a list or dialog that opens over
    several frames, a background being dimmed. Draw again now. */
@@ -188,14 +186,14 @@ typedef enum WrEdit {
 typedef struct WrNumber {
     double low, high;           /* soft range: limits of a drag, low < high */
     double hard_low, hard_high; /* limits of typed values; both 0: the soft range */
-    double reset;               /* value after a double click */
+    double reset;               /* value after Ctrl+click */
     int decimals;               /* digits after the point; -1: up to four significant digits */
     const char *unit;           /* "px", "deg"; may be NULL */
     bool logarithmic;           /* drag changes the value by equal ratios; low > 0 */
     const char *tip;            /* may be NULL */
 } WrNumber;
 
-/* A slider with text input: a drag moves it, a click types, a double click resets, Escape in a drag restores the value
+/* A slider with text input: a drag moves it, a click types, Ctrl+click resets, Escape in a drag restores the value
    (LIVE with the old value). width <= 0: the rest of the row. */
 WrEdit wr_gui_number(const char *id, double width, const WrNumber *spec, double *value);
 bool wr_gui_choice(const char *id, double width, const char *const *items, int count, int *index);

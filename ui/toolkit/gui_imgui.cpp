@@ -274,13 +274,6 @@ try {
 }
 WR_CAUGHT(0)
 
-extern "C" bool wr_gui_type_now(WrGui *gui)
-{
-    if (gui->armed == 0) return false;
-    gui->armed_since = -1e9;
-    return true;
-}
-
 extern "C" bool wr_gui_holds_mouse(const WrGui *)
 {
     return ImGui::GetCurrentContext()->ActiveId != 0 && ImGui::GetIO().MouseDown[0];
@@ -296,7 +289,7 @@ extern "C" bool wr_gui_wants_text(const WrGui *)
 
 extern "C" bool wr_gui_has_pending_timer(const WrGui *gui)
 {
-    return gui->armed != 0 || gui->tip_waits || gui->drag_scrolls;
+    return gui->tip_waits || gui->drag_scrolls;
 }
 
 static int dialogs_open()
@@ -408,7 +401,10 @@ try {
     wr_gui_focus_end(gui);
     ImGui::Render();
     note_shown(gui);
-    if (gui->armed_since < 0) gui->armed = 0; /* its field is gone */
+    if (gui->typing_focus && gui->typing_frame != ImGui::GetFrameCount()) {
+        gui->typing = 0; /* its field is gone */
+        gui->typing_focus = false;
+    }
     double sizes = fitted_sizes(*ImGui::GetCurrentContext());
     gui->fits = sizes != gui->fitted;
     gui->fitted = sizes;

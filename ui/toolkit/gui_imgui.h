@@ -111,9 +111,10 @@ struct WrGui {
     ImGuiID chooser;   /* the open list, and its row for Return */
     int chooser_row;
     /* number fields */
-    ImGuiID typing, armed, dragging;
+    ImGuiID typing, dragging;
     bool typing_focus, moved;
-    double armed_since, drag_value, drag_from;
+    int typing_frame; /* when the field that is typed into was last drawn */
+    double drag_value, drag_from;
     double drag_start; /* value of the dragged field at the press */
     float drag_x;
     char typed[64];

@@ -3,7 +3,6 @@
 
 extern "C" {
 #include "base/text.h"
-#include "system/clock.h"
 }
 
 #include <imgui_internal.h>
@@ -11,8 +10,6 @@ extern "C" {
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-#define DOUBLE_CLICK_SECONDS 0.28
 
 /* ---- value <-> position in the field ---- */
 
@@ -73,12 +70,15 @@ static WrEdit type_into(WrGui *gui, ImGuiID item, float width, const WrNumber *s
 {
     ImGui::SetNextItemWidth(width);
     bool first = gui->typing_focus;
+    gui->typing_frame = ImGui::GetFrameCount();
     if (first) ImGui::SetKeyboardFocusHere();
     bool done =
         ImGui::InputText("##typed", gui->typed, sizeof gui->typed,
                          ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_EnterReturnsTrue);
     wr_gui_edge(ImGui::GetWindowDrawList(), ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
     bool active = ImGui::IsItemActive();
+    ImGuiInputTextState *typed = ImGui::GetInputTextState(ImGui::GetItemID());
+    if (typed && active && ImGui::IsMouseDoubleClicked(0)) typed->SelectAll();
     if (first && active) gui->typing_focus = false;
     bool escape = wr_gui_went_down(SDL_SCANCODE_ESCAPE);
     if (!done && (active || gui->typing_focus) && !escape) return WR_EDIT_NONE;
@@ -91,8 +91,8 @@ static WrEdit type_into(WrGui *gui, ImGuiID item, float width, const WrNumber *s
 
 static void start_typing(WrGui *gui, ImGuiID item, const WrNumber *spec, double value)
 {
-    gui->armed = 0;
     gui->typing = item;
+    gui->typing_frame = ImGui::GetFrameCount();
     gui->typing_focus = true;
     if (spec->decimals >= 0) print_value(spec, value, gui->typed, sizeof gui->typed);
     else wr_number_print(value, gui->typed);
@@ -161,8 +161,8 @@ static WrEdit drag_field(WrGui *gui, ImGuiID item, float width, const WrNumber *
         gui->drag_from = place_of(spec, *value);
         gui->drag_value = gui->drag_start = *value;
         gui->moved = false;
-        if (ImGui::IsMouseDoubleClicked(0)) {
-            gui->armed = gui->dragging = 0;
+        if (io.KeyCtrl) {
+            gui->dragging = 0;
             edit = reset(spec, value);
         }
     }
@@ -178,10 +178,7 @@ static WrEdit drag_field(WrGui *gui, ImGuiID item, float width, const WrNumber *
         if (!ImGui::IsItemActive()) {
             gui->dragging = 0;
             edit = gui->moved ? WR_EDIT_DONE : WR_EDIT_NONE;
-            if (!gui->moved) {
-                gui->armed = item;
-                gui->armed_since = wr_clock_seconds();
-            }
+            if (!gui->moved) start_typing(gui, item, spec, *value);
         }
     }
     if (gui->dragging == item && wr_gui_went_down(SDL_SCANCODE_ESCAPE)) {
@@ -241,8 +238,6 @@ try {
     ImGuiID item = ImGui::GetID("##field");
     float w = width > 0 ? (float)width : ImGui::GetContentRegionAvail().x;
     if (w < 8) w = 8;
-    if (gui->armed == item && wr_clock_seconds() - gui->armed_since > DOUBLE_CLICK_SECONDS)
-        start_typing(gui, item, spec, *value);
     const ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + w, at.y + ImGui::GetFrameHeight());
     const WrEdit keyed = gui->typing == item ? WR_EDIT_NONE : by_keys(gui, item, spec, value);
     WrEdit edit = gui->typing == item ? type_into(gui, item, w, spec, value)

@@ -12,6 +12,7 @@
 #include "brush/tip.h"
 #include "command/command_line.h"
 #include "command/commands.h"
+#include "command/session.h"
 #include "document/document.h"
 #include "field/field.h"
 #include "field/ops.h"
@@ -214,7 +215,7 @@ typedef struct Work {
     WrEditPreviewRequest ask;
     /* unchanged copy of the snapshot, for the exact result after a rough one; NULL: none */
     WrDocument *again;
-    char *line; /* generator line; ask.line points to it */
+    char *line; /* generator line or command; ask.line or ask.command points to it */
     Slot *slot; /* the preview's; borrowed */
     WrCoarse
         *coarse; /* small copy of the layers, used again by the next request; owned; NULL: none */
@@ -358,11 +359,21 @@ static bool generate(Work *work, WrPool *pool, const WrProgress *progress)
                                     progress, &work->notes, &work->err);
 }
 
+static bool run_command(Work *work, WrPool *pool)
+{
+    WrSession *session = wr_session_of(work->document, pool);
+    const bool good = wr_session_run(session, work->ask.command, &work->err);
+    wr_document_free(work->document);
+    work->document = wr_document_share(wr_session_document(session));
+    wr_session_free(session);
+    return good;
+}
+
 /* ---- rough results of layers on a small copy of the document (coarse_preview.h) ---- */
 
 static bool is_setting(const WrEditPreviewRequest *ask)
 {
-    return !ask->line && !ask->op && !ask->dab;
+    return !ask->line && !ask->op && !ask->dab && !ask->command;
 }
 
 static bool is_filter_change(const WrEditPreviewRequest *ask)
@@ -481,6 +492,11 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
             work->cancelled = wr_progress_cancelled(progress);
             return;
         }
+    } else if (ask->command) {
+        if (!run_command(work, pool)) {
+            work->cancelled = wr_progress_cancelled(progress);
+            return;
+        }
     } else if (ask->dab) {
         dab(work, pool);
     } else {
@@ -557,6 +573,7 @@ void wr_edit_preview_request(WrEditPreview *trial, const WrDocument *document,
     work->slot = &trial->slot;
     if (work->ask.rough) work->again = wr_document_share(document);
     if (ask->line) work->ask.line = work->line = wr_strdup(ask->line);
+    if (ask->command) work->ask.command = work->line = wr_strdup(ask->command);
     if (ask->dab) {
         work->brush = *ask->dab;
         work->brush.preset = NULL;

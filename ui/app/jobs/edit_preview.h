@@ -40,6 +40,8 @@ typedef struct WrEditPreviewRequest {
     WrLineTarget target; /* of a generator's line */
     bool rough;          /* a fast rough result first, then the exact one */
 
+    const char *command; /* or any other command line, run on a copy of the document; copied */
+
     int layer; /* or a layer with changed settings; or the filter or generator layer */
     WrBlend blend;
     float opacity, radius;

@@ -22,6 +22,7 @@ struct WrAction {
     /* changes the document or a file of it: disabled while a command runs in the background */
     bool edits;
     WrActionLayer layer;
+    const char *several; /* label for %d chosen layers; NULL: the same */
     int row_menu; /* its part of the context menu of a layer's row, from 1; 0: it is not there */
 };
 

@@ -10,6 +10,7 @@
    All frames are drawn by the main loop: it is never entered recursively from within a frame. */
 #pragma once
 #include "ui/app/state/app_state.h"
+#include "ui/toolkit/gui.h"
 
 #include <SDL.h>
 #include <stdbool.h>
@@ -42,6 +43,8 @@ void wr_background_upkeep_start(WrApp *app, const char *what, WrBusyWork *work, 
 void wr_busy_fail(WrApp *app, const char *what, const WrError *err);
 /* Run the line of the edit preview on the current document. If the preview has finished, its result is used. */
 void wr_app_run_tried(WrApp *app, const char *line);
+/* For a value of a dialog: preview the line while the value is dragged, and run it afterwards. */
+void wr_app_try_command(WrApp *app, WrEdit edit, const char *line);
 /* Run a command that may take long, now or after the current frame. */
 void wr_app_run_slow(WrApp *app, const char *line);
 bool wr_app_line_waits(const WrApp *app); /* a line is queued to run after this frame */

@@ -29,6 +29,7 @@ typedef enum WrGrab {
     WR_GRAB_SPLIT,    /* divider between two pictures of the patch */
     WR_GRAB_PANELS,   /* divider between the panels on the right */
     WR_GRAB_SYMMETRY, /* centre of the symmetry */
+    WR_GRAB_POINT,    /* point of a shape or ramp layer */
     WR_GRAB_ORBIT,
     WR_GRAB_LIGHT,
     WR_GRAB_SURROUND, /* rotate the environment */

@@ -147,6 +147,16 @@ void wr_app_run_tried(WrApp *app, const char *line)
     else wr_app_run_slow(app, line);
 }
 
+void wr_app_try_command(WrApp *app, WrEdit edit, const char *line)
+{
+    if (edit == WR_EDIT_LIVE) {
+        wr_app_try(app, &(WrEditPreviewRequest){ .command = line });
+    } else if (edit == WR_EDIT_DONE) {
+        wr_app_try_end(app);
+        wr_app_run_slow(app, line);
+    }
+}
+
 bool wr_app_run_linef(WrApp *app, const char *format, ...)
 {
     char line[256];

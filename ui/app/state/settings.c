@@ -24,7 +24,7 @@ WrSettings wr_settings_default(void)
         .height = 900,
         .divider = 0.5,
         .panels = true,
-        .lower = 0.42,
+        .lower = 0.52, /* six layers in a window of 1280 x 800 */
         .ants = true,
         .grid_parts = 8,
         .turning = true,

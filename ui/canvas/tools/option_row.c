@@ -48,7 +48,7 @@ static void size(WrApp *app, double width)
                       .unit = "px",
                       .logarithmic = true,
                       .tip = "Diameter of the brush in texels of the table.\n"
-                             "Drag, click to type, double-click to reset." };
+                             "Drag, click to type, Ctrl+click to reset." };
     double diameter = 2.0 * app->settings->brush.radius;
     if (wr_gui_number("size", width, &spec, &diameter))
         app->settings->brush.radius = diameter / 2.0;

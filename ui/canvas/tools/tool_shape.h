@@ -15,7 +15,15 @@ typedef struct WrAnchor {
 } WrAnchor;
 
 /* State of drawing tools other than the brush. Positions are texels, unwrapped. */
+/* A point of the active layer's line that is dragged (layer_points.h). */
+typedef struct WrDrawPoint {
+    int number;          /* from 1; 0: none */
+    double u, v;         /* where it is now, unwrapped */
+    double off_u, off_v; /* from the pointer to it */
+} WrDrawPoint;
+
 typedef struct WrDrawState {
+    WrDrawPoint point;
     bool active;                /* an operation is in progress */
     double x0, y0, x1, y1;      /* of a drag: start, present position */
     WR_ARRAY(WrAnchor) anchors; /* of polygons and paths */

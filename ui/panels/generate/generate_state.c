@@ -552,20 +552,6 @@ void wr_generate_cancel(WrApp *app)
     wr_app_redraw(app);
 }
 
-/* Add the name of a new layer to a command: "Text", then "Text 2" and so on. */
-static void add_free_name(const WrApp *app, WrText *text)
-{
-    const char *label = wr_words(app->generate->generator->label);
-    WrText name = { 0 };
-    wr_text_add(&name, label);
-    for (int i = 2; wr_layer_named(wr_app_document(app), wr_text_get(&name)) >= 0; i++) {
-        wr_text_clear(&name);
-        wr_text_addf(&name, "%s %d", label, i);
-    }
-    wr_text_add_word(text, wr_text_get(&name));
-    wr_text_fini(&name);
-}
-
 /* The command that carries out `line`, a generator's. */
 static void add_command(const WrApp *app, const char *line, WrText *text)
 {
@@ -575,13 +561,14 @@ static void add_command(const WrApp *app, const char *line, WrText *text)
     case WR_LINE_INTO_ACTIVE: wr_text_add(text, line); return;
     case WR_LINE_NEW_LAYER:
         wr_text_add(text, "layer add ");
-        add_free_name(app, text);
+        wr_generate_add_name(app, line, text);
         break;
     case WR_LINE_OF_LAYER: wr_text_addf(text, "layer set %d", hand->layer + 1); break;
     }
     wr_text_add(text, " from=");
     wr_text_add_word(text, line);
     if (hand->layer < 0) return;
+    wr_generate_follow_name(app, hand->layer, line, text);
     wr_text_addf(text, " blend=%s radius=%s", wr_blends[hand->blend].name,
                  wr_number_print(hand->radius, number));
 }

@@ -129,6 +129,10 @@ void wr_generate_focus_text(WrApp *app);             /* give the keyboard focus 
 void wr_generate_file(WrApp *app, const char *path); /* file chosen for asking_file */
 
 void wr_generate_commit(WrApp *app);
+/* Adds a word to a command: the automatic name of a new layer of that line, "Text: Hello", then "Text: Hello 2" and so on. */
+void wr_generate_add_name(const WrApp *app, const char *line, WrText *command);
+/* Adds " name=" with the new line's name if layer `index` still has the automatic name of its present line. */
+void wr_generate_follow_name(const WrApp *app, int index, const char *line, WrText *command);
 /* True while a text is typed: Ctrl+Enter then applies it. */
 bool wr_generate_writes(const WrApp *app);
 void wr_generate_cancel(WrApp *app); /* stop the preview; the values stay */
