@@ -204,7 +204,9 @@ static bool follow(WrSession *session, bool all, WrError *err)
     wr_session_layer_needs(session, needs);
     for (int i = 0; i < count; i++) f.needed[i] = all || needs[i].why == WR_LAYER_NEEDED;
     wr_session_links(session, &f.links);
-    return follow_below(&f, count, err);
+    const bool good = follow_below(&f, count, err);
+    wr_made_from_prune(session->made_from, session->state.document, f.needed);
+    return good;
 }
 
 bool wr_session_follow_layers(WrSession *session, WrError *err)

@@ -88,6 +88,9 @@ typedef struct WrGenerateJob {
     const WrField *selection, *mask; /* of that size: the selection, the layer's mask; NULL: none */
     WrPool *pool;                    /* NULL: the calling thread */
     const WrProgress *progress;      /* NULL: no reports, no cancellation */
+    /* [tiles_v][tiles_u] of `like`, from the top: tiles with 0 need not be made, and have any heights. NULL: all are wanted.
+     * Generators may make them nevertheless. */
+    const uint8_t *wanted;
     bool coarse; /* a preview that may be less accurate if that is much faster */
     void (*note)(void *ctx,
                  /* receives remarks: dropped octaves, missing glyphs, the sign of a normal map;
