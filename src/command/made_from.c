@@ -57,21 +57,27 @@ static bool comparable(const WrField *a, const WrField *b)
     return wr_field_alike(a, b) && memcmp(&was, &now, sizeof was) == 0;
 }
 
+const WrInputs *wr_made_from_find(const WrMadeFrom *all, uint64_t made, const WrInputs *now)
+{
+    const Entry *entry = find(all, made);
+    if (!entry || entry->inputs.count != now->count ||
+        !wr_hash_equal(entry->inputs.values, now->values))
+        return NULL;
+    for (int i = 0; i < now->count; i++)
+        if (!comparable(entry->inputs.of[i], now->of[i])) return NULL;
+    return &entry->inputs;
+}
+
 bool wr_made_from_changes(const WrMadeFrom *all, uint64_t made, const WrInputs *now, int reach,
                           WrFieldRect **blocks, int *count)
 {
     WrFieldChange changes[WR_INPUTS_MAX];
     int changed = 0;
     double texels = 0.0;
-    const Entry *entry = find(all, made);
-    if (!entry || reach < 0 || entry->inputs.count != now->count ||
-        !wr_hash_equal(entry->inputs.values, now->values))
-        return false;
-    for (int i = 0; i < now->count; i++) {
-        if (!comparable(entry->inputs.of[i], now->of[i])) return false;
-        if (now->of[i]) changes[changed++] = (WrFieldChange){ entry->inputs.of[i], now->of[i] };
-    }
-    if (changed == 0) return false;
+    const WrInputs *was = wr_made_from_find(all, made, now);
+    for (int i = 0; was && i < now->count; i++)
+        if (now->of[i]) changes[changed++] = (WrFieldChange){ was->of[i], now->of[i] };
+    if (changed == 0 || reach < 0) return false;
     *count = wr_changed_blocks(changes, changed, reach, blocks);
     for (int i = 0; i < *count; i++) {
         const WrFieldRect *b = &(*blocks)[i];

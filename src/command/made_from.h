@@ -20,6 +20,9 @@ typedef struct WrInputs {
 
 /* Stores the inputs of a mask or of heights. made: wr_field_key of the result. *all NULL: created */
 void wr_made_from_note(WrMadeFrom **all, uint64_t made, const WrInputs *inputs);
+/* Its inputs at the last making, if they have the same sizes and levels as now, and the same other values; else NULL. Borrowed
+ * until the next call that changes *all. */
+const WrInputs *wr_made_from_find(const WrMadeFrom *all, uint64_t made, const WrInputs *now);
 /* The blocks where a result that depends on inputs within `reach` texels may differ from the one with key `made`. False: that
  * is not known, or it is most of the table. blocks: output, [*count]; the caller frees it */
 bool wr_made_from_changes(const WrMadeFrom *all, uint64_t made, const WrInputs *now, int reach,

@@ -13,7 +13,6 @@
 typedef struct Changed {
     const WrFieldChange *change;
     int reach;
-    int tiles_u, tiles_v;
     uint8_t *marked; /* [tiles_v][tiles_u] */
 } Changed;
 
@@ -47,18 +46,17 @@ static int tile_runs(TileRange s, int n, WrWrap wrap, TileRange run[2])
     return 2;
 }
 
-static void mark(const Changed *c, TileRange i, TileRange j)
+void wr_mark_tiles(const WrField *like, const WrFieldRect *texels, int reach, uint8_t *marked)
 {
-    const WrField *in = c->change->now;
     TileRange across[2], down[2];
-    int runs_u = tile_runs((TileRange){ i.from - c->reach, i.to + c->reach }, wr_field_width(in),
-                           wr_field_wrap_u(in), across);
-    int runs_v = tile_runs((TileRange){ j.from - c->reach, j.to + c->reach }, wr_field_height(in),
-                           wr_field_wrap_v(in), down);
+    const int runs_u = tile_runs((TileRange){ texels->i0 - reach, texels->i1 - 1 + reach },
+                                 wr_field_width(like), wr_field_wrap_u(like), across);
+    const int runs_v = tile_runs((TileRange){ texels->j0 - reach, texels->j1 - 1 + reach },
+                                 wr_field_height(like), wr_field_wrap_v(like), down);
     for (int a = 0; a < runs_v; a++)
         for (int ty = down[a].from; ty <= down[a].to; ty++)
             for (int b = 0; b < runs_u; b++)
-                memset(c->marked + (size_t)ty * (size_t)c->tiles_u + across[b].from, 1,
+                memset(marked + ty * wr_field_tiles_u(like) + across[b].from, 1,
                        (size_t)(across[b].to - across[b].from + 1));
 }
 
@@ -87,27 +85,35 @@ static void mark_around(int tx, int ty, void *ctx)
             j.to = y;
         }
     if (i.to < 0) return;
-    mark(c, (TileRange){ tx * WR_TILE + i.from, tx * WR_TILE + i.to },
-         (TileRange){ ty * WR_TILE + j.from, ty * WR_TILE + j.to });
+    const WrFieldRect texels = { tx * WR_TILE + i.from, tx * WR_TILE + i.to + 1,
+                                 ty * WR_TILE + j.from, ty * WR_TILE + j.to + 1 };
+    wr_mark_tiles(in, &texels, c->reach, c->marked);
 }
 
 /* The smallest block around the marked tiles of a square of tiles; no texels if there are none. */
-static WrFieldRect block_of(const Changed *c, int left, int top)
+static WrFieldRect block_of(const WrField *like, const uint8_t *marked, int left, int top)
 {
-    TileRange i = { c->tiles_u, -1 }, j = { c->tiles_v, -1 };
-    for (int ty = top; ty < least(top + ACROSS, c->tiles_v); ty++)
-        for (int tx = left; tx < least(left + ACROSS, c->tiles_u); tx++) {
-            if (!c->marked[(size_t)ty * (size_t)c->tiles_u + (size_t)tx]) continue;
+    const int tiles_u = wr_field_tiles_u(like), tiles_v = wr_field_tiles_v(like);
+    TileRange i = { tiles_u, -1 }, j = { tiles_v, -1 };
+    for (int ty = top; ty < least(top + ACROSS, tiles_v); ty++)
+        for (int tx = left; tx < least(left + ACROSS, tiles_u); tx++) {
+            if (!marked[ty * tiles_u + tx]) continue;
             i.from = least(i.from, tx);
             i.to = tx > i.to ? tx : i.to;
             j.from = least(j.from, ty);
             j.to = ty;
         }
     if (i.to < 0) return (WrFieldRect){ 0 };
-    return (WrFieldRect){ i.from * WR_TILE,
-                          least((i.to + 1) * WR_TILE, wr_field_width(c->change->now)),
-                          j.from * WR_TILE,
-                          least((j.to + 1) * WR_TILE, wr_field_height(c->change->now)) };
+    return (WrFieldRect){ i.from * WR_TILE, least((i.to + 1) * WR_TILE, wr_field_width(like)),
+                          j.from * WR_TILE, least((j.to + 1) * WR_TILE, wr_field_height(like)) };
+}
+
+void wr_mark_changes(const WrFieldChange *changes, int change_count, int reach, uint8_t *marked)
+{
+    for (int k = 0; k < change_count; k++) {
+        Changed c = { &changes[k], reach, marked };
+        wr_field_changes(changes[k].was, changes[k].now, mark_around, &c);
+    }
 }
 
 int wr_changed_blocks(const WrFieldChange *changes, int change_count, int reach,
@@ -115,20 +121,15 @@ int wr_changed_blocks(const WrFieldChange *changes, int change_count, int reach,
 {
     WR_ARRAY(WrFieldRect) all = { 0 };
     const WrField *like = changes[0].now;
-    Changed c = { .reach = reach,
-                  .tiles_u = wr_field_tiles_u(like),
-                  .tiles_v = wr_field_tiles_v(like) };
-    c.marked = wr_alloc((size_t)c.tiles_u * (size_t)c.tiles_v, 1);
-    for (int k = 0; k < change_count; k++) {
-        c.change = &changes[k];
-        wr_field_changes(changes[k].was, changes[k].now, mark_around, &c);
-    }
-    for (int ty = 0; ty < c.tiles_v; ty += ACROSS)
-        for (int tx = 0; tx < c.tiles_u; tx += ACROSS) {
-            const WrFieldRect block = block_of(&c, tx, ty);
+    const int tiles_u = wr_field_tiles_u(like), tiles_v = wr_field_tiles_v(like);
+    uint8_t *marked = wr_alloc((size_t)tiles_u * (size_t)tiles_v, 1);
+    wr_mark_changes(changes, change_count, reach, marked);
+    for (int ty = 0; ty < tiles_v; ty += ACROSS)
+        for (int tx = 0; tx < tiles_u; tx += ACROSS) {
+            const WrFieldRect block = block_of(like, marked, tx, ty);
             if (block.i1 > block.i0) wr_array_push(&all, block);
         }
-    wr_free(c.marked);
+    wr_free(marked);
     *blocks = all.data;
     return all.count;
 }

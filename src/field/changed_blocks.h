@@ -10,6 +10,11 @@ typedef struct WrFieldChange {
 
 #define WR_CHANGED_SIDE (4 * WR_TILE) /* texels along a block's side, at most */
 
+/* Marks the tiles within `reach` of a rectangle of texels, which may lie across periodic edges. marked: [tiles_v][tiles_u]
+ * from the top, set to 1 there */
+void wr_mark_tiles(const WrField *like, const WrFieldRect *texels, int reach, uint8_t *marked);
+/* The same for all texels whose bits changed in any of the tables. */
+void wr_mark_changes(const WrFieldChange *changes, int change_count, int reach, uint8_t *marked);
 /* The blocks, aligned to tiles, with all texels within `reach` of one whose bits changed in any of the tables. They do
  * not overlap. blocks: output, [returned count], the caller frees it; NULL if there are none */
 int wr_changed_blocks(const WrFieldChange *changes, int change_count, int reach,

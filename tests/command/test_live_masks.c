@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "command/commands.h"
+#include "command/linked_copies.h"
 #include "document/document_file.h"
 #include "field/wrap.h"
 #include "scene/scene.h"
@@ -708,12 +709,14 @@ static WrSession *under(const char *table)
     return s;
 }
 
-/* One session has the mask all the time, and makes it again near the edits; the other makes it once, whole. */
-static void local_and_whole(const char *table, const char *terms, uint32_t seed)
+/* One session has the mask, or the layer, all the time, and makes it again near the edits; the other makes it once, whole.
+   terms: of a mask of the layer "top"; or NULL: line: of a new layer above it */
+static void local_and_whole(const char *table, const char *terms, const char *line, uint32_t seed)
 {
     WrSession *local = under(table), *whole = under(table);
     uint32_t same = seed;
-    set_mask(local, "top", terms);
+    if (terms) set_mask(local, "top", terms);
+    else must_run(local, line);
     must_run(local, "layer use 1");
     must_run(local, "dab 0.5,0.5"); /* undo must not reach the mask */
     must_run(whole, "layer use 1");
@@ -722,18 +725,26 @@ static void local_and_whole(const char *table, const char *terms, uint32_t seed)
         edit(local, &seed);
         edit(whole, &same);
     }
-    set_mask(whole, "top", terms);
-    const WrHash a = wr_field_hash(mask(local, 3)), b = wr_field_hash(mask(whole, 3));
-    if (!wr_hash_equal(a, b)) fail_msg("%s, %s: not the mask made whole", table, terms);
+    must_run(whole, "layer use top");
+    if (terms) set_mask(whole, "top", terms);
+    else must_run(whole, line);
+    for (int k = 3; k < doc(local)->layer_count; k++) {
+        const WrHash a = wr_layer_content_hash(&doc(local)->layers[k]);
+        const WrHash b = wr_layer_content_hash(&doc(whole)->layers[k]);
+        if (!wr_hash_equal(a, b) ||
+            (terms && !wr_hash_equal(wr_field_hash(mask(local, k)), wr_field_hash(mask(whole, k)))))
+            fail_msg("%s, %s: not as made whole", table, terms ? terms : line);
+    }
     wr_session_free(local);
     wr_session_free(whole);
 }
 
+static const char *const odd_tables[] = { "table 421x613", "table 587x449 wrap=clamp",
+                                          "table 391x709 wrap=clamp-u" };
+
 static void masks_made_near_edits_are_those_made_whole(void **state)
 {
     (void)state;
-    static const char *const tables[] = { "table 421x613", "table 587x449 wrap=clamp",
-                                          "table 391x709 wrap=clamp-u" };
     static const char *const terms[] = {
         "height low=0.02 high=0.4 soft=0.1",
         "slope low=5 high=40 soft=10",
@@ -749,7 +760,23 @@ static void masks_made_near_edits_are_those_made_whole(void **state)
     };
     uint32_t seed = 17;
     for (size_t i = 0; i < sizeof terms / sizeof *terms; i++)
-        local_and_whole(tables[i % 3], terms[i], seed += 101);
+        local_and_whole(odd_tables[i % 3], terms[i], NULL, seed += 101);
+}
+
+static void layers_made_near_edits_are_those_made_whole(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {
+        "layer add made from=\"terrain terraces steps=5 jitter=0.7 origin=0.31,0.77\"",
+        "layer add made from=\"rim of=heights level=0.06 width=7.3\"",
+        "layer add made from=\"rim of=heights kind=outline level=0.1 width=5\"",
+        "layer add made from=\"rim kind=emboss layer=ball level=0.05 width=9\"",
+        "layer add made from=\"rim kind=round layer=disc width=4\"",
+        "layer add made from=\"rim of=heights kind=ridge level=0.1 width=5\"",
+    };
+    uint32_t seed = 3;
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
+        for (size_t k = 0; k < 3; k++) local_and_whole(odd_tables[k], NULL, lines[i], seed += 103);
 }
 
 int main(void)
@@ -765,6 +792,7 @@ int main(void)
         cmocka_unit_test(settings_of_layers_below_count),
         cmocka_unit_test(far_tiles_are_shared),
         cmocka_unit_test(masks_made_near_edits_are_those_made_whole),
+        cmocka_unit_test(layers_made_near_edits_are_those_made_whole),
         cmocka_unit_test(only_slopes_follow_the_scenes_height),
         cmocka_unit_test(hidden_layers_are_made_when_shown),
         cmocka_unit_test(chains_are_made_from_the_bottom_up),
