@@ -113,9 +113,23 @@ static bool by_painting(WrSession *session, int index, WrCall *call, WrError *er
 
 /* ---- only what changes ---- */
 
+/* Hash of the line without the settings that belong to the layer. */
+static WrHash values_hash(WrCall *call)
+{
+    bool given[WR_ARGS_MAX];
+    WrText line = { 0 };
+    for (int i = 0; i < call->count; i++) given[i] = call->args[i].given;
+    clear(call, own_name(call, "blend"));
+    clear(call, own_name(call, "radius"));
+    wr_call_print(call, &line);
+    const WrHash hash = wr_hash_bytes(wr_text_get(&line), line.length, (WrHash){ 0, 0 });
+    wr_text_fini(&line);
+    for (int i = 0; i < call->count; i++) call->args[i].given = given[i];
+    return hash;
+}
+
 /* What a line that reads heights depends on, as for made_from.h: the heights and the coverage that it reads, and its values. */
-static WrInputs inputs_of(const WrSession *session, int index, const WrCall *call,
-                          const WrField *below)
+static WrInputs inputs_of(const WrSession *session, int index, WrCall *call, const WrField *below)
 {
     const WrDocument *document = session->state.document;
     const WrArg *named = wr_call_layer_argument(call);
@@ -125,11 +139,8 @@ static WrInputs inputs_of(const WrSession *session, int index, const WrCall *cal
         if (i >= 0) inputs.of[0] = document->layers[i].heights;
         if (i >= 0) inputs.of[1] = document->layers[i].cover;
     }
-    const bool weighs = wr_blends[document->layers[index].blend].uses_cover;
-    WrText line = { 0 };
-    wr_call_print(call, &line);
-    inputs.values = wr_hash_bytes(wr_text_get(&line), line.length, (WrHash){ weighs, 0 });
-    wr_text_fini(&line);
+    const uint64_t weighs = wr_blends[document->layers[index].blend].uses_cover;
+    inputs.values = wr_hash_bytes(&weighs, sizeof weighs, values_hash(call));
     return inputs;
 }
 

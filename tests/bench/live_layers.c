@@ -213,7 +213,7 @@ static bool time_release(const WrCli *cli, WrSession *session, int drag, int rou
 
 bool wr_bench_live_layers(const WrCli *cli, bool quick, WrText *text, WrError *err)
 {
-    const int dragged = ROUNDS, released = quick ? 3 : 9;
+    const int dragged = quick ? 10 : ROUNDS, released = quick ? 3 : 9;
     WrSession *session = wr_cli_session(cli, false, err);
     bool good = session;
     for (size_t i = 0; good && i < sizeof lines / sizeof *lines; i++)
