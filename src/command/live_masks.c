@@ -127,10 +127,9 @@ static WrField *by_slope(MaskJob *job, const WrCall *term, WrError *err)
 
 static WrField *by_direction(MaskJob *job, const WrCall *term, WrError *err)
 {
-    return in_range(
-        job, term,
-        wr_measure_facing(heights_of(job, term), wr_call_number(term, "angle"), job->pool, err),
-        err);
+    return wr_select_facing(heights_of(job, term), wr_call_number(term, "angle"),
+                            wr_call_number(term, "low"), wr_call_number(term, "high"),
+                            wr_call_number(term, "soft"), job->pool, err);
 }
 
 static WrField *convexity(MaskJob *job, const WrCall *term, WrError *err)
