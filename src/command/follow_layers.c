@@ -197,7 +197,11 @@ static bool follow_heights(Following *f, int index, WrError *err)
 /* all: layers that the picture does not need are made too */
 static bool follow(WrSession *session, bool all, WrError *err)
 {
-    if (!wr_document_generates(session->state.document)) return true;
+    if (!wr_document_generates(session->state.document)) {
+        wr_made_from_free(session->made_from);
+        session->made_from = NULL;
+        return true;
+    }
     Following f = { .session = session };
     WrLayerNeed needs[WR_LAYERS_MAX];
     const int count = session->state.document->layer_count;

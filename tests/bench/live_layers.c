@@ -111,16 +111,18 @@ static void line_of(int drag, int k, char *line, size_t size)
              drags[drag].from + drags[drag].step * k);
 }
 
-/* Milliseconds of one value until the command and all that follows it are done. */
-static bool release(const WrCli *cli, WrSession *session, int drag, int k, double *ms, WrError *err)
+/* Milliseconds of one value until the command and all that follows it are done, and processor time of all threads. */
+static bool release(const WrCli *cli, WrSession *session, int drag, int k, double *ms,
+                    double *cpu_ms, WrError *err)
 {
     char line[160], command[256];
     line_of(drag, k, line, sizeof line);
     snprintf(command, sizeof command, "layer set %s from=\"%s\"", drags[drag].layer, line);
-    const double start = wr_clock_seconds();
+    const double start = wr_clock_seconds(), used = wr_clock_process_seconds();
     const bool good = wr_session_run(session, command, err);
     if (good) wr_document_composite(wr_session_document(session), cli->pool);
     *ms = since(start);
+    *cpu_ms = 1e3 * (wr_clock_process_seconds() - used);
     return good;
 }
 
@@ -201,13 +203,14 @@ static bool time_drag(const WrCli *cli, const WrDocument *document, int drag, in
 static bool time_release(const WrCli *cli, WrSession *session, int drag, int rounds, WrText *text,
                          WrError *err)
 {
-    double ms[ROUNDS];
+    double ms[ROUNDS], cpu_ms[ROUNDS];
     for (int k = 0; k < rounds; k++) {
-        if (!release(cli, session, drag, k, &ms[k], err)) return false;
+        if (!release(cli, session, drag, k, &ms[k], &cpu_ms[k], err)) return false;
         if (wr_cancel_requested(cli->cancel)) return wr_fail(err, "interrupted");
     }
     const Times times = times_of(ms, rounds);
-    wr_text_addf(text, " %8.0f %8.0f\n", times.half, times.most);
+    wr_text_addf(text, " %8.0f %8.0f %8.0f\n", times.half, times.most,
+                 wr_bench_median(cpu_ms, rounds));
     return true;
 }
 
@@ -219,9 +222,9 @@ bool wr_bench_live_layers(const WrCli *cli, bool quick, WrText *text, WrError *e
     for (size_t i = 0; good && i < sizeof lines / sizeof *lines; i++)
         good = wr_session_run(session, lines[i], err);
     if (good) wr_document_composite(wr_session_document(session), cli->pool);
-    wr_text_addf(text, "\n%d live layers, 2048x2048; ms          %8s %8s %8s %8s %8s %8s %8s\n",
+    wr_text_addf(text, "\n%d live layers, 2048x2048; ms          %8s %8s %8s %8s %8s %8s %8s %8s\n",
                  good ? wr_session_document(session)->layer_count : 0, "begin", "table", "95 %",
-                 "patch", "95 %", "exact", "95 %");
+                 "patch", "95 %", "exact", "95 %", "cpu");
     for (size_t i = 0; good && i < sizeof drags / sizeof *drags; i++) {
         wr_text_addf(text, "  %-36s", drags[i].what);
         good = time_drag(cli, wr_session_document(session), (int)i, dragged, text, err) &&
