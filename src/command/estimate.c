@@ -219,7 +219,7 @@ static const Need needs[] = {
     { "terrain", "fractal", texels, .bytes = 12.2 },
     { "terrain", "hydraulic", texels, .bytes = 28 },
     { "terrain", "thermal", texels, .bytes = 24.5 },
-    { "terrain", "terraces", texels, .bytes = 12.2 },
+    { "terrain", "terraces", generator, .bytes = 4.5 },
     UNKNOWN("terrain", "elevation", BY_FILE),
     UNKNOWN("picture", "photo", BY_FILE),
     UNKNOWN("picture", "normals", BY_FILE),

@@ -210,14 +210,20 @@ static bool follow_rows(Following *f, int from, int to, WrError *err)
 /* all: layers that the picture does not need are made too */
 static bool follow(WrSession *session, bool all, WrError *err)
 {
-    if (!wr_document_generates(session->state.document)) return true;
+    if (!wr_document_generates(session->state.document)) {
+        wr_made_from_free(session->made_from);
+        session->made_from = NULL;
+        return true;
+    }
     Following f = { .session = session };
     WrLayerNeed needs[WR_LAYERS_MAX];
     const int count = session->state.document->layer_count;
     wr_session_layer_needs(session, needs);
     for (int i = 0; i < count; i++) f.needed[i] = all || needs[i].why == WR_LAYER_NEEDED;
     wr_session_links(session, &f.links);
-    return follow_rows(&f, 0, count, err);
+    const bool good = follow_rows(&f, 0, count, err);
+    wr_made_from_prune(session->made_from, session->state.document, f.needed);
+    return good;
 }
 
 bool wr_session_follow_layers(WrSession *session, WrError *err)

@@ -114,22 +114,92 @@ static bool by_painting(WrSession *session, int index, WrCall *call, WrError *er
     return good;
 }
 
+/* ---- only what changes ---- */
+
+/* Hash of the line without the settings that belong to the layer. */
+static WrHash values_hash(WrCall *call)
+{
+    bool given[WR_ARGS_MAX];
+    WrText line = { 0 };
+    for (int i = 0; i < call->count; i++) given[i] = call->args[i].given;
+    clear(call, own_name(call, "blend"));
+    clear(call, own_name(call, "radius"));
+    wr_call_print(call, &line);
+    const WrHash hash = wr_hash_bytes(wr_text_get(&line), line.length, (WrHash){ 0, 0 });
+    wr_text_fini(&line);
+    for (int i = 0; i < call->count; i++) call->args[i].given = given[i];
+    return hash;
+}
+
+/* What a line that reads heights depends on, as for made_from.h: the heights and the coverage that it reads, and its values. */
+static WrInputs inputs_of(const WrSession *session, int index, WrCall *call, const WrField *below)
+{
+    const WrDocument *document = session->state.document;
+    const WrArg *named = wr_call_layer_argument(call);
+    WrInputs inputs = { .of = { below }, .count = 2 };
+    if (named) {
+        const int i = wr_document_find_below(document, index, named->text);
+        if (i >= 0) inputs.of[0] = document->layers[i].heights;
+        if (i >= 0) inputs.of[1] = document->layers[i].cover;
+    }
+    const uint64_t weighs = wr_blends[document->layers[index].blend].uses_cover;
+    inputs.values = wr_hash_bytes(&weighs, sizeof weighs, values_hash(call));
+    return inputs;
+}
+
+/* Tiles of a field with equal bits become shared with the field before; `wanted` 0: they have not been made. */
+static void share_tiles(WrField *field, const WrField *before, const uint8_t *wanted)
+{
+    if (!field || !before || !wr_field_alike(field, before)) return;
+    const float level = wr_field_level(before), now = wr_field_level(field);
+    if (memcmp(&level, &now, sizeof level) != 0) return;
+    for (int ty = 0, k = 0; ty < wr_field_tiles_v(field); ty++)
+        for (int tx = 0; tx < wr_field_tiles_u(field); tx++, k++) {
+            const float *a = wr_field_tile(field, tx, ty), *b = wr_field_tile(before, tx, ty);
+            const bool kept = wanted && !wanted[k];
+            if (kept || (a && b && memcmp(a, b, WR_TILE * WR_TILE * sizeof *a) == 0))
+                wr_field_tile_share(field, before, tx, ty);
+        }
+}
+
 static bool by_generator(WrSession *session, int index, WrCall *call, const WrField *below,
                          WrError *err)
 {
     WrLayer *layer = &session->state.document->layers[index];
     WrProgressPart making, laying;
     WrLayersBelow layers = { session->state.document, index };
+    WrField *heights = wr_field_share(layer->heights);
+    WrField *cover = layer->cover ? wr_field_share(layer->cover) : NULL;
+    const int tiles = wr_field_tiles_u(heights) * wr_field_tiles_v(heights);
+    WrMadeBefore before = { .wanted = wr_alloc((size_t)tiles, 1) };
+    memset(before.wanted, 1, (size_t)tiles);
     WrGenerateJob job = { .like = below ? below : layer->heights,
                           .layer = wr_layers_below_find,
                           .layer_ctx = &layers,
                           .mask = layer->mask,
                           .progress = wr_progress_part(&making, wr_progress_here(), 0.0, 0.9) };
+    const WrInputs now = inputs_of(session, index, call, below);
+    const WrInputs *was = layer->made == wr_field_key(heights)
+                              ? wr_made_from_find(session->made_from, layer->made, &now)
+                              : NULL;
+    if (was && was->of[0]) {
+        before.heights = was->of[0];
+        before.cover = was->of[1];
+        job.before = &before;
+    }
     WrRelief relief = { NULL, NULL };
     const bool good = wr_call_make(session, call, &job, &relief, err) &&
                       wr_call_lay(call, &relief, layer, session->options.pool,
                                   wr_progress_part(&laying, wr_progress_here(), 0.9, 1.0), err);
+    if (good) {
+        share_tiles(layer->heights, heights, before.wanted);
+        share_tiles(layer->cover, cover, before.wanted);
+        if (now.of[0]) wr_made_from_note(&session->made_from, wr_field_key(layer->heights), &now);
+    }
     wr_relief_fini(&relief);
+    wr_field_free(heights);
+    wr_field_free(cover);
+    wr_free(before.wanted);
     return good;
 }
 

@@ -4,6 +4,7 @@
 #include "base/enum_rows.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/pool.h"
 #include "base/progress.h"
 #include "base/text.h"
 #include "command/args.h"
@@ -33,11 +34,23 @@
 
 #define OF "of"
 
+/* A part of a table, as a table. */
+typedef struct Crop {
+    const WrField *of;
+    WrField *part;
+} Crop;
+
 typedef struct MaskJob {
-    const WrSession *session;
+    WrSession *session;
     int index;      /* of the masked layer */
     double relief;  /* height of one table unit in texels */
     WrField *below; /* composite of the layers below; owned; NULL: not needed yet */
+    WrPool *pool;
+    const WrFieldRect *block;      /* the only part to be made; NULL: the whole mask */
+    int margin;                    /* of the block's inputs, texels */
+    int at[2];                     /* the block's first texel in its inputs; output */
+    Crop crops[2 * WR_MASK_TERMS]; /* of the block; owned */
+    int crop_count;
 } MaskJob;
 
 /* ---- inputs ---- */
@@ -76,14 +89,29 @@ static bool takes_layer(const WrCall *term)
     return takes;
 }
 
-static const WrField *heights_of(MaskJob *job, const WrCall *term)
+/* The table, or the job's part of it with its margin. Borrowed. */
+static const WrField *part_of(MaskJob *job, const WrField *field)
+{
+    if (!job->block) return field;
+    for (int i = 0; i < job->crop_count; i++)
+        if (job->crops[i].of == field) return job->crops[i].part;
+    Crop *crop = &job->crops[job->crop_count++];
+    *crop = (Crop){ field, wr_field_crop(field, job->block, job->margin, job->at) };
+    return crop->part;
+}
+
+static const WrField *whole_heights(MaskJob *job, const WrCall *term)
 {
     const WrDocument *document = job->session->state.document;
     const char *name = named_layer(term);
     if (name) return document->layers[wr_document_find_below(document, job->index, name)].heights;
-    if (!job->below)
-        job->below = wr_document_below(document, job->index, job->session->options.pool);
+    if (!job->below) job->below = wr_document_below(document, job->index, job->pool);
     return job->below;
+}
+
+static const WrField *heights_of(MaskJob *job, const WrCall *term)
+{
+    return part_of(job, whole_heights(job, term));
 }
 
 /* ---- kinds ---- */
@@ -91,11 +119,10 @@ static const WrField *heights_of(MaskJob *job, const WrCall *term)
 /* The range of a measure is its mask: 1 from low= to high=, fading to 0 over soft=. Takes ownership of the measure. */
 static WrField *in_range(const MaskJob *job, const WrCall *term, WrField *measure, WrError *err)
 {
-    WrField *made =
-        measure
-            ? wr_select_height(measure, wr_call_number(term, "low"), wr_call_number(term, "high"),
-                               wr_call_number(term, "soft"), job->session->options.pool, err)
-            : NULL;
+    WrField *made = measure ? wr_select_height(measure, wr_call_number(term, "low"),
+                                               wr_call_number(term, "high"),
+                                               wr_call_number(term, "soft"), job->pool, err)
+                            : NULL;
     wr_field_free(measure);
     return made;
 }
@@ -108,22 +135,21 @@ static WrField *by_height(MaskJob *job, const WrCall *term, WrError *err)
 static WrField *by_slope(MaskJob *job, const WrCall *term, WrError *err)
 {
     return wr_select_slope(heights_of(job, term), job->relief, wr_call_number(term, "low"),
-                           wr_call_number(term, "high"), wr_call_number(term, "soft"),
-                           job->session->options.pool, err);
+                           wr_call_number(term, "high"), wr_call_number(term, "soft"), job->pool,
+                           err);
 }
 
 static WrField *by_direction(MaskJob *job, const WrCall *term, WrError *err)
 {
-    return in_range(job, term,
-                    wr_measure_facing(heights_of(job, term), wr_call_number(term, "angle"),
-                                      job->session->options.pool, err),
-                    err);
+    return wr_select_facing(heights_of(job, term), wr_call_number(term, "angle"),
+                            wr_call_number(term, "low"), wr_call_number(term, "high"),
+                            wr_call_number(term, "soft"), job->pool, err);
 }
 
 static WrField *convexity(MaskJob *job, const WrCall *term, WrError *err)
 {
     return wr_measure_convexity(heights_of(job, term), job->relief, wr_call_number(term, "scale"),
-                                job->session->options.pool, err);
+                                job->pool, err);
 }
 
 static WrField *by_curvature(MaskJob *job, const WrCall *term, WrError *err)
@@ -139,8 +165,7 @@ static WrField *by_occlusion(MaskJob *job, const WrCall *term, WrError *err)
 {
     return in_range(job, term,
                     wr_measure_sky(heights_of(job, term), job->relief,
-                                   (int)wr_call_number(term, "reach"), job->session->options.pool,
-                                   err),
+                                   (int)wr_call_number(term, "reach"), job->pool, err),
                     err);
 }
 
@@ -150,32 +175,48 @@ static void set_param(const WrGenerator *generator, WrParamValue *values, const 
     values[wr_generator_param_find(generator, name)].number[0] = value;
 }
 
-/* The generator `noise perlin`: level + amplitude times noise. */
-static WrField *noise(const MaskJob *job, const WrCall *term, double amplitude, double level,
+/* The tiles of the job's part, as in WrGenerateJob; the caller frees them. NULL: all */
+static uint8_t *wanted_tiles(const MaskJob *job, const WrField *like)
+{
+    const WrFieldRect *b = job->block;
+    const int tiles_u = wr_field_tiles_u(like);
+    if (!b) return NULL;
+    uint8_t *wanted = wr_alloc((size_t)tiles_u * (size_t)wr_field_tiles_v(like), 1);
+    for (int ty = b->j0 / WR_TILE; ty * WR_TILE < b->j1; ty++)
+        for (int tx = b->i0 / WR_TILE; tx * WR_TILE < b->i1; tx++) wanted[ty * tiles_u + tx] = 1;
+    return wanted;
+}
+
+/* The generator `noise perlin`: level + amplitude times noise. Of a part, its margin is not made. */
+static WrField *noise(MaskJob *job, const WrCall *term, double amplitude, double level,
                       WrError *err)
 {
     static const char *const same[] = { "cells", "octaves", "seed" };
     const WrGenerator *generator = wr_generator_find("noise", "perlin");
     WrParamValue values[WR_GENERATOR_PARAMS];
     WrRelief relief = { NULL, NULL };
-    const WrGenerateJob making = { .like = job->session->state.document->layers[job->index].heights,
-                                   .pool = job->session->options.pool,
-                                   .progress = wr_progress_here() };
+    const WrField *like = job->session->state.document->layers[job->index].heights;
+    uint8_t *wanted = wanted_tiles(job, like);
+    const WrGenerateJob making = {
+        .like = like, .wanted = wanted, .pool = job->pool, .progress = wr_progress_here()
+    };
     wr_generator_defaults(generator, values);
     for (int i = 0; i < WR_LENGTH(same); i++)
         set_param(generator, values, same[i], wr_call_number(term, same[i]));
     set_param(generator, values, "amplitude", amplitude);
     set_param(generator, values, "level", level);
-    if (!wr_generator_make(generator, values, &making, &relief, err)) return NULL;
-    WrField *made = wr_field_share(relief.heights);
+    const bool good = wr_generator_make(generator, values, &making, &relief, err);
+    WrField *made = NULL;
+    if (good && job->block) made = wr_field_crop(relief.heights, job->block, job->margin, job->at);
+    else if (good) made = wr_field_share(relief.heights);
     wr_relief_fini(&relief);
+    wr_free(wanted);
     return made;
 }
 
 static WrField *by_noise(MaskJob *job, const WrCall *term, WrError *err)
 {
-    const WrOpOptions options = { .pool = job->session->options.pool,
-                                  .progress = wr_progress_here() };
+    const WrOpOptions options = { .pool = job->pool, .progress = wr_progress_here() };
     const double unit[] = { 0.0, 1.0 };
     WrField *made = noise(job, term, 0.5, 0.5, err);
     WrField *clamped = made ? wr_op_run(wr_op_find("clamp"), made, unit, &options, err) : NULL;
@@ -187,8 +228,7 @@ static WrField *by_wear(MaskJob *job, const WrCall *term, WrError *err)
 {
     WrField *edges = convexity(job, term, err);
     WrField *rough = edges ? noise(job, term, wr_call_number(term, "rough"), 0.0, err) : NULL;
-    WrField *both =
-        rough ? wr_measure_join(edges, rough, WR_JOIN_ADD, job->session->options.pool, err) : NULL;
+    WrField *both = rough ? wr_measure_join(edges, rough, WR_JOIN_ADD, job->pool, err) : NULL;
     wr_field_free(edges);
     wr_field_free(rough);
     return in_range(job, term, both, err);
@@ -200,8 +240,8 @@ static WrField *by_mask(MaskJob *job, const WrCall *term, WrError *err)
     const WrDocument *document = job->session->state.document;
     const WrLayer *layer =
         &document->layers[wr_document_find_below(document, job->index, named_layer(term))];
-    const WrField *f = layer->heights;
-    if (layer->mask) return wr_field_share(layer->mask);
+    if (layer->mask) return wr_field_share(part_of(job, layer->mask));
+    const WrField *f = part_of(job, layer->heights);
     return wr_field_new(wr_field_width(f), wr_field_height(f), wr_field_wrap_u(f),
                         wr_field_wrap_v(f), 1.0f, err);
 }
@@ -243,7 +283,29 @@ typedef struct MaskKind {
     WrForm form;
     WrField *(*make)(MaskJob *job, const WrCall *term, WrError *err);
     bool scene; /* its measure depends on the scene's height */
+    /* distance in texels up to which heights affect it, -1: unknown. NULL: 0 */
+    int (*reach)(const WrCall *term);
 } MaskKind;
+
+#define SLOPE_REACH 4 /* of slopes and their differences, at clamped ends too */
+#define WIDE_BLUR 16  /* wider blurs are approximated over the whole table */
+
+static int slope_reach(const WrCall *term)
+{
+    (void)term;
+    return SLOPE_REACH;
+}
+
+static int bend_reach(const WrCall *term)
+{
+    const double scale = wr_call_number(term, "scale");
+    return scale > WIDE_BLUR ? -1 : (int)ceil(4.0 * scale) + 1 + SLOPE_REACH;
+}
+
+static int sky_reach(const WrCall *term)
+{
+    return (int)wr_call_number(term, "reach") + 1 + SLOPE_REACH;
+}
 
 static const MaskKind kinds[] = {
     { .form = { .name = "height",
@@ -256,13 +318,15 @@ static const MaskKind kinds[] = {
                 .help = "where the slope lies in a range",
                 .args = { RANGE_ARGS(0, 90, 0, 90, 0, "degrees"), SURFACE_ARG } },
       .make = by_slope,
-      .scene = true },
+      .scene = true,
+      .reach = slope_reach },
     { .form = { .name = "direction",
                 .help = "where it slopes down towards an azimuth; level places face none",
                 .args = { NUMBER_ARG("angle", -360, 360, 90,
                                      "the azimuth, degrees anticlockwise from u, v up"),
                           RANGE_ARGS(0, 180, 0, 45, 45, "degrees away from it"), SURFACE_ARG } },
-      .make = by_direction },
+      .make = by_direction,
+      .reach = slope_reach },
     { .form = { .name = "curvature",
                 .help = "where it bends: minus the mean curvature of the heights blurred by scale, "
                         "times scale",
@@ -275,7 +339,8 @@ static const MaskKind kinds[] = {
                           RANGE_ARGS(-WR_BIG_HEIGHT, WR_BIG_HEIGHT, 0.1, 1000, 0.1, "curvatures"),
                           SURFACE_ARG } },
       .make = by_curvature,
-      .scene = true },
+      .scene = true,
+      .reach = bend_reach },
     { .form = { .name = "occlusion",
                 .help = "where the visible part of the sky lies in a range; below 1 in hollows and "
                         "on steep sides",
@@ -290,7 +355,8 @@ static const MaskKind kinds[] = {
                           RANGE_ARGS(0, 1, 0, 0.6, 0.3, "parts of the sky"),
                           SURFACE_ARG } },
       .make = by_occlusion,
-      .scene = true },
+      .scene = true,
+      .reach = sky_reach },
     { .form = { .name = "wear",
                 .help = "worn edges: curvature, as in that kind, plus noise",
                 .args = { SCALE_ARG,
@@ -299,7 +365,8 @@ static const MaskKind kinds[] = {
                           RANGE_ARGS(-WR_BIG_HEIGHT, WR_BIG_HEIGHT, 0.15, 1000, 0.05, "their sum"),
                           SURFACE_ARG } },
       .make = by_wear,
-      .scene = true },
+      .scene = true,
+      .reach = bend_reach },
     { .form = { .name = "noise",
                 .help = "where noise of 0 to 1 lies in a range",
                 .args = { NOISE_ARGS, RANGE_ARGS(0, 1, 0.55, 1, 0.1, "the noise") } },
@@ -452,29 +519,36 @@ static bool name_layer(const WrSession *session, int index, WrCall *term, WrErro
 
 /* ---- making ---- */
 
-static MaskJob job_of(const WrSession *session, int index)
+static MaskJob job_of(WrSession *session, int index)
 {
     const WrDocument *document = session->state.document;
     const WrScene *first = wr_scene_object(document->scene, 0);
     const double texels = fabs(first->height) * wr_field_width(document->layers[0].heights);
     /* the first object's height, so that choosing an object changes no mask; never 0 */
-    return (MaskJob){ .session = session, .index = index, .relief = fmax(texels, 1e-30) };
+    return (MaskJob){ .session = session,
+                      .index = index,
+                      .relief = fmax(texels, 1e-30),
+                      .pool = session->options.pool };
+}
+
+/* The table that a term reads; NULL: none. */
+static const WrField *input_of(MaskJob *job, const WrCall *term)
+{
+    const WrDocument *document = job->session->state.document;
+    if (!takes_layer(term)) return NULL;
+    if (strcmp(term->form_name, "mask") != 0) return whole_heights(job, term);
+    return document->layers[wr_document_find_below(document, job->index, named_layer(term))].mask;
 }
 
 /* Hash of the line and all that it reads. */
 static WrHash read_hash(MaskJob *job, const WrMaskTerms *terms, const char *line)
 {
-    const WrDocument *document = job->session->state.document;
     WrHash hash = wr_hash_bytes(line, strlen(line), (WrHash){ 0, 0 });
     const WrField *same = NULL;
     WrHash field = hash;
     for (int i = 0; i < terms->count; i++) {
         const WrCall *term = terms->calls[i];
-        const WrField *f = NULL;
-        if (strcmp(term->form_name, "mask") == 0)
-            f = document->layers[wr_document_find_below(document, job->index, named_layer(term))]
-                    .mask;
-        else if (takes_layer(term)) f = heights_of(job, term);
+        const WrField *f = input_of(job, term);
         if (f && f != same) field = wr_field_hash(f);
         if (f) {
             same = f;
@@ -488,7 +562,7 @@ static WrHash read_hash(MaskJob *job, const WrMaskTerms *terms, const char *line
 /* Join the terms in order. The first begins the mask: on 1 for multiply and subtract, on 0 for max. */
 static WrField *make_mask(MaskJob *job, const WrMaskTerms *terms, WrError *err)
 {
-    WrPool *pool = job->session->options.pool;
+    WrPool *pool = job->pool;
     WrField *mask = NULL;
     for (int i = 0; i < terms->count; i++) {
         const WrCall *term = terms->calls[i];
@@ -532,18 +606,104 @@ static void share_equal(WrField *mask, const WrField *before)
         }
 }
 
+/* ---- making only what changes ---- */
+
+static WrInputs inputs_of(MaskJob *job, const WrMaskTerms *terms, const char *line)
+{
+    WrInputs inputs = { .count = terms->count };
+    inputs.values = wr_hash_bytes(line, strlen(line), (WrHash){ 0, 0 });
+    inputs.values = wr_hash_bytes(&job->relief, sizeof job->relief, inputs.values);
+    for (int i = 0; i < terms->count; i++) inputs.of[i] = input_of(job, terms->calls[i]);
+    return inputs;
+}
+
+static int reach_of(const WrMaskTerms *terms)
+{
+    int most = 0;
+    for (int i = 0; i < terms->count; i++) {
+        const MaskKind *kind = &kinds[terms->calls[i]->form];
+        const int reach = kind->reach ? kind->reach(terms->calls[i]) : 0;
+        if (reach < 0) return -1;
+        most = reach > most ? reach : most;
+    }
+    return most;
+}
+
+typedef struct Blocks {
+    const MaskJob *job;
+    const WrMaskTerms *terms;
+    const WrFieldRect *block; /* [count] */
+    int count, margin;
+    WrField **made; /* [count] */
+    int (*at)[2];   /* [count] */
+} Blocks;
+
+static void make_block(int index, int worker, void *ctx)
+{
+    (void)worker;
+    Blocks *blocks = ctx;
+    WrError err;
+    MaskJob job = *blocks->job;
+    job.pool = NULL;
+    job.block = &blocks->block[index];
+    job.margin = blocks->margin;
+    blocks->made[index] = make_mask(&job, blocks->terms, &err);
+    memcpy(blocks->at[index], job.at, sizeof job.at);
+    for (int i = 0; i < job.crop_count; i++) wr_field_free(job.crops[i].part);
+}
+
+/* The mask before, with its blocks made again. NULL: cancelled, or out of memory. */
+static WrField *make_blocks(Blocks *blocks, const WrField *before)
+{
+    blocks->made = wr_alloc((size_t)blocks->count + 1, sizeof *blocks->made);
+    blocks->at = wr_alloc((size_t)blocks->count + 1, sizeof *blocks->at);
+    bool good = wr_pool_run(blocks->job->pool, blocks->count, make_block, blocks);
+    for (int k = 0; k < blocks->count; k++) good &= blocks->made[k] != NULL;
+    WrField *mask = good ? wr_field_share(before) : NULL;
+    for (int k = 0; k < blocks->count; k++) {
+        if (good) wr_field_put_block(mask, &blocks->block[k], blocks->made[k], blocks->at[k]);
+        wr_field_free(blocks->made[k]);
+    }
+    wr_free(blocks->made);
+    wr_free(blocks->at);
+    return mask;
+}
+
+/* Its present mask, made again near the changes of its inputs; NULL: it must be made whole. */
+static WrField *make_changes(const MaskJob *job, const WrMaskTerms *terms, const WrInputs *inputs)
+{
+    const WrLayer *layer = &job->session->state.document->layers[job->index];
+    const int reach = reach_of(terms);
+    WrFieldRect *rects = NULL;
+    Blocks blocks = { .job = job, .terms = terms, .margin = reach };
+    if (!layer->mask || layer->mask_made != wr_field_key(layer->mask) ||
+        !wr_made_from_changes(job->session->made_from, layer->mask_made, inputs, reach, &rects,
+                              &blocks.count))
+        return NULL;
+    blocks.block = rects;
+    WrField *mask = make_blocks(&blocks, layer->mask);
+    wr_free(rects);
+    return mask;
+}
+
 static bool put_mask(MaskJob *job, const WrMaskTerms *terms, const char *line, WrHash read,
                      WrError *err)
 {
-    WrLayer *layer = &job->session->state.document->layers[job->index];
+    WrSession *session = job->session;
+    WrLayer *layer = &session->state.document->layers[job->index];
     const double began = wr_clock_seconds();
-    WrField *mask = make_mask(job, terms, err);
-    if (!mask) return false;
-    share_equal(mask, layer->mask);
+    const WrInputs inputs = inputs_of(job, terms, line);
+    WrField *mask = make_changes(job, terms, &inputs);
+    if (!mask) {
+        mask = make_mask(job, terms, err);
+        if (!mask) return false;
+        share_equal(mask, layer->mask);
+    }
     wr_field_free(layer->mask);
     layer->mask = mask;
     char *kept = wr_strdup(line);
     wr_layer_set_mask_line(layer, kept, read);
+    wr_made_from_note(&session->made_from, layer->mask_made, &inputs);
     wr_layer_time_note(layer->mask_made, wr_clock_seconds() - began, 0);
     wr_free(kept);
     return true;
@@ -606,10 +766,13 @@ static bool follow_terms(WrSession *session, MaskJob *job, const WrMaskTerms *te
         wr_fail(&why, "no layer \"%s\" is below it", lost);
     } else {
         const WrHash read = read_hash(job, terms, layer->mask_line);
-        if ((wr_hash_equal(read, layer->mask_read) &&
-             wr_field_key(layer->mask) == layer->mask_made) ||
-            put_mask(job, terms, layer->mask_line, read, &why))
+        if (wr_hash_equal(read, layer->mask_read) &&
+            wr_field_key(layer->mask) == layer->mask_made) {
+            const WrInputs inputs = inputs_of(job, terms, layer->mask_line);
+            wr_made_from_note(&session->made_from, layer->mask_made, &inputs);
             return true;
+        }
+        if (put_mask(job, terms, layer->mask_line, read, &why)) return true;
     }
     if (wr_progress_stopped()) return wr_fail(err, "cancelled");
     WrText name = { 0 };

@@ -384,6 +384,7 @@ void wr_session_free(WrSession *session)
     wr_table_cache_fini(&session->table_cache);
     wr_choice_fini(&session->choice);
     wr_brush_files_free(session->brush_files);
+    wr_made_from_free(session->made_from);
     wr_mesh_texels_free(session->mesh_texels);
     session_forget_inputs(session);
     wr_layer_fini(&session->group);

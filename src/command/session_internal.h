@@ -5,6 +5,7 @@
 #include "brush/brush.h"
 #include "command/command_line.h"
 #include "command/layer_plan.h"
+#include "command/made_from.h"
 #include "command/linked_copies.h"
 #include "command/session.h"
 #include "document/document.h"
@@ -95,6 +96,8 @@ struct WrSession {
     WR_ARRAY(char *) kept;           /* SHA-256 of the files copied into the journal; owned */
     WR_ARRAY(WrSessionInput) inputs; /* files read by lines; paths are owned */
 
+    /* tables from which live masks and layers with a line were made, to make them again where these change only */
+    WrMadeFrom *made_from;
     bool still;           /* this is a snapshot: wr_session_snapshot */
     uint64_t made_before; /* number of the last making (layer_times.h) before the last command */
     bool unsafe;          /* of a snapshot: the journal is not safe */

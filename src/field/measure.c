@@ -60,43 +60,6 @@ WrField *wr_measure_sky(const WrField *field, double relief, int reach, WrPool *
     return wr_select_from_rows(field, 1.0f, map_rows, &m, pool, wr_progress_here(), err);
 }
 
-/* ---- direction ---- */
-
-typedef struct Facing {
-    WrDerivatives ground;
-    double sine, cosine; /* of the azimuth */
-} Facing;
-
-static bool facing_rows(void *ctx, int worker, int j, int rows, float *out)
-{
-    (void)worker;
-    const Facing *f = ctx;
-    const int width = wr_field_width(f->ground.field);
-    WrDerivativesRow row = wr_derivatives_row_new(width, false);
-    WrDerivativesBand *band = wr_derivatives_open(&f->ground, 0, j, width, rows);
-    for (int y = 0; y < rows; y++) {
-        wr_derivatives_row(band, y, &row);
-        for (int i = 0; i < width; i++) {
-            /* downhill is (-p, -q): the angle from the azimuth has the tangent |cross| / dot */
-            const double p = row.p[i], q = row.q[i];
-            const double dot = -(p * f->cosine + q * f->sine);
-            const double cross = fabs(p * f->sine - q * f->cosine);
-            out[(size_t)y * (size_t)width + (size_t)i] =
-                p == 0.0 && q == 0.0 ? 180.0f : (float)(wr_atan2(cross, dot) / WR_RAD_PER_DEG);
-        }
-    }
-    wr_derivatives_close(band);
-    wr_derivatives_row_free(&row);
-    return true;
-}
-
-WrField *wr_measure_facing(const WrField *field, double azimuth, WrPool *pool, WrError *err)
-{
-    Facing f = { .ground = job_of(field, 1.0).ground };
-    wr_sincos_turns(azimuth / 360.0, &f.sine, &f.cosine);
-    return wr_select_from_rows(field, 180.0f, facing_rows, &f, pool, wr_progress_here(), err);
-}
-
 /* ---- joins ---- */
 
 typedef struct Joining {

@@ -15,9 +15,6 @@ typedef struct WrPool WrPool;
  * on ridges and edges, below 0 in grooves. A flat table has 0 everywhere. scale: above 0, texels */
 WrField *wr_measure_convexity(const WrField *field, double relief, double scale, WrPool *pool,
                               WrError *err);
-/* Angle between the downhill direction and the azimuth, 0..180 degrees; 180 where it is level. azimuth: degrees
- * anticlockwise from u, v up */
-WrField *wr_measure_facing(const WrField *field, double azimuth, WrPool *pool, WrError *err);
 /* Visible part of the sky, 0..1 (occlusion.h, 16 directions). reach: 1..WR_OCCLUSION_FARTHEST texels */
 WrField *wr_measure_sky(const WrField *field, double relief, int reach, WrPool *pool, WrError *err);
 

@@ -12,6 +12,7 @@
 #include <stddef.h>
 
 #include "base/pool.h"
+#include "field/changed_blocks.h"
 #include "field/ops.h"
 #include "field/wrap.h"
 
@@ -35,7 +36,7 @@ enum { WR_WARP_BETWEENS(WR_WORD_ID) };
 enum { WR_OP_NOISES(WR_WORD_ID) WR_OP_NOISE_COUNT };
 extern const char *const wr_op_noise_kinds[]; /* their words; ends with NULL */
 
-#define WR_OP_SIDE (4 * WR_TILE) /* texels along a block's side */
+#define WR_OP_SIDE WR_CHANGED_SIDE /* texels along a block's side */
 
 /* One call of wr_op_run. */
 struct WrOpJob {

@@ -7,7 +7,9 @@
 #include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"
+#include "field/derivatives.h"
 #include "field/field.h"
+#include "field/scheme_list.h"
 #include "field/ops.h"
 #include "field/select_internal.h"
 
@@ -589,12 +591,58 @@ WrField *wr_select_height(const WrField *field, double low, double high, double 
     return wr_select_from_rows(field, level, height_rows, &band, pool, wr_progress_here(), err);
 }
 
+/* Numbers that rise with an angle, between which the band is surely 1, or beyond which it is surely 0: arc tangents are computed
+   only near the ends and where it fades. */
+typedef struct Sure {
+    double one_from, one_to;   /* 1 above one_from and below one_to */
+    double zero_to, zero_from; /* 0 below zero_to and above zero_from */
+} Sure;
+
+#define SURE 1e-3 /* degrees; more than the roundings of angles, in float too */
+
+/* The tangent of an angle in 0..90 degrees. */
+static double tangent(double degrees)
+{
+    double sine, cosine;
+    if (degrees >= 90.0) return INFINITY;
+    if (degrees < 0.0) return -1.0;
+    wr_sincos_turns(degrees / 360.0, &sine, &cosine);
+    return sine / cosine;
+}
+
+/* Minus the cosine of an angle in 0..180 degrees. */
+static double minus_cosine(double degrees)
+{
+    double sine, cosine;
+    if (degrees >= 180.0) return INFINITY;
+    if (degrees < 0.0) return -INFINITY;
+    wr_sincos_turns(degrees / 360.0, &sine, &cosine);
+    return -cosine;
+}
+
+/* rising: a function of the angle. The ends of its range have no other side. */
+static Sure sure_of(const Band *band, double most, double (*rising)(double degrees))
+{
+    return (Sure){ band->low <= 0.0 ? -INFINITY : rising(band->low + SURE),
+                   band->high >= most ? INFINITY : rising(band->high - SURE),
+                   rising(band->low - band->soft - SURE), rising(band->high + band->soft + SURE) };
+}
+
+static inline bool is_sure(const Sure *sure, double x, float *value)
+{
+    if (x > sure->one_from && x < sure->one_to) *value = 1.0f;
+    else if (x < sure->zero_to || x > sure->zero_from) *value = 0.0f;
+    else return false;
+    return true;
+}
+
 static bool slope_rows(void *ctx, int worker, int j, int rows, float *out)
 {
     const Band *band = ctx;
     int width = wr_field_width(band->field);
     size_t pitch = band->pitch;
     float *in = band->scratch + (size_t)worker * (WR_TILE + 2) * pitch;
+    const Sure sure = sure_of(band, 90.0, tangent);
     wr_field_read(band->field, -1, j - 1, width + 2, rows + 2, in, pitch);
     for (int y = 0; y < rows; y++) {
         const float *at = in + (size_t)(y + 1) * pitch + 1;
@@ -602,8 +650,10 @@ static bool slope_rows(void *ctx, int worker, int j, int rows, float *out)
             double su = 0.5 * ((double)at[i + 1] - at[i - 1]);
             double sv = 0.5 * ((double)at[(size_t)i + pitch] - at[i - (int64_t)pitch]);
             double slope = band->relief * sqrt(su * su + sv * sv);
+            float *to = &out[(size_t)y * (size_t)width + (size_t)i];
+            if (is_sure(&sure, slope, to)) continue;
             double angle = slope > 0.0 ? wr_atan2(slope, 1.0) / WR_RAD_PER_DEG : 0.0;
-            out[(size_t)y * (size_t)width + (size_t)i] = in_band(band, angle);
+            *to = in_band(band, angle);
         }
     }
     return true;
@@ -633,6 +683,58 @@ WrField *wr_select_slope(const WrField *field, double relief, double low, double
                                           wr_progress_here(), err);
     wr_free(band.scratch);
     return result;
+}
+
+/* ---- by direction ---- */
+
+#define SHORT 1e-100 /* squares of shorter slopes lose digits */
+
+typedef struct Facing {
+    Band band;
+    WrDerivatives ground;
+    double sine, cosine; /* of the azimuth */
+} Facing;
+
+static bool facing_rows(void *ctx, int worker, int j, int rows, float *out)
+{
+    (void)worker;
+    const Facing *f = ctx;
+    const int width = wr_field_width(f->band.field);
+    const Sure sure = sure_of(&f->band, 180.0, minus_cosine);
+    WrDerivativesRow row = wr_derivatives_row_new(width, false);
+    WrDerivativesBand *band = wr_derivatives_open(&f->ground, 0, j, width, rows);
+    for (int y = 0; y < rows; y++) {
+        wr_derivatives_row(band, y, &row);
+        for (int i = 0; i < width; i++) {
+            /* downhill is (-p, -q): the angle from the azimuth has the tangent |cross| / dot */
+            const double p = row.p[i], q = row.q[i], length = sqrt(p * p + q * q);
+            const double dot = -(p * f->cosine + q * f->sine);
+            const double cross = fabs(p * f->sine - q * f->cosine);
+            float *to = &out[(size_t)y * (size_t)width + (size_t)i];
+            if (length > SHORT && is_sure(&sure, -dot / length, to)) continue;
+            *to = in_band(&f->band, p == 0.0 && q == 0.0
+                                        ? 180.0f
+                                        : (float)(wr_atan2(cross, dot) / WR_RAD_PER_DEG));
+        }
+    }
+    wr_derivatives_close(band);
+    wr_derivatives_row_free(&row);
+    return true;
+}
+
+WrField *wr_select_facing(const WrField *field, double azimuth, double low, double high,
+                          double soft, WrPool *pool, WrError *err)
+{
+    Facing f = { .band = { .field = field, .low = low, .high = high, .soft = soft },
+                 .ground = { .field = field,
+                             .scheme = WR_SCHEME_CENTRAL,
+                             .height = 1.0,
+                             .cell_w = wr_field_width(field),
+                             .cell_h = wr_field_height(field) } };
+    if (!check_band(&f.band, "direction", err)) return NULL;
+    wr_sincos_turns(azimuth / 360.0, &f.sine, &f.cosine);
+    return wr_select_from_rows(field, in_band(&f.band, 180.0f), facing_rows, &f, pool,
+                               wr_progress_here(), err);
 }
 
 WR_ROWS(wr_select_modes);

@@ -56,6 +56,11 @@ WrField *wr_select_height(const WrField *field, double low, double high, double 
 WrField *wr_select_slope(const WrField *field, double relief, double low, double high, double soft,
                          WrPool *pool, WrError *err);
 
+/* Texels whose downhill direction is low..high degrees (0..180) away from the azimuth, degrees anticlockwise from u, v up, with a
+ * soft edge as above. Level texels are 180 degrees from any. Slopes are central differences. */
+WrField *wr_select_facing(const WrField *field, double azimuth, double low, double high,
+                          double soft, WrPool *pool, WrError *err);
+
 /* The connected region, across periodic edges, of the texels whose heights are within `tolerance` (0 or
  * more) of the height of the texel that contains (u, v): 1 there, 0 elsewhere, without soft edges.
  * Texels are connected if they share a side, with `diagonal` also if they share a corner. Points

@@ -82,13 +82,25 @@ typedef struct WrRelief {
 } WrRelief;
 void wr_relief_fini(WrRelief *relief);
 
+/* An earlier making with the same values, from other heights. */
+typedef struct WrMadeBefore {
+    const WrField *heights,
+        *cover; /* that it read: of `like`, or of the layer that it names, whose coverage may be NULL */
+    uint8_t *
+        wanted; /* as in WrGenerateJob; output: cleared where the result is that of before. Set by the caller */
+} WrMadeBefore;
+
 typedef struct WrGenerateJob {
     const WrField
         *like; /* defines size and wrap; its heights are the present content (read by erosion) */
     const WrField *selection, *mask; /* of that size: the selection, the layer's mask; NULL: none */
     WrPool *pool;                    /* NULL: the calling thread */
     const WrProgress *progress;      /* NULL: no reports, no cancellation */
-    bool coarse; /* a preview that may be less accurate if that is much faster */
+    /* [tiles_v][tiles_u] of `like`, from the top: tiles with 0 need not be made, and have any heights. NULL: all are wanted.
+     * Generators may make them nevertheless. */
+    const uint8_t *wanted;
+    const WrMadeBefore *before; /* NULL: none. Only some generators use it */
+    bool coarse;                /* a preview that may be less accurate if that is much faster */
     void (*note)(void *ctx,
                  /* receives remarks: dropped octaves, missing glyphs, the sign of a normal map;
                   * NULL: ignored */

@@ -66,26 +66,48 @@ typedef struct Dots {
     uint32_t seed;
 } Dots;
 
+/* The first and the last of the 5 cells about `at` whose points, anywhere in them, may be within `reach` cells of it; a little
+   more, for roundings. */
+static void cells_near(double at, double reach, int *first, int *last)
+{
+    const int cell = (int)floor(at);
+    const double part = at - cell, far = reach < 2.0 ? reach + 1e-6 : 3.0;
+    const int before = (int)floor(far + 1.0 - part), after = (int)floor(far + part);
+    *first = cell - (before < 2 ? before : 2);
+    *last = cell + (after < 2 ? after : 2);
+}
+
+/* The height of the dot of cell (i, j), whose centre is at the vector `way` in cells; 0 beyond its radius. */
+static double one_dot(const Dots *d, const double way[2], int i, int j)
+{
+    const WrCells *c = &d->points.cells;
+    const double dx = way[0] * c->cell_width, dy = way[1] * c->cell_height;
+    const double square = dx * dx + dy * dy;
+    if (square >= (d->radius + 1.0) * (d->radius + 1.0)) return 0.0; /* none is larger */
+    double smaller = 0.0;
+    if (d->vary > 0.0)
+        smaller = d->vary * wr_chance(d->seed, wr_modulo(i, c->across), wr_modulo(j, c->rows), 12);
+    const double radius = d->radius * (1.0 - smaller);
+    if (square >= (radius + 1.0) * (radius + 1.0)) return 0.0;
+    const WrEdge edge = { radius * d->bevel, d->profile };
+    return wr_edge_height(&edge, radius - sqrt(square)) * (1.0 - 0.5 * smaller);
+}
+
 static double dot_at(const void *ctx, double x, double y)
 {
     const Dots *d = ctx;
     const WrCells *c = &d->points.cells;
-    double u = x / c->cell_width, v = y / c->cell_height, best = 0.0;
-    int cell_j = (int)floor(v);
-    for (int j = cell_j - 2; j <= cell_j + 2; j++) {
-        double place = d->staggered && wr_modulo(j, 2) ? u - 0.5 : u;
-        int cell_i = (int)floor(place);
-        for (int i = cell_i - 2; i <= cell_i + 2; i++) {
+    const double u = x / c->cell_width, v = y / c->cell_height;
+    double best = 0.0;
+    int first_i, last_i, first_j, last_j;
+    cells_near(v, (d->radius + 1.0) / c->cell_height, &first_j, &last_j);
+    for (int j = first_j; j <= last_j; j++) {
+        const double place = d->staggered && wr_modulo(j, 2) ? u - 0.5 : u;
+        cells_near(place, (d->radius + 1.0) / c->cell_width, &first_i, &last_i);
+        for (int i = first_i; i <= last_i; i++) {
             double way[2];
             way_to(&d->points, place, v, i, j, way);
-            double dx = way[0] * c->cell_width, dy = way[1] * c->cell_height;
-            int own_i = wr_modulo(i, c->across), own_j = wr_modulo(j, c->rows);
-            double smaller = d->vary * wr_chance(d->seed, own_i, own_j, 12);
-            double radius = d->radius * (1.0 - smaller);
-            if (dx * dx + dy * dy >= (radius + 1.0) * (radius + 1.0)) continue;
-            const WrEdge edge = { radius * d->bevel, d->profile };
-            double h =
-                wr_edge_height(&edge, radius - sqrt(dx * dx + dy * dy)) * (1.0 - 0.5 * smaller);
+            const double h = one_dot(d, way, i, j);
             best = h > best ? h : best;
         }
     }

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"
+#include "field/changed_blocks.h"
 #include "field/field.h"
 #include "field/ops.h"
 #include "field/select.h"
@@ -13,6 +14,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define KINDS(X)                                                                                   \
     X(RIM_BEVEL, "bevel")                                                                          \
@@ -182,7 +184,7 @@ static void fill_block(const void *ctx, const WrGenerateBlock *b, int worker, fl
     }
 }
 
-/* ---- the row ---- */
+/* ---- the shape ---- */
 
 static WrField *above(const WrField *heights, double level, const WrGenerateJob *job, WrError *err)
 {
@@ -192,12 +194,18 @@ static WrField *above(const WrField *heights, double level, const WrGenerateJob 
 }
 
 /* The coverage of a layer, or without one the area above the level. */
+static WrField *shape_from(const WrParams *p, const WrField *heights, const WrField *cover,
+                           const WrGenerateJob *job, WrError *err)
+{
+    return cover ? wr_field_share(cover) : above(heights, wr_param_number(p, "level"), job, err);
+}
+
 static WrField *shape_of_layer(const WrParams *p, const WrGenerateJob *job, WrError *err)
 {
     const WrField *heights, *cover;
     if (!wr_generate_layer(job, wr_param_value(p, "layer")->text, &heights, &cover, err))
         return NULL;
-    return cover ? wr_field_share(cover) : above(heights, wr_param_number(p, "level"), job, err);
+    return shape_from(p, heights, cover, job, err);
 }
 
 static WrField *shape_of(const WrParams *p, const WrGenerateJob *job, WrError *err)
@@ -214,12 +222,95 @@ static WrField *shape_of(const WrParams *p, const WrGenerateJob *job, WrError *e
     return NULL;
 }
 
+/* ---- only what changes ---- */
+
+static void mark_piece(const Rim *rim, const WrTextPiece *piece, uint8_t *marked)
+{
+    const WrFieldRect texel = { piece->i, piece->i + 1, piece->j, piece->j + 1 };
+    wr_mark_tiles(rim->shape, &texel, (int)ceil(rim->reach) + 2, marked);
+}
+
+/* Marks the surroundings of the pieces that only one of two sorted lists has. */
+static void mark_pieces(const Rim *rim, const struct WrTextRim *a, const struct WrTextRim *b,
+                        uint8_t *marked)
+{
+    int k = 0, l = 0;
+    while (k < a->pieces.count || l < b->pieces.count) {
+        const WrTextPiece *p = k < a->pieces.count ? &a->pieces.data[k] : NULL;
+        const WrTextPiece *q = l < b->pieces.count ? &b->pieces.data[l] : NULL;
+        const int order = !p ? 1 : !q ? -1 : compare_pieces(p, q);
+        if (order < 0) mark_piece(rim, p, marked);
+        if (order > 0) mark_piece(rim, q, marked);
+        k += order <= 0;
+        l += order >= 0;
+    }
+}
+
+typedef struct Sides {
+    const WrField *was, *now;
+    uint8_t *marked;
+} Sides;
+
+/* Marks a tile with a texel that changes between inside and outside. */
+static void mark_sides(int tx, int ty, void *ctx)
+{
+    const Sides *sides = ctx;
+    const float *a = wr_field_tile(sides->was, tx, ty), *b = wr_field_tile(sides->now, tx, ty);
+    const float level_a = wr_field_level(sides->was), level_b = wr_field_level(sides->now);
+    bool changes = false;
+    for (int k = 0; k < WR_TILE * WR_TILE; k++)
+        changes |= ((a ? a[k] : level_a) >= 0.5f) != ((b ? b[k] : level_b) >= 0.5f);
+    if (changes) sides->marked[ty * wr_field_tiles_u(sides->now) + tx] = 1;
+}
+
+static void fini_edge(Rim *rim)
+{
+    wr_text_inside_fini(&rim->inside, rim->pieces.height);
+    wr_text_shape_fini(&rim->pieces);
+}
+
+/* Clears the tiles of `wanted` that are the same for another shape of this edge. */
+static bool clear_same(const Rim *rim, const WrField *was, const WrGenerateJob *job, WrError *err)
+{
+    Rim before = { .shape = was };
+    uint8_t *marked = job->before->wanted;
+    const bool good = find_edge(&before, job->like, err);
+    if (good) {
+        Sides sides = { was, rim->shape, marked };
+        memset(marked, 0, (size_t)(wr_field_tiles_u(was) * wr_field_tiles_v(was)));
+        wr_field_changes(was, rim->shape, mark_sides, &sides);
+        for (int k = 0; k * WR_TILE < rim->pieces.height; k++)
+            mark_pieces(rim, &before.inside.rims[k], &rim->inside.rims[k], marked);
+    }
+    fini_edge(&before);
+    return good;
+}
+
+/* The tiles that must be made: *job is that of the generator, whose `wanted` is set. */
+static bool find_changes(const Rim *rim, const WrParams *p, WrGenerateJob *job, WrError *err)
+{
+    const WrMadeBefore *before = job->before;
+    const char *layer = wr_param_value(p, "layer")->text;
+    const int of = wr_param_whole(p, "of");
+    const bool reads =
+        (layer && *layer) || of == WR_RIM_HEIGHTS || (of == WR_RIM_AUTO && !job->selection);
+    if (!before || !reads || rim->kind == RIM_RIDGE) return true; /* a ridge reaches everywhere */
+    WrField *was = shape_from(p, before->heights, before->cover, job, err);
+    const bool good = was && clear_same(rim, was, job, err);
+    wr_field_free(was);
+    job->wanted = before->wanted;
+    return good;
+}
+
+/* ---- the row ---- */
+
 static bool make_rim(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                      WrError *err)
 {
     const WrParams p = { params, values };
     WrField *shape = shape_of(&p, job, err);
     if (!shape) return false;
+    WrGenerateJob building = *job;
     const int threads = wr_pool_threads(job->pool);
     const double across = (double)wr_field_width(shape) + wr_field_height(shape);
     Rim rim = { .shape = shape,
@@ -228,12 +319,11 @@ static bool make_rim(const WrParamValue *values, const WrGenerateJob *job, WrRel
                 .height = wr_param_number(&p, "height") };
     rim.reach = rim.kind == RIM_RIDGE || rim.width + 1.0 > across ? across : rim.width + 1.0;
     rim.near = wr_alloc((size_t)threads, sizeof *rim.near);
-    bool good = find_edge(&rim, job->like, err) &&
-                wr_generate_build(job, fill_block, &rim, true, 0.2, out, err);
+    bool good = find_edge(&rim, job->like, err) && find_changes(&rim, &p, &building, err) &&
+                wr_generate_build(&building, fill_block, &rim, true, 0.2, out, err);
     for (int t = 0; t < threads; t++) wr_text_near_fini(&rim.near[t]);
     wr_free(rim.near);
-    wr_text_inside_fini(&rim.inside, rim.pieces.height);
-    wr_text_shape_fini(&rim.pieces);
+    fini_edge(&rim);
     wr_field_free(shape);
     return good;
 }

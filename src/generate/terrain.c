@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "field/changed_blocks.h"
 #include "field/field.h"
 #include "generate/picture.h"
 #include "generate/sheet.h"
@@ -230,7 +231,7 @@ const WrParam wr_params_terraces[] = {
 };
 
 typedef struct Terraces {
-    WrSheet *sheet;
+    const WrField *from;
     double low, high, steps, sharpness, riser, jitter, uneven;
     uint32_t seed;
     WrOctavesPlan noise;
@@ -260,31 +261,46 @@ static double cut(const Terraces *t, double x, double bend)
     return x + t->sharpness * (flat - at);
 }
 
-static void cut_rows(const void *ctx, int first, int end)
+/* Noise of a run of texels in a row of the table, from column i of row j before the origin is moved; it ends at the table's
+   right edge at the latest. Returns its length. */
+static int noise_run(const Terraces *t, const WrGenerateBlock *b, int x, int y, float *n)
 {
+    const int from_below = b->height - 1 - (b->j + y) - t->up.shift;
+    const int j = b->height - 1 - (from_below < 0 ? from_below + b->height : from_below);
+    const int column = b->i + x - t->across.shift;
+    const int i = column < 0 ? column + b->width : column;
+    const int count = b->width - i < b->count_i - x ? b->width - i : b->count_i - x;
+    const WrNoiseGrid grid = { b->width, b->height, i, j, count, 1 };
+    wr_octaves_grid(&t->noise, &grid, n, NULL, NULL, WR_TILE);
+    return count;
+}
+
+/* Moving by `origin`: whole texels are rolled, so the same noise reappears bit for bit elsewhere; only the rest below a texel
+   moves the noise itself (plan). */
+static void cut_block(const void *ctx, const WrGenerateBlock *b, int worker, float *heights,
+                      float *cover)
+{
+    (void)worker, (void)cover;
     const Terraces *t = ctx;
-    int width = t->sheet->width, height = t->sheet->height;
-    float *n = wr_alloc((size_t)width, sizeof *n);
-    double step = (t->high - t->low) / t->steps;
-    for (int j = first; j < end; j++) {
-        WrNoiseGrid grid = { width, height, 0, j, width, 1 };
-        wr_octaves_grid(&t->noise, &grid, n, NULL, NULL, (size_t)width);
-        /* Moving by `origin`: whole texels are rolled, so the same heights reappear bit for bit elsewhere; only the rest
-           below a texel moves the noise itself (plan). */
-        int to = height - 1 - (height - 1 - j + t->up.shift) % height;
-        double *row = t->sheet->z + (size_t)to * (size_t)width;
-        for (int i = 0; i < width; i++) {
-            double *z = &row[(i + t->across.shift) % width];
-            *z = t->low + step * cut(t, (*z - t->low) / step, t->jitter * (double)n[i]);
+    const double step = (t->high - t->low) / t->steps;
+    float n[WR_TILE];
+    wr_field_read(t->from, b->i, b->j, b->count_i, b->count_j, heights, WR_TILE);
+    if (!(t->high > t->low)) return;
+    for (int y = 0; y < b->count_j; y++)
+        for (int x = 0, count; x < b->count_i; x += count) {
+            count = noise_run(t, b, x, y, n);
+            for (int k = 0; k < count; k++) {
+                float *z = &heights[y * WR_TILE + x + k];
+                const double up = ((double)*z - t->low) / step;
+                *z = (float)(t->low + step * cut(t, up, t->jitter * (double)n[k]));
+            }
         }
-    }
-    wr_free(n);
 }
 
 static bool plan(Terraces *t, const WrParams *p, WrError *err)
 {
     WrOctaves o = wr_octaves_default(2);
-    const int texels[] = { t->sheet->width, t->sheet->height };
+    const int texels[] = { t->across.size, t->up.size };
     o.count = 4;
     o.seed = t->seed;
     o.cells[0] = wr_param_number(p, "cells");
@@ -302,13 +318,31 @@ static bool plan(Terraces *t, const WrParams *p, WrError *err)
     return true;
 }
 
+/* Without a change of the range each texel depends on its own height. */
+static void clear_unchanged(const Terraces *t, WrGenerateJob *job)
+{
+    const WrMadeBefore *before = job->before;
+    float low, high;
+    if (!before) return;
+    wr_field_range(before->heights, &low, &high);
+    if (low != t->low || high != t->high) return;
+    const WrFieldChange change = { before->heights, t->from };
+    memset(before->wanted, 0, (size_t)(wr_field_tiles_u(t->from) * wr_field_tiles_v(t->from)));
+    wr_mark_changes(&change, 1, 0, before->wanted);
+    job->wanted = before->wanted;
+}
+
 bool wr_terrain_terraces(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                          WrError *err)
 {
     const WrParams p = { wr_params_terraces, values };
     const WrParamValue *origin = wr_param_value(&p, "origin");
-    WrSheet sheet = { .z = NULL };
-    Terraces t = { .sheet = &sheet,
+    WrGenerateJob building = *job;
+    float low, high;
+    wr_field_range(job->like, &low, &high);
+    Terraces t = { .from = job->like,
+                   .low = low,
+                   .high = high,
                    .steps = wr_param_number(&p, "steps"),
                    .sharpness = wr_param_number(&p, "sharpness"),
                    .riser = wr_param_number(&p, "riser"),
@@ -317,12 +351,9 @@ bool wr_terrain_terraces(const WrParamValue *values, const WrGenerateJob *job, W
                    .seed = wr_param_seed(&p),
                    .across = wr_origin(wr_field_width(job->like), origin->number[0]),
                    .up = wr_origin(wr_field_height(job->like), origin->number[1]) };
-    bool good = wr_sheet_read(&sheet, job->like, err) && plan(&t, &p, err);
-    if (good) wr_sheet_range(&sheet, &t.low, &t.high);
-    if (good && t.high > t.low) good = wr_sheet_run(&sheet, job, true, cut_rows, &t, err);
-    good = good && wr_sheet_relief(&sheet, job, out, err);
-    wr_sheet_fini(&sheet);
-    return good;
+    if (!plan(&t, &p, err)) return false;
+    clear_unchanged(&t, &building);
+    return wr_generate_build(&building, cut_block, &t, false, 0.0, out, err);
 }
 
 /* ---- fractal ---- */

@@ -1,6 +1,7 @@
 #include "generate/tile_builder.h"
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"
 #include "field/field.h"
@@ -25,7 +26,8 @@ typedef struct Build {
     WrGenerateFill fill;
     const void *ctx;
     const WrProgress *progress;
-    int tiles_u, first;
+    int *tile; /* [tiles] the wanted tiles, tx + ty tiles_u */
+    int tiles, tiles_u, first;
     Made made[2]; /* heights, cover; no field: absent */
 } Build;
 
@@ -72,7 +74,7 @@ static void make_tile(int index, int worker, void *ctx)
 {
     Build *build = ctx;
     if (wr_progress_cancelled(build->progress)) return;
-    WrGenerateBlock b = block_at(build, build->first + index);
+    WrGenerateBlock b = block_at(build, build->tile[build->first + index]);
     for (int k = 0; k < 2 && build->made[k].field; k++)
         memset(build->made[k].tile[index], 0, sizeof(float) * TEXELS);
     build->fill(build->ctx, &b, worker, build->made[0].tile[index],
@@ -85,30 +87,42 @@ static void make_tile(int index, int worker, void *ctx)
    threads start, since writing the field's tree is for one thread only; each thread then fills tiles of its own. */
 static bool run_batch(Build *build, WrPool *pool, int count)
 {
-    int u = build->tiles_u;
+    const int u = build->tiles_u, *tile = build->tile + build->first;
     for (int n = 0; n < 2 && build->made[n].field; n++)
         for (int k = 0; k < count; k++)
-            build->made[n].tile[k] = wr_field_tile_fresh(
-                build->made[n].field, (build->first + k) % u, (build->first + k) / u);
+            build->made[n].tile[k] =
+                wr_field_tile_fresh(build->made[n].field, tile[k] % u, tile[k] / u);
     if (!wr_pool_run(pool, count, make_tile, build) || wr_progress_cancelled(build->progress))
         return false;
     for (int n = 0; n < 2 && build->made[n].field; n++)
         for (int k = 0; k < count; k++)
             if (build->made[n].empty[k])
-                wr_field_tile_drop(build->made[n].field, (build->first + k) % u,
-                                   (build->first + k) / u);
+                wr_field_tile_drop(build->made[n].field, tile[k] % u, tile[k] / u);
     return true;
 }
 
-static bool run(Build *build, WrPool *pool, int tiles, double from)
+static bool run_batches(Build *build, WrPool *pool, double from)
 {
-    for (build->first = 0; build->first < tiles; build->first += BATCH) {
-        double done = (double)build->first / tiles;
+    for (build->first = 0; build->first < build->tiles; build->first += BATCH) {
+        const int left = build->tiles - build->first;
+        double done = (double)build->first / build->tiles;
         if (!wr_progress_step(build->progress, from + (1.0 - from) * done)) return false;
-        if (!run_batch(build, pool, tiles - build->first < BATCH ? tiles - build->first : BATCH))
-            return false;
+        if (!run_batch(build, pool, left < BATCH ? left : BATCH)) return false;
     }
     return wr_progress_step(build->progress, 1.0);
+}
+
+static bool run(Build *build, const WrGenerateJob *job, double from)
+{
+    const WrField *field = build->made[0].field;
+    const int all = wr_field_tiles_u(field) * wr_field_tiles_v(field);
+    build->tiles_u = wr_field_tiles_u(field);
+    build->tile = wr_alloc((size_t)all, sizeof *build->tile);
+    for (int k = 0; k < all; k++)
+        if (!job->wanted || job->wanted[k]) build->tile[build->tiles++] = k;
+    const bool good = run_batches(build, job->pool, from);
+    wr_free(build->tile);
+    return good;
 }
 
 static WrField *empty_like(const WrField *like, WrError *err)
@@ -127,11 +141,7 @@ bool wr_generate_build(const WrGenerateJob *job, WrGenerateFill fill, const void
                     .progress = job->progress,
                     .made = { { .field = relief.heights }, { .field = relief.cover } } };
     bool good = relief.heights && (!covered || relief.cover);
-    if (good) {
-        build.tiles_u = wr_field_tiles_u(relief.heights);
-        good = run(&build, job->pool, build.tiles_u * wr_field_tiles_v(relief.heights), from) ||
-               wr_fail(err, "cancelled");
-    }
+    if (good) good = run(&build, job, from) || wr_fail(err, "cancelled");
     if (good) *out = relief;
     else wr_relief_fini(&relief);
     return good;

@@ -10,14 +10,14 @@
 #include <string.h>
 
 typedef struct Options {
-    bool lines, exact, quick, made, brushes, window;
+    bool lines, exact, quick, made, brushes, edits, window;
     uint64_t sections; /* bit i: wr_bench_section_table[i] */
 } Options;
 
 /* Section names, then the other words that `bench` accepts. */
 static const char *word_at(const void *ctx, int i)
 {
-    static const char *const others[] = { "generate", "brushes", "window",  "all",
+    static const char *const others[] = { "generate", "brushes", "edits",   "window", "all",
                                           "--lines",  "--exact", "--quick", NULL };
     (void)ctx;
     int parts = 0;
@@ -49,6 +49,7 @@ static bool read_word(const char *word, Options *options, WrError *err)
     else if (strcmp(word, "--quick") == 0) options->quick = true;
     else if (strcmp(word, "generate") == 0) options->made = true;
     else if (strcmp(word, "brushes") == 0) options->brushes = true;
+    else if (strcmp(word, "edits") == 0) options->edits = true;
     else if (strcmp(word, "window") == 0) options->window = true;
     else return unknown_word(word, err);
     return true;
@@ -59,18 +60,20 @@ static bool read_options(const WrCli *cli, Options *options, WrError *err)
     *options = (Options){ .sections = 0 };
     for (int i = 0; i < cli->word_count; i++)
         if (!read_word(cli->words[i], options, err)) return false;
-    const int alone = options->made + options->brushes + options->window;
+    const int alone = options->made + options->brushes + options->edits + options->window;
     if (cli->json && !options->sections && !alone)
         options->sections = ~(uint64_t)0, options->lines = true;
     if (alone + (options->sections != 0) > 1)
         return wr_fail(err, "bench: %s stands alone, without other parts",
                        options->made      ? "generate"
                        : options->brushes ? "brushes"
+                       : options->edits   ? "edits"
                                           : "window");
     if (cli->json && options->brushes)
         return wr_fail(err, "bench: brushes has no --json; --lines is for programs");
-    if (options->window && (cli->json || options->lines))
-        return wr_fail(err, "bench: window has neither --json nor --lines");
+    if ((options->window || options->edits) && (cli->json || options->lines))
+        return wr_fail(err, "bench: %s has neither --json nor --lines",
+                       options->window ? "window" : "edits");
     if ((cli->sized && !options->sections) || (options->sections && options->lines && !cli->json))
         return wr_fail(err, cli->sized ? "bench: --size is of the parts: name one, or all"
                                        : "bench: --lines beside parts needs --json");
@@ -90,6 +93,11 @@ static bool bench_lines(const WrCli *cli, const Options *options, WrText *text, 
            wr_bench_generate(cli, options->quick, true, text, err);
 }
 
+static bool bench_edits(const WrCli *cli, bool quick, WrText *text, WrError *err)
+{
+    return wr_bench_live_layers(cli, quick, text, err) && wr_bench_edits(cli, quick, text, err);
+}
+
 static bool bench_table(const WrCli *cli, const Options *options, WrText *text, WrError *err)
 {
     const bool quick = options->quick;
@@ -97,9 +105,8 @@ static bool bench_table(const WrCli *cli, const Options *options, WrText *text, 
     wr_text_add(text, "\n");
     return wr_bench_sections(cli, ~(uint64_t)0, quick, options->exact, text, err) &&
            wr_bench_strokes(cli, quick, text, err) && wr_bench_brush_table(cli, quick, text, err) &&
-           wr_bench_generate(cli, quick, false, text, err) &&
-           wr_bench_edits(cli, quick, text, err) && wr_bench_files(quick, text, err) &&
-           wr_bench_window(cli, quick, text, err);
+           wr_bench_generate(cli, quick, false, text, err) && bench_edits(cli, quick, text, err) &&
+           wr_bench_files(quick, text, err) && wr_bench_window(cli, quick, text, err);
 }
 
 /* Print one object: sections, and the output of --lines. */
@@ -136,6 +143,7 @@ int wr_cli_bench(const WrCli *cli)
                 : options.sections ? bench_sections(cli, &options, &text, &err)
                 : options.made ? wr_bench_generate(cli, options.quick, options.lines, &text, &err)
                 : options.brushes ? bench_brushes(cli, &options, &text, &err)
+                : options.edits   ? bench_edits(cli, options.quick, &text, &err)
                 : options.window  ? wr_bench_window(cli, options.quick, &text, &err)
                 : options.lines   ? bench_lines(cli, &options, &text, &err)
                                   : bench_table(cli, &options, &text, &err);

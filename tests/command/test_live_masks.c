@@ -4,9 +4,11 @@
 #include "session_help.h"
 
 #include "base/file.h"
+#include "base/hash.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "command/commands.h"
+#include "command/linked_copies.h"
 #include "document/document_file.h"
 #include "field/wrap.h"
 #include "scene/scene.h"
@@ -670,6 +672,113 @@ static void terms_that_are_not_known_leave_the_mask(void **state)
     wr_free(deep);
 }
 
+/* ---- masks made again where the layers below change ---- */
+
+static double chance(uint32_t *seed)
+{
+    *seed = wr_mix32(*seed + 0x9e3779b9U);
+    return (*seed >> 8) * 0x1p-24;
+}
+
+/* A random edit of the layers below; some cross the edges. */
+static void edit(WrSession *s, uint32_t *seed)
+{
+    char line[160];
+    const double u = chance(seed), v = chance(seed), radius = 2.0 + 30.0 * chance(seed);
+    must_run(s, chance(seed) < 0.5 ? "layer use 1" : "layer use ball");
+    snprintf(line, sizeof line, "dab %.6f,%.6f radius=%.3f strength=%.4f", u, v, radius,
+             chance(seed) - 0.5);
+    const double kind = chance(seed);
+    if (kind < 0.2)
+        snprintf(line, sizeof line, "layer set disc change=\"at=%.6f,%.6f radius=%.3f\"", u, v,
+                 radius);
+    else if (kind < 0.3) snprintf(line, sizeof line, "layer set disc opacity=%.4f", u);
+    else if (kind < 0.4) snprintf(line, sizeof line, "undo");
+    must_run(s, line);
+}
+
+static WrSession *under(const char *table)
+{
+    WrSession *s = wr_session_new(NULL);
+    must_run(s, table);
+    must_run(s, "noise perlin cells=5 amplitude=0.1");
+    must_run(s, "layer add ball blend=max");
+    must_run(s, "layer mask ball from=white");
+    must_run(s, "layer add disc from=\"solid cylinder at=0.9,0.1 radius=20 height=0.2\"");
+    must_run(s, "layer add top");
+    return s;
+}
+
+/* One session has the mask, or the layer, all the time, and makes it again near the edits; the other makes it once, whole.
+   terms: of a mask of the layer "top"; or NULL: line: of a new layer above it */
+static void local_and_whole(const char *table, const char *terms, const char *line, uint32_t seed)
+{
+    WrSession *local = under(table), *whole = under(table);
+    uint32_t same = seed;
+    if (terms) set_mask(local, "top", terms);
+    else must_run(local, line);
+    must_run(local, "layer use 1");
+    must_run(local, "dab 0.5,0.5"); /* undo must not reach the mask */
+    must_run(whole, "layer use 1");
+    must_run(whole, "dab 0.5,0.5");
+    for (int k = 0; k < 12; k++) {
+        edit(local, &seed);
+        edit(whole, &same);
+    }
+    must_run(whole, "layer use top");
+    if (terms) set_mask(whole, "top", terms);
+    else must_run(whole, line);
+    for (int k = 3; k < doc(local)->layer_count; k++) {
+        const WrHash a = wr_layer_content_hash(&doc(local)->layers[k]);
+        const WrHash b = wr_layer_content_hash(&doc(whole)->layers[k]);
+        if (!wr_hash_equal(a, b) ||
+            (terms && !wr_hash_equal(wr_field_hash(mask(local, k)), wr_field_hash(mask(whole, k)))))
+            fail_msg("%s, %s: not as made whole", table, terms ? terms : line);
+    }
+    wr_session_free(local);
+    wr_session_free(whole);
+}
+
+static const char *const odd_tables[] = { "table 421x613", "table 587x449 wrap=clamp",
+                                          "table 391x709 wrap=clamp-u" };
+
+static void masks_made_near_edits_are_those_made_whole(void **state)
+{
+    (void)state;
+    static const char *const terms[] = {
+        "height low=0.02 high=0.4 soft=0.1",
+        "slope low=5 high=40 soft=10",
+        "direction angle=30",
+        "curvature scale=1.7 soft=0.3",
+        "curvature side=concave scale=0.4",
+        "curvature scale=17",
+        "occlusion reach=11",
+        "wear scale=2.3",
+        "slope; noise cells=7 op=subtract invert=on",
+        "mask of=ball; curvature of=disc op=max",
+        "height low=0.1; occlusion reach=5 of=ball op=subtract; noise cells=3 op=max",
+    };
+    uint32_t seed = 17;
+    for (size_t i = 0; i < sizeof terms / sizeof *terms; i++)
+        local_and_whole(odd_tables[i % 3], terms[i], NULL, seed += 101);
+}
+
+static void layers_made_near_edits_are_those_made_whole(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {
+        "layer add made from=\"terrain terraces steps=5 jitter=0.7 origin=0.31,0.77\"",
+        "layer add made from=\"rim of=heights level=0.06 width=7.3\"",
+        "layer add made from=\"rim of=heights kind=outline level=0.1 width=5\"",
+        "layer add made from=\"rim kind=emboss layer=ball level=0.05 width=9\"",
+        "layer add made from=\"rim kind=round layer=disc width=4\"",
+        "layer add made from=\"rim of=heights kind=ridge level=0.1 width=5\"",
+    };
+    uint32_t seed = 3;
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
+        local_and_whole(odd_tables[i % 3], NULL, lines[i], seed += 103);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -682,6 +791,8 @@ int main(void)
         cmocka_unit_test(masks_follow_the_layers_below),
         cmocka_unit_test(settings_of_layers_below_count),
         cmocka_unit_test(far_tiles_are_shared),
+        cmocka_unit_test(masks_made_near_edits_are_those_made_whole),
+        cmocka_unit_test(layers_made_near_edits_are_those_made_whole),
         cmocka_unit_test(only_slopes_follow_the_scenes_height),
         cmocka_unit_test(hidden_layers_are_made_when_shown),
         cmocka_unit_test(chains_are_made_from_the_bottom_up),

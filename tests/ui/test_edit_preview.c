@@ -186,10 +186,10 @@ static void a_rough_trial_is_near_and_then_the_exact_one_comes(void **state)
     wr_session_free(session);
 }
 
-/* The rough result of a change within a stack is nearer to the exact one than the composite before the change. */
-static void rough_changes_of_layers_are_near(void **state)
+/* The rough result of a change within a stack is nearer to the exact one than the composite before the change.
+   grouped: layers 2 and 3 in a group, with layer 4 in another */
+static void rough_changes(bool grouped)
 {
-    (void)state;
     static const char *const stack[] = {
         "table 1087x1031",
         "noise gradient cells=7 amplitude=0.3 seed=5",
@@ -198,6 +198,8 @@ static void rough_changes_of_layers_are_near(void **state)
         "layer add top from=\"noise gradient cells=90 amplitude=0.1\"",
         "layer set top blend=add opacity=0.7"
     };
+    static const char *const groups[] = { "layer group inner of=2..3", "layer group outer of=2..5",
+                                          "layer set outer opacity=0.8", "layer use top" };
     const WrOpInfo *blur = wr_op_find("blur");
     const struct {
         WrEditPreviewRequest ask;
@@ -222,6 +224,8 @@ static void rough_changes_of_layers_are_near(void **state)
     for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
         WrError err = { "" };
         WrSession *session = session_of(stack, sizeof stack / sizeof *stack);
+        for (size_t k = 0; grouped && k < sizeof groups / sizeof *groups; k++)
+            if (!wr_session_run(session, groups[k], &err)) fail_msg("%s", err.text);
         WrField *before = wr_field_share(wr_document_field(wr_session_document(session)));
         WrEditPreview *trial = wr_edit_preview_new(2, SDL_USEREVENT);
         wr_edit_preview_request(trial, wr_session_document(session), &changes[i].ask);
@@ -244,6 +248,18 @@ static void rough_changes_of_layers_are_near(void **state)
         wr_edit_preview_free(trial);
         wr_session_free(session);
     }
+}
+
+static void rough_changes_of_layers_are_near(void **state)
+{
+    (void)state;
+    rough_changes(false);
+}
+
+static void rough_changes_in_groups_are_near(void **state)
+{
+    (void)state;
+    rough_changes(true);
 }
 
 static void a_line_that_is_wrong_is_said_to_be(void **state)
@@ -359,6 +375,7 @@ int main(void)
         cmocka_unit_test(what_a_generator_notes_is_told_with_what_it_shows),
         cmocka_unit_test(a_rough_trial_is_near_and_then_the_exact_one_comes),
         cmocka_unit_test(rough_changes_of_layers_are_near),
+        cmocka_unit_test(rough_changes_in_groups_are_near),
         cmocka_unit_test(a_line_that_is_wrong_is_said_to_be),
         cmocka_unit_test(a_trial_that_fails_says_why_once),
         cmocka_unit_test(outlines_show_what_a_selection_would_become),

@@ -15,8 +15,10 @@
 #define LARGE_TEXELS 1.0e6    /* smaller tables are quick enough */
 
 struct WrCoarse {
-    int refs;          /* atomic */
-    int index, step;   /* of the document's layer; reduction */
+    int refs;         /* atomic */
+    int index, step;  /* of the document's layer; reduction */
+    bool is_new;      /* it is to be inserted there */
+    int first, layer; /* lowest row that the small document has; index of the changed layer in it */
     int width, height; /* of the small tables */
     WrField *exact;    /* composite of the document; owned */
     WrField *before;   /* that of the small one; owned */
@@ -27,8 +29,13 @@ int wr_coarse_step(const WrDocument *document)
 {
     const WrField *like = document->layers[0].heights;
     const double texels = (double)wr_field_width(like) * wr_field_height(like);
-    if (texels <= LARGE_TEXELS || document->solo >= 0 || wr_document_groups(document)) return 1;
+    if (texels <= LARGE_TEXELS || document->solo >= 0) return 1;
     return (int)ceil(sqrt(texels / SMALL_TEXELS));
+}
+
+int wr_coarse_layer(const WrCoarse *coarse)
+{
+    return coarse->layer;
 }
 
 int wr_coarse_factor(const WrCoarse *coarse)
@@ -142,7 +149,9 @@ static WrLayer reduced(const WrCoarse *coarse, const WrLayer *layer, WrPool *poo
                       .opacity = layer->opacity,
                       .radius = layer->radius,
                       .visible = layer->visible,
-                      .filter = wr_coarse_filter(coarse, &layer->filter) };
+                      .filter = wr_coarse_filter(coarse, &layer->filter),
+                      .depth = layer->depth,
+                      .is_group = layer->is_group };
     return small;
 }
 
@@ -153,31 +162,55 @@ static bool any_shown(const WrDocument *document, int count)
     return false;
 }
 
-/* Hidden layers above the changed one are left out. A new layer on top has the number of the layers as its index. */
-static void fill(WrCoarse *coarse, const WrDocument *document, WrPool *pool)
+/* The row of the top level that the layer is, or is in. */
+static int top_row(const WrDocument *document, int index)
+{
+    for (int above; (above = wr_document_parent(document, index)) >= 0;) index = above;
+    return index;
+}
+
+/* The composite below the small document's rows. Among groups, these begin with all rows of the group of the changed layer, or of
+   the layer below a new one. A new layer on top has the number of the layers as its index. */
+static WrField *begin_rows(WrCoarse *coarse, const WrDocument *document, WrPool *pool)
 {
     const int index = coarse->index;
-    WrField *below = index < document->layer_count ? wr_document_below(document, index, pool)
-                                                   : wr_field_share(coarse->exact);
+    coarse->first = index;
+    coarse->layer = 1;
+    if (!wr_document_groups(document))
+        return index < document->layer_count ? wr_document_below(document, index, pool)
+                                             : wr_field_share(coarse->exact);
+    const int top = top_row(document, coarse->is_new ? index - 1 : index);
+    coarse->first = wr_layers_first(document->layers, top);
+    coarse->layer = 1 + index - coarse->first;
+    return wr_document_below(document, top, pool);
+}
+
+/* Without groups, hidden layers above the changed one are left out. */
+static void fill(WrCoarse *coarse, const WrDocument *document, WrPool *pool)
+{
+    WrField *below = begin_rows(coarse, document, pool);
+    const bool groups = wr_document_groups(document);
     coarse->small = wr_document_new();
     wr_document_start_over(coarse->small, wr_coarse_reduce(coarse, below, pool));
-    coarse->small->layers[0].visible = any_shown(document, index);
+    coarse->small->layers[0].visible = any_shown(document, coarse->first);
     wr_field_free(below);
-    for (int i = index; i < document->layer_count; i++) {
+    for (int i = coarse->first; i < document->layer_count; i++) {
         const WrLayer *layer = &document->layers[i];
-        if (i == index || (layer->visible && layer->opacity > 0.0f))
-            wr_document_insert(coarse->small, coarse->small->layer_count,
-                               reduced(coarse, layer, pool));
+        const int at = coarse->small->layer_count;
+        if (!groups && i != coarse->index && !(layer->visible && layer->opacity > 0.0f)) continue;
+        wr_document_insert(coarse->small, at, reduced(coarse, layer, pool));
+        coarse->small->layers[at].depth = layer->depth; /* its group comes later */
     }
     coarse->before = wr_field_share(wr_document_composite(coarse->small, pool));
 }
 
-WrCoarse *wr_coarse_new(const WrDocument *document, int index, WrPool *pool)
+WrCoarse *wr_coarse_new(const WrDocument *document, int index, bool is_new, WrPool *pool)
 {
     WrCoarse *coarse = wr_alloc(1, sizeof *coarse);
     const WrField *like = document->layers[0].heights;
     coarse->refs = 1;
     coarse->index = index;
+    coarse->is_new = is_new;
     coarse->step = wr_coarse_step(document);
     coarse->width = (wr_field_width(like) + coarse->step - 1) / coarse->step;
     coarse->height = (wr_field_height(like) + coarse->step - 1) / coarse->step;
@@ -202,9 +235,10 @@ void wr_coarse_free(WrCoarse *coarse)
     wr_free(coarse);
 }
 
-bool wr_coarse_fits(const WrCoarse *coarse, const WrDocument *document, int index, WrPool *pool)
+bool wr_coarse_fits(const WrCoarse *coarse, const WrDocument *document, int index, bool is_new,
+                    WrPool *pool)
 {
-    return coarse && coarse->index == index && document->solo < 0 &&
+    return coarse && coarse->index == index && coarse->is_new == is_new && document->solo < 0 &&
            wr_field_key(coarse->exact) == wr_field_key(wr_document_composite(document, pool));
 }
 

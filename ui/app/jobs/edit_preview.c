@@ -381,17 +381,18 @@ static bool is_filter_change(const WrEditPreviewRequest *ask)
     return !ask->line && ask->op && ask->filters && ask->layer >= 0;
 }
 
-/* Generate the line of a small layer 1. */
+/* Generate the line of the small document's changed layer. */
 static bool generate_small(Work *work, WrDocument *small, WrPool *pool, const WrProgress *progress)
 {
     const WrEditPreviewRequest *ask = &work->ask;
     WrCall *call = NULL;
     if (!wr_call_parse(ask->line, false, &call, &work->err)) return false;
-    small->active = 0;
+    const int at = wr_coarse_layer(work->coarse);
+    small->active = at - 1;
     small->selection = wr_coarse_reduce(work->coarse, work->document->selection, pool);
     if (ask->target == WR_LINE_NEW_LAYER) add_layer(small, call);
-    else set_layer(ask, &small->layers[1]);
-    small->active = 1;
+    else set_layer(ask, &small->layers[at]);
+    small->active = at;
     WrGenerateJob job = {
         .pool = pool, .progress = progress, .coarse = true, .note = note, .note_ctx = &work->notes
     };
@@ -404,14 +405,15 @@ static bool change_small(Work *work, WrDocument *small, WrPool *pool, const WrPr
 {
     const WrEditPreviewRequest *ask = &work->ask;
     if (ask->line) return generate_small(work, small, pool, progress);
+    WrLayer *changed = &small->layers[wr_coarse_layer(work->coarse)];
     if (is_setting(ask)) {
-        set_layer(ask, &small->layers[1]);
+        set_layer(ask, changed);
         return true;
     }
     WrFilter made = { .op = ask->op };
     memcpy(made.param, ask->param, sizeof made.param);
     if (!wr_filter_check(&made, &work->err)) return false;
-    small->layers[1].filter = wr_coarse_filter(work->coarse, &made);
+    changed->filter = wr_coarse_filter(work->coarse, &made);
     return true;
 }
 
@@ -442,15 +444,15 @@ static void slot_put(Slot *slot, const WrCoarse *coarse)
 }
 
 /* The small copy for changes of layer `index`. It is made whole though the request be cancelled: the next one needs it. */
-static void find_coarse(Work *work, int index, WrPool *pool)
+static void find_coarse(Work *work, int index, bool is_new, WrPool *pool)
 {
     wr_mutex_lock(&work->slot->lock);
     work->coarse = wr_coarse_share(work->slot->coarse);
     wr_mutex_unlock(&work->slot->lock);
-    if (wr_coarse_fits(work->coarse, work->document, index, pool)) return;
+    if (wr_coarse_fits(work->coarse, work->document, index, is_new, pool)) return;
     wr_coarse_free(work->coarse);
     const WrProgress *whole = wr_progress_set(NULL);
-    work->coarse = wr_coarse_new(work->document, index, pool);
+    work->coarse = wr_coarse_new(work->document, index, is_new, pool);
     wr_progress_set(whole);
     slot_put(work->slot, work->coarse);
 }
@@ -460,7 +462,7 @@ static void run_coarse(Work *work, WrPool *pool, const WrProgress *progress)
     const WrEditPreviewRequest *ask = &work->ask;
     const bool is_new = ask->line && ask->target == WR_LINE_NEW_LAYER;
     const int index = is_new ? work->document->active + 1 : ask->layer;
-    find_coarse(work, index, pool);
+    find_coarse(work, index, is_new, pool);
     WrDocument *small = wr_coarse_begin(work->coarse);
     if (change_small(work, small, pool, progress))
         work->field = wr_coarse_end(work->coarse, small, pool);
