@@ -386,21 +386,24 @@ static char *config_path(WrSession *session, const char *given)
     return kept;
 }
 
-/* A document opens no files: the configuration that it names counts only if it is the user's own, $OCIO. */
-static const WrDisplayView *view_of_document(WrSession *session, const WrDisplayViewNames *names)
+/* Configurations are parsed outside the sandbox, and documents and scripts may be strangers': those that are only opened
+   use the user's own configuration, $OCIO, and no other. */
+static const WrDisplayView *view_of_file(WrSession *session, const WrDisplayViewNames *names)
 {
     const char *own = getenv("OCIO");
+    char *real = own ? wr_path_real(own) : NULL;
     const WrDisplayView *view = NULL;
     WrError why = { 0 };
-    if (!*names->config || (own && strcmp(own, names->config) == 0))
+    if (!*names->config || (real && strcmp(real, names->config) == 0))
         view = wr_display_view_load(names, &why);
+    free(real);
     if (view) return view;
     if (*why.text)
-        wr_session_note(session, "the document's view %s is not shown: %s", names->view,
+        wr_session_note(session, "the view %s is not shown: %s", names->view,
                         wr_error_message(&why));
     else
         wr_session_note(session,
-                        "the document's view %s is not shown: its colour configuration is not "
+                        "the view %s is not shown: its colour configuration is not "
                         "$OCIO; `tone view=\"%s\" ocio=\"%s\"` shows it",
                         names->view, names->view, names->config);
     return wr_display_view_named(names);
@@ -420,11 +423,12 @@ static bool take_view(WrSession *session, WrCall *call, WrTone *tone, WrError *e
         if (off) tone->view = NULL;
         return true;
     }
+    const bool opened = session->loading || session->skip_outputs;
     char *config = config_path(session, text[1]);
     const WrDisplayViewNames names = { config, text[0] ? text[0] : "", view,
                                        text[2] ? text[2] : "" };
     const WrDisplayView *found =
-        session->loading ? view_of_document(session, &names) : wr_display_view_load(&names, err);
+        opened ? view_of_file(session, &names) : wr_display_view_load(&names, err);
     wr_free(config);
     if (found) tone->view = found;
     return found != NULL;
@@ -486,9 +490,10 @@ const WrCommand wr_command_tone = {
     .run = run_tone,
     .print = print_tone,
     .help = "exposure, and tone mapping of light too bright for a picture",
-    .details = "Of 8-bit pictures, and in the window; EXR and TIFF keep light as it is. The "
-               "background is developed with the rest. Heights, normals and other maps never pass "
-               "through a view. A document stores the names of its view; when it is opened, only "
-               "the configuration in $OCIO is read. Only given arguments change.",
+    .details =
+        "Of 8-bit pictures, and in the window; EXR and TIFF keep light as it is. The "
+        "background is developed with the rest. Heights, normals and other maps never pass "
+        "through a view. A document stores the names of its view; when it or a script is opened, "
+        "only the configuration in $OCIO is read. Only given arguments change.",
     .example = "tone soft exposure=-0.5"
 };

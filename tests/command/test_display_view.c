@@ -187,8 +187,8 @@ static WrSession *opened(const char *path, Said *said)
     return s;
 }
 
-/* A document opens no files but the user's own configuration; it keeps the names in any case. */
-static void documents_keep_names(void **state)
+/* Documents and scripts open no configuration but the user's own; the names are kept in any case. */
+static void opened_files_keep_names(void **state)
 {
     (void)state;
     Said said = { "" };
@@ -200,6 +200,11 @@ static void documents_keep_names(void **state)
     if (!wr_session_save(s, "kept.exr", &err)) fail_msg("%s", err.text);
     const WrHash hash = wr_session_hash(s);
     wr_session_free(s);
+    FILE *file = fopen("stranger.wrinkle", "w");
+    fputs("table 16x16\ntone view=Odd ocio=own.ocio\n", file);
+    fclose(file);
+    wr_session_free(opened("stranger.wrinkle", &said));
+    assert_non_null(strstr(said.text, "view Odd is not shown"));
     s = opened("kept.exr", &said);
     assert_non_null(strstr(said.text, "view Odd is not shown"));
     assert_true(wr_hash_equal(hash, wr_session_hash(s)));
@@ -231,7 +236,7 @@ int main(void)
         cmocka_unit_test(codes_follow_the_configuration),
         cmocka_unit_test(maps_and_light_are_untouched),
         cmocka_unit_test(errors_list_what_there_is),
-        cmocka_unit_test(documents_keep_names),
+        cmocka_unit_test(opened_files_keep_names),
     };
     return cmocka_run_group_tests(tests, enter, remove_folder);
 }

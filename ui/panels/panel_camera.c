@@ -181,7 +181,9 @@ static void tone(WrApp *app)
     wr_gui_heading("EXPOSURE");
     wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_EXPOSURE]);
     if (scene->tone.view) {
-        wr_text_addf(&line, wr_words("View: %s"), scene->tone.view->names.view);
+        const WrDisplayView *view = scene->tone.view;
+        if (view->ready) wr_text_addf(&line, wr_words("View: %s"), view->names.view);
+        else wr_text_addf(&line, wr_words("View: %s, not found"), view->names.view);
         wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_text_get(&line));
         wr_text_clear(&line);
         if (wr_gui_button("Without the view", false)) {
