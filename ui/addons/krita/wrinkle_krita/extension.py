@@ -33,7 +33,7 @@ def guarded(action, *arguments):
     except exchange.WrinkleError as error:
         text = str(error)
     except OSError as error: # a full disk, no rights
-        text = f"{error.filename or 'A temporary file'}: {error.strerror}."
+        text = f"{error.filename or 'A file in ' + tempfile.gettempdir()}: {error.strerror}."
     finally:
         QApplication.restoreOverrideCursor()
     if text:
