@@ -92,7 +92,9 @@ run_tests() {
     count "$name" "$log"
 }
 
-if ! wr_install_packages "${wr_program_packages[@]}" "${wr_test_packages[@]}"; then
+packages=("${wr_program_packages[@]}" "${wr_test_packages[@]}")
+[[ $full == yes ]] && packages+=("${wr_full_packages[@]}")
+if ! wr_install_packages "${packages[@]}"; then
     failed=1
     finish
 fi

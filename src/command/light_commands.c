@@ -10,7 +10,9 @@
 #include "image/image.h"
 #include "scene/param.h"
 #include "scene/scene.h"
+#include "system/path.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- The command light ---- */
@@ -345,11 +347,26 @@ const WrCommand wr_command_background = {
 
 /* ---- The command tone: mapping from light to pixel values ---- */
 
+#define VIEW_OFF "off"
+
+static void print_unless_empty(const char *name, const char *word, WrText *text)
+{
+    wr_print_word(name, *word ? word : NULL, text);
+}
+
 static void print_tone(const WrScene *scene, WrText *text)
 {
-    if (wr_tone_curve_params(&scene->tone).plain) return;
-    wr_text_addf(text, "tone %s", wr_tone_names[scene->tone.kind]);
+    const WrTone *tone = &scene->tone;
+    if (!tone->view && wr_tone_curve_params(tone).plain) return;
+    wr_text_addf(text, "tone %s", wr_tone_names[tone->kind]);
     wr_scene_print_params("tone", NULL, scene, text);
+    if (tone->view) {
+        const WrDisplayViewNames *names = &tone->view->names;
+        wr_print_word("view", names->view, text);
+        print_unless_empty("display", names->display, text);
+        print_unless_empty("ocio", names->config, text);
+        print_unless_empty("space", names->space, text);
+    }
     wr_text_add(text, "\n");
 }
 
@@ -358,11 +375,73 @@ static const char *tone_word(int i)
     return i < WR_TONE_KINDS ? wr_tone_names[i] : NULL;
 }
 
+/* Absolute, since the scene may be saved to another folder. "" if not given. The caller frees it. */
+static char *config_path(WrSession *session, const char *given)
+{
+    if (!given) return wr_strdup("");
+    char *path = wr_session_input_path(session, given), *real = wr_path_real(path);
+    char *kept = wr_strdup(real ? real : path);
+    wr_free(path);
+    free(real);
+    return kept;
+}
+
+/* Configurations are parsed outside the sandbox, and documents and scripts may be strangers': those that are only opened
+   use the user's own configuration, $OCIO, and no other. */
+static const WrDisplayView *view_of_file(WrSession *session, const WrDisplayViewNames *names)
+{
+    const char *own = getenv("OCIO");
+    char *real = own ? wr_path_real(own) : NULL;
+    const WrDisplayView *view = NULL;
+    WrError why = { 0 };
+    if (!*names->config || (real && strcmp(real, names->config) == 0))
+        view = wr_display_view_load(names, &why);
+    free(real);
+    if (view) return view;
+    if (*why.text)
+        wr_session_note(session, "the view %s is not shown: %s", names->view,
+                        wr_error_message(&why));
+    else
+        wr_session_note(session,
+                        "the view %s is not shown: its colour configuration is not "
+                        "$OCIO; `tone view=\"%s\" ocio=\"%s\"` shows it",
+                        names->view, names->view, names->config);
+    return wr_display_view_named(names);
+}
+
+/* Sets the view that the call names, if any. */
+static bool take_view(WrSession *session, WrCall *call, WrTone *tone, WrError *err)
+{
+    static const char *const of_view[] = { "display", "ocio", "space" };
+    const char *text[3];
+    for (int i = 0; i < 3; i++) text[i] = wr_call_arg(call, of_view[i])->text;
+    const char *view = wr_call_arg(call, "view")->text;
+    const bool off = view && strcmp(view, VIEW_OFF) == 0;
+    for (int i = 0; i < 3 && (!view || off); i++)
+        if (text[i]) return wr_fail(err, "%s= needs view=NAME", of_view[i]);
+    if (!view || off) {
+        if (off) tone->view = NULL;
+        return true;
+    }
+    const bool opened = session->loading || session->skip_outputs;
+    char *config = config_path(session, text[1]);
+    const WrDisplayViewNames names = { config, text[0] ? text[0] : "", view,
+                                       text[2] ? text[2] : "" };
+    const WrDisplayView *found =
+        opened ? view_of_file(session, &names) : wr_display_view_load(&names, err);
+    wr_free(config);
+    if (found) tone->view = found;
+    return found != NULL;
+}
+
 static bool run_tone(WrSession *session, WrCall *call, WrError *err)
 {
-    (void)err;
     const WrArg *kind = wr_call_arg(call, "clip|soft");
     WrScene *scene = wr_scene_clone(session->state.document->scene);
+    if (!take_view(session, call, &scene->tone, err)) {
+        wr_scene_free(scene);
+        return false;
+    }
     if (kind->given) scene->tone.kind = (WrToneKind)kind->choice;
     wr_scene_take(call, NULL, scene);
     wr_session_replace_scene(session, scene);
@@ -382,14 +461,39 @@ static bool row_tone(WrForm *out)
     return wr_scene_args("tone", NULL, out->args + 1) > 0;
 }
 
+static const WrArgSpec args_view[] = {
+    { .name = "view",
+      .type = WR_ARG_TEXT,
+      .shape = "NAME",
+      .help = "of a colour configuration (OpenColorIO), such as Filmic: makes the codes from the "
+              "light in place of clip, soft and sRGB; off: none" },
+    { .name = "display",
+      .type = WR_ARG_TEXT,
+      .shape = "NAME",
+      .help = "of the view; left out, the configuration's default" },
+    { .name = "ocio",
+      .type = WR_ARG_TEXT,
+      .shape = "FILE",
+      .help = "the configuration, config.ocio; left out, $OCIO" },
+    { .name = "space",
+      .type = WR_ARG_TEXT,
+      .shape = "NAME",
+      .help = "the configuration's colour space of the light; left out, its role scene_linear" },
+    { 0 }
+};
+
 const WrCommand wr_command_tone = {
     .name = "tone",
     .kind = WR_CLASS_SCENE,
     .row = row_tone,
+    .more = args_view,
     .run = run_tone,
     .print = print_tone,
     .help = "exposure, and tone mapping of light too bright for a picture",
-    .details = "Of 8-bit pictures, and in the window; EXR and TIFF keep light as it is. The "
-               "background is developed with the rest. Only given arguments change.",
+    .details =
+        "Of 8-bit pictures, and in the window; EXR and TIFF keep light as it is. The "
+        "background is developed with the rest. Heights, normals and other maps never pass "
+        "through a view. A document stores the names of its view; when it or a script is opened, "
+        "only the configuration in $OCIO is read. Only given arguments change.",
     .example = "tone soft exposure=-0.5"
 };

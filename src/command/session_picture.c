@@ -285,7 +285,8 @@ static void count_clipped(Picture *picture, int rows, const uint8_t *codes)
     const size_t channels = picture->alpha ? 4 : 3;
     const size_t count = (size_t)picture->request.width * (size_t)rows;
     if (picture->linear) return;
-    if (!scene->environment.light && wr_tone_curve_params(&scene->tone).plain) return;
+    const WrToneCurve tone = wr_tone_curve_params(&scene->tone);
+    if ((!scene->environment.light && tone.plain) || tone.view) return;
     for (size_t i = 0; i < count; i++, codes += channels)
         picture->clipped += codes[0] == 255 || codes[1] == 255 || codes[2] == 255;
 }

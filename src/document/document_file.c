@@ -53,6 +53,7 @@ static WrSceneAge age_of_object(const WrScene *object)
 WrSceneAge wr_scene_age(const WrScene *scene)
 {
     WrSceneAge age = WR_SCENE_OLD;
+    if (scene->tone.view) return WR_SCENE_OF_VIEW;
     for (int i = 0; i < wr_scene_object_count(scene); i++) {
         const WrSceneAge own = age_of_object(wr_scene_object(scene, i));
         age = own > age ? own : age;
@@ -220,7 +221,9 @@ static int version_of(const Saving *to)
 {
     const WrScene *scene = to->document->scene;
     const WrSceneAge age = wr_scene_age(scene);
-    if (wr_document_groups(to->document) || to->document->variants) return WR_DOCUMENT_VERSION;
+    if (age == WR_SCENE_OF_VIEW) return WR_DOCUMENT_VERSION;
+    if (wr_document_groups(to->document) || to->document->variants)
+        return WR_DOCUMENT_VERSION_GROUPS;
     if (wr_document_generates(to->document)) return WR_DOCUMENT_VERSION_GENERATORS;
     if (age == WR_SCENE_OF_PROJECTION) return WR_DOCUMENT_VERSION_PROJECTION;
     if (wr_document_filters(to->document)) return WR_DOCUMENT_VERSION_FILTERS;

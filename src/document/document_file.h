@@ -30,6 +30,7 @@
      6  size of the cell, solid textures, tone, relief shadows, displaced surfaces
      7  roughness and metalness pictures, occlusion, parallax, area lamps, colours of hollows and sheets
      8  filter layers                              11 groups
+    12  views of colour configurations
    A file with several parts and none of the later features is still written as version 2. */
 #pragma once
 #include "field/wrap.h"
@@ -46,7 +47,8 @@ typedef struct WrField WrField;
 typedef struct WrImage WrImage;
 typedef struct WrImageRows WrImageRows;
 
-#define WR_DOCUMENT_VERSION 12
+#define WR_DOCUMENT_VERSION 13
+#define WR_DOCUMENT_VERSION_GROUPS 12     /* for a file without a view */
 #define WR_DOCUMENT_VERSION_GENERATORS 11 /* for a file without groups and variants */
 #define WR_DOCUMENT_VERSION_PROJECTION 10 /* for a file without generator layers */
 #define WR_DOCUMENT_VERSION_FILTERS                                                                \
@@ -140,7 +142,8 @@ typedef enum WrSceneAge {
     /* roughness and metalness pictures, occlusion, area lamps, hollows, sheets, frames */
     WR_SCENE_OF_FACETS,
     /* projections, creases, units and masks of meshes; relief over normal maps */
-    WR_SCENE_OF_PROJECTION
+    WR_SCENE_OF_PROJECTION,
+    WR_SCENE_OF_VIEW /* of a colour configuration */
 } WrSceneAge;
 
 /* The newest feature in the scene that differs from its default in older programs. */

@@ -32,7 +32,8 @@
 typedef struct WrText WrText;
 
 #define WR_ORA_NAMESPACE "urn:wrinkle:openraster"
-#define WR_ORA_VERSION 9
+#define WR_ORA_VERSION 10
+#define WR_ORA_VERSION_GROUPS 9     /* for a file without a view */
 #define WR_ORA_VERSION_GENERATORS 8 /* for a file without groups and variants */
 #define WR_ORA_VERSION_PROJECTION 7 /* for a file without generator layers */
 #define WR_ORA_VERSION_COMPOSITE 6  /* for a file without projected meshes */

@@ -408,7 +408,8 @@ int wr_ora_version(const WrDocument *document, bool composite)
     const bool new =
         wr_object_any_picture(scene, WR_OBJECT_NORMALS) || wr_scene_several_meshes(scene);
     const WrSceneAge age = wr_scene_age(scene);
-    if (wr_document_groups(document) || document->variants) return WR_ORA_VERSION;
+    if (age == WR_SCENE_OF_VIEW) return WR_ORA_VERSION;
+    if (wr_document_groups(document) || document->variants) return WR_ORA_VERSION_GROUPS;
     if (wr_document_generates(document)) return WR_ORA_VERSION_GENERATORS;
     if (age == WR_SCENE_OF_PROJECTION) return WR_ORA_VERSION_PROJECTION;
     if (composite) return WR_ORA_VERSION_COMPOSITE;

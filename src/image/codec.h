@@ -19,6 +19,7 @@
 
 typedef struct WrCodecReader WrCodecReader;
 typedef struct WrCodecWriter WrCodecWriter;
+typedef struct WrCodecView WrCodecView;
 
 /* A part of an open file. Strings are valid until the reader is closed. */
 typedef struct WrCodecPart {
@@ -55,6 +56,13 @@ typedef struct WrCodec {
     /* Closes and releases the writer in any case; false if the file is incomplete. keep is false when
        the file is abandoned. */
     bool (*finish)(WrCodecWriter *writer, bool keep, char *reason);
+
+    /* A display transform of a colour configuration (display_view.h), never released; OpenImageIO only. display "":
+       the default; space "": the role scene_linear. */
+    WrCodecView *(*view)(const char *config, const char *display, const char *view,
+                         const char *space, char *reason);
+    /* Converts [count][3] in place; any number of threads. */
+    void (*view_apply)(const WrCodecView *view, float *rgb, int count);
 } WrCodec;
 
 /* True if the module with OpenImageIO reads and writes this format. */

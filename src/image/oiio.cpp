@@ -18,6 +18,7 @@ extern "C" {
 
 #include "image/one_line.hpp"
 
+#include <OpenImageIO/color.h>
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -1102,8 +1103,63 @@ static bool writer_finish(WrCodecWriter *writer, bool, char *reason)
     return ok;
 }
 
+/* ---- colour configurations ---- */
+
+struct WrCodecView {
+    OIIO::ColorProcessorHandle processor;
+};
+
+/* Fails unless the name is one of those; the message lists them. */
+static bool check_name(const char *what, const std::string &name,
+                       const std::vector<std::string> &known, char *reason)
+{
+    std::string list;
+    for (const std::string &one : known) {
+        if (one == name) return true;
+        list += (list.empty() ? "" : ", ") + one;
+    }
+    return fail(reason, "has no " + std::string(what) + " '" + name + "', but " +
+                            (list.empty() ? "none" : list));
+}
+
+static bool create_view(const char *config, const std::string &display, const std::string &view,
+                        const std::string &space, WrCodecView &out, char *reason)
+{
+    OIIO::ColorConfig colours(config);
+    if (colours.has_error())
+        return fail(reason, "is no colour configuration: " + colours.geterror());
+    const char *usual = colours.getDefaultDisplayName();
+    const std::string shown = display.empty() && usual ? usual : display;
+    if (!check_name("display", shown, colours.getDisplayNames(), reason) ||
+        !check_name("view", view, colours.getViewNames(shown), reason) ||
+        (!space.empty() &&
+         !check_name("colour space", space, colours.getColorSpaceNames(), reason)))
+        return false;
+    const char *linear = colours.getColorSpaceNameByRole("scene_linear");
+    if (space.empty() && !linear)
+        return fail(reason, "has no role scene_linear: add space=NAME, the colour space of light");
+    out.processor = colours.createDisplayTransform(shown, view, space.empty() ? linear : space);
+    return out.processor || fail(reason, colours.geterror());
+}
+
+static WrCodecView *view_create(const char *config, const char *display, const char *view,
+                                const char *space, char *reason)
+{
+    auto made = std::make_unique<WrCodecView>();
+    const bool good =
+        guarded(reason, [&] { return create_view(config, display, view, space, *made, reason); });
+    return good ? made.release() : nullptr;
+}
+
+static void view_apply(const WrCodecView *view, float *rgb, int count)
+{
+    view->processor->apply(rgb, count, 1, 3, sizeof(float), 3 * sizeof(float),
+                           3 * static_cast<OIIO::stride_t>(sizeof(float)) * count);
+}
+
 extern "C" __attribute__((visibility("default"))) const WrCodec wr_oiio_table;
 const WrCodec wr_oiio_table = {
-    WR_OIIO_VERSION, reader_open,   reader_close, reader_parts, reader_part,   reader_attribute,
-    reader_read,     writer_create, writer_write, writer_next,  writer_finish,
+    WR_OIIO_VERSION,  reader_open, reader_close,  reader_parts, reader_part,
+    reader_attribute, reader_read, writer_create, writer_write, writer_next,
+    writer_finish,    view_create, view_apply,
 };

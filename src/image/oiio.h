@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-#define WR_OIIO_VERSION 7
+#define WR_OIIO_VERSION 8
 #define WR_OIIO_SYMBOL "wr_oiio_table"
 
 /* True if the library does not write such a file to a custom sink, but opens it by name: EXR of several

@@ -211,21 +211,28 @@ WR_ROWS_END(wr_tone_names, WR_TONE_KINDS);
 /* k = 1/2; y = exposure in powers of two times light. */
 WrToneCurve wr_tone_curve_params(const WrTone *tone)
 {
+    const WrDisplayView *view = tone->view && tone->view->ready ? tone->view : NULL;
     return (WrToneCurve){ .gain = (float)exp2(tone->exposure),
                           .knee = tone->kind == WR_TONE_SOFT ? 0.5f : NO_KNEE,
-                          .plain = tone->kind == WR_TONE_CLIP && tone->exposure == 0 };
+                          .plain = !view && tone->kind == WR_TONE_CLIP && tone->exposure == 0,
+                          .view = view };
 }
 
-float wr_tone_at(const WrTone *tone, float light)
+void wr_tone_colour(const WrTone *tone, float rgb[3])
 {
     const WrToneCurve curve = wr_tone_curve_params(tone);
-    const float y = curve.gain * light, left = 1.0f - curve.knee;
-    return y > curve.knee ? 1.0f - left * left / (y + 1.0f - 2.0f * curve.knee) : y;
+    const float left = 1.0f - curve.knee;
+    for (int c = 0; c < 3; c++) rgb[c] *= curve.gain;
+    if (curve.view) wr_display_view_apply(curve.view, rgb, 1);
+    for (int c = 0; c < 3; c++)
+        if (curve.view) rgb[c] = wr_srgb_decode(fminf(fmaxf(rgb[c], 0.0f), 1.0f));
+        else if (rgb[c] > curve.knee)
+            rgb[c] = 1.0f - left * left / (rgb[c] + 1.0f - 2.0f * curve.knee);
 }
 
 bool wr_tone_equal(const WrTone *a, const WrTone *b)
 {
-    return a->kind == b->kind && a->exposure == b->exposure;
+    return a->kind == b->kind && a->exposure == b->exposure && a->view == b->view;
 }
 
 WR_ROWS(wr_light_kinds);

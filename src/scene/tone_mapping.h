@@ -3,6 +3,8 @@
 
    Float pictures keep the light unchanged. */
 #pragma once
+#include "image/display_view.h"
+
 #include <stdbool.h>
 
 typedef enum WrToneKind {
@@ -16,17 +18,19 @@ extern const char *const wr_tone_names[WR_TONE_KINDS];
 
 typedef struct WrTone {
     WrToneKind kind;
-    double exposure; /* -20..20 stops: light is multiplied by 2^exposure first */
+    double exposure;           /* -20..20 stops: light is multiplied by 2^exposure first */
+    const WrDisplayView *view; /* in place of kind and of the sRGB curve; NULL: none */
 } WrTone;
 
 /* A curve for loops: y = gain x; if y > knee, 1 - (1 - knee)^2 / (y + 1 - 2 knee), which continues with
  * the same slope. */
 typedef struct WrToneCurve {
     float gain, knee;
-    bool plain; /* gain 1 and no knee: codes are those of the light itself */
+    bool plain;                /* gain 1 and no knee: codes are those of the light itself */
+    const WrDisplayView *view; /* ready, applied after gain; NULL: none */
 } WrToneCurve;
 WrToneCurve wr_tone_curve_params(const WrTone *tone);
-/* One number of light. */
-float wr_tone_at(const WrTone *tone, float light);
+/* A colour of light, in place. With a view it becomes the linear light that sRGB shows as the view's codes. */
+void wr_tone_colour(const WrTone *tone, float rgb[3]);
 
 bool wr_tone_equal(const WrTone *a, const WrTone *b);

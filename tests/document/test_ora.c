@@ -627,7 +627,7 @@ static void damaged_files_never_crash_and_leave_nothing_behind(void **state)
     wr_document_free(document);
 }
 
-#define NEXT_VERSION "10"
+#define NEXT_VERSION "11"
 
 static void a_newer_version_loads_and_says_so(void **state)
 {

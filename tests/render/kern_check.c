@@ -685,7 +685,7 @@ static void all_sets_make_the_same_codes(void **state)
         }
         for (int i = 0; i < 4; i++) {
             const WrKernels *set = wr_kernels_get(names[i], false, NULL);
-            const WrToneCurve tone = { 1.37f, round & 1 ? 0.5f : 3e38f, false };
+            const WrToneCurve tone = { 1.37f, round & 1 ? 0.5f : 3e38f, false, NULL };
             if (!set) continue;
             assert_int_equal(set->codes_behind(bins, &tone, rgba[1], count, rgba[0], got),
                              ref->codes_behind(bins, &tone, rgba[1], count, rgba[0], want));

@@ -59,7 +59,7 @@ static const WrFrameCodes ways[] = {
     { .background = { WR_BACKGROUND_NONE, { 1, 0.7, 0.00012 }, { 0 } } },
     { .background = { WR_BACKGROUND_GRADIENT, { 0.02, 0.4, 1.7 }, { 0.9, 0.4, 0.00012 } } },
     { .background = { WR_BACKGROUND_GRADIENT, { 0.02, 0.4, 1.7 }, { 0.9, 0.4, 0.00012 } },
-      .tone = { WR_TONE_SOFT, 1.37 } },
+      .tone = { WR_TONE_SOFT, 1.37, NULL } },
     { .background.kind = WR_BACKGROUND_SURROUNDINGS },
     { .background.kind = WR_BACKGROUND_SURROUNDINGS, .tone.exposure = -0.71 },
 };
@@ -219,7 +219,7 @@ static void what_lies_behind_is_what_each_ray_meets(void **state)
     WrFrame frame;
     WrFrameRequest request = { .field = field, .scene = scene, .width = W, .height = H };
     request.codes = way_for(WAYS - 1, scene);
-    request.codes.tone = (WrTone){ WR_TONE_SOFT, 0.6 };
+    request.codes.tone = (WrTone){ WR_TONE_SOFT, 0.6, NULL };
     int bare = 0;
     WrFrameRequest floats = request;
     floats.codes.wanted = false;

@@ -174,18 +174,34 @@ static void tone(WrApp *app)
         [WR_ROW(WR_TONE_SOFT)] = "Soft",
     };
     WR_ROWS_END(kinds, WR_TONE_KINDS);
-    int kind = (int)wr_app_scene(app)->tone.kind;
+    const WrScene *scene = wr_app_scene(app);
+    int kind = (int)scene->tone.kind;
     WrText line = { 0 };
     wr_gui_space(8);
     wr_gui_heading("EXPOSURE");
     wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_EXPOSURE]);
-    wr_gui_label("Highlights");
-    if (wr_gui_choice("tone", 0, kinds, WR_TONE_KINDS, &kind)) {
-        wr_text_addf(&line, "tone %s", wr_tone_names[kind]);
-        wr_scene_run(app, &line);
+    if (scene->tone.view) {
+        const WrDisplayView *view = scene->tone.view;
+        if (view->ready) wr_text_addf(&line, wr_words("View: %s"), view->names.view);
+        else wr_text_addf(&line, wr_words("View: %s, not found"), view->names.view);
+        wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_text_get(&line));
+        wr_text_clear(&line);
+        if (wr_gui_button("Without the view", false)) {
+            wr_text_add(&line, "tone view=off");
+            wr_scene_run(app, &line);
+        }
+        wr_gui_tip(
+            "The view of a colour configuration makes the picture's codes from its light. The "
+            "command tone sets it");
+    } else {
+        wr_gui_label("Highlights");
+        if (wr_gui_choice("tone", 0, kinds, WR_TONE_KINDS, &kind)) {
+            wr_text_addf(&line, "tone %s", wr_tone_names[kind]);
+            wr_scene_run(app, &line);
+        }
+        wr_gui_tip("Clip: light beyond 1 is white. Soft: from one half on it bends over and keeps "
+                   "its form. Here and in 8-bit pictures; EXR and TIFF keep light as it is.");
     }
-    wr_gui_tip("Clip: light beyond 1 is white. Soft: from one half on it bends over and keeps its "
-               "form. Here and in 8-bit pictures; EXR and TIFF keep light as it is.");
     wr_gui_check("Mark clipped parts", &app->patch->look.marked);
     wr_gui_tip("Stripes where a colour is full, so that more light would not show");
     wr_text_addf(&line, wr_words("%.1f %% of the picture is clipped"), 100 * app->patch->clipped);

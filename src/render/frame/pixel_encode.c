@@ -67,6 +67,36 @@ const float wr_srgb_borders[256] = {
 
 /* ---- pixels ---- */
 
+/* The code nearest to a number of a display, 0..1; NaN: 0. */
+static uint32_t display_code(float x)
+{
+    x = x > 0.0f ? x : 0.0f;
+    return (uint32_t)(255.0f * (x < 1.0f ? x : 1.0f) + 0.5f);
+}
+
+/* Codes of a view. Light is limited, so that a transform with exponents or logarithms stays finite. */
+static int64_t view_span(const WrToneCurve *tone, const WrBehind *behind, int across, int count,
+                         const float *rgba, uint32_t *out)
+{
+    const float most = 1e9f;
+    int64_t not_finite = 0;
+    float rgb[WR_SPAN][3];
+    for (int i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++) {
+            const float light =
+                rgba[4 * i + c] + (1.0f - rgba[4 * i + 3]) * behind[i * across].colour[c];
+            const bool finite = light - light == 0.0f;
+            const float product = finite ? tone->gain * light : 0.0f;
+            rgb[i][c] = product < most ? product : most;
+            not_finite += !finite;
+        }
+    wr_display_view_apply(tone->view, rgb[0], count);
+    for (int i = 0; i < count; i++)
+        out[i] =
+            wr_code_pack(display_code(rgb[i][0]), display_code(rgb[i][1]), display_code(rgb[i][2]));
+    return not_finite;
+}
+
 /* A plain tone curve over one colour takes the short loop; else the background's colours are copied out of the
    cells, because they alternate with codes in memory. */
 int64_t wr_code_row(const WrPixelEncoder *coder, const WrBehind *behind, int across, int count,
@@ -79,6 +109,11 @@ int64_t wr_code_row(const WrPixelEncoder *coder, const WrBehind *behind, int acr
     int64_t not_finite = 0;
     for (int x = 0; x < count; x += WR_SPAN) {
         const int some = count - x < WR_SPAN ? count - x : WR_SPAN;
+        if (coder->tone.view) {
+            not_finite += view_span(&coder->tone, behind + x * across, across, some,
+                                    rgba + 4 * (size_t)x, out + x);
+            continue;
+        }
         float own[WR_SPAN][4];
         for (int i = 0; i < some; i++)
             memcpy(own[i], behind[(x + i) * across].colour, sizeof behind->colour);

@@ -113,9 +113,11 @@ static const float greys[2] = { 0.32f, 0.13f }; /* linear; 8-bit values 155 and 
 /* Composite a tone-mapped premultiplied colour over a display grey. */
 static void put(const float *from, float grey, const WrTone *tone, uint8_t *to)
 {
+    float own[3] = { 0 };
+    for (int c = 0; c < 3 && from[3] > 0.0f; c++) own[c] = from[c] / from[3];
+    if (from[3] > 0.0f) wr_tone_colour(tone, own);
     for (int c = 0; c < 3; c++) {
-        const float own = from[3] > 0.0f ? from[3] * wr_tone_at(tone, from[c] / from[3]) : 0.0f;
-        const float sum = own + (1.0f - from[3]) * grey;
+        const float sum = from[3] * own[c] + (1.0f - from[3]) * grey;
         const float code = wr_srgb_encode(fminf(fmaxf(sum, 0.0f), 1.0f));
         to[2 - c] = (uint8_t)(code * 255.0f + 0.5f);
     }
