@@ -81,7 +81,9 @@ run_tests() {
     wr_say "$name: $all tests in $((SECONDS - begin)) s, $bad failed"
 }
 
-if ! wr_install_packages "${wr_program_packages[@]}" "${wr_test_packages[@]}"; then
+packages=("${wr_program_packages[@]}" "${wr_test_packages[@]}")
+[[ $full == yes ]] && packages+=("${wr_full_packages[@]}")
+if ! wr_install_packages "${packages[@]}"; then
     failed=1
     finish
 fi

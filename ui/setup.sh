@@ -21,6 +21,9 @@ wr_test_packages=(
     imagemagick openimageio-tools
     desktop-file-utils groff-base jq librsvg2-bin parallel python3-cffi python3-numpy shellcheck
 )
+# Of tests/run.sh --full.
+# shellcheck disable=SC2034
+wr_full_packages=(blender)
 
 wr_say() {
     printf 'wrinkle: %s\n' "$*" >&2

@@ -38,3 +38,5 @@ if(RSVG_CONVERT)
     endforeach()
     add_custom_target(icons ALL DEPENDS ${rendered})
 endif()
+
+include(ui/addons/blender/blender.cmake)

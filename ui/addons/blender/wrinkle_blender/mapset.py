@@ -155,13 +155,12 @@ def read_map(path):
 
 def _of_receipts(path):
     """Paths of the files in a list of receipts (`wrinkle export --json`), one object a line."""
-    found = []
+    found, here = [], os.path.dirname(path)
     try:
         with open(path, encoding="utf-8") as file:
             for line in filter(str.strip, file):
-                name = json.loads(line)["file"]
-                beside = os.path.join(os.path.dirname(path), os.path.basename(name))
-                found.append(name if os.path.isabs(name) and os.path.exists(name) else beside)
+                name = os.path.join(here, json.loads(line)["file"])  # as written from here, or moved beside the list
+                found.append(name if os.path.exists(name) else os.path.join(here, os.path.basename(name)))
     except OSError as why:
         raise WrinkleError("%s: cannot be read (%s)" % (path, why.strerror)) from None
     except (ValueError, KeyError, TypeError):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Meshes to Wrinkle and back, as OBJ: the one format that both programs read and write with texture coordinates,
-normals and float places, in all versions, without add-ons. Lengths are metres, axes are Blender's."""
+normals and float places, in all versions, without add-ons. Axes are Blender's; lengths are metres on the way to Wrinkle, whose solids are in
+millimetres."""
 import os
 
 import bpy
@@ -49,7 +50,7 @@ def bring_back(context, path, document, error_m):
     program.run(program.solid_line(path, document, out, error_m))
     before = set(bpy.data.objects.keys())
     try:
-        compat.import_obj(bpy, out, 1.0 / _metres(context))
+        compat.import_obj(bpy, out, 0.001 / _metres(context))
     except RuntimeError as why:
         raise WrinkleError("%s: cannot be read (%s)" % (out, str(why).strip())) from None
     fresh = [o for o in bpy.data.objects if o.name not in before]

@@ -113,6 +113,10 @@ class Child:
         self._process.terminate()
         self._process.wait()
 
+    def close(self):
+        """Releases the file; the program goes on writing to it."""
+        self._errors.close()
+
     def reason(self):
         """Waits for the end; why it came, as a sentence."""
         code = self._process.wait()
@@ -144,7 +148,7 @@ def baked_line(path, document, out):
 
 
 def solid_line(path, document, out, error_m):
-    """The displaced mesh as OBJ; the program has millimetres."""
+    """The displaced mesh as OBJ, in millimetres like all solids."""
     return [path, "export", document, "--as", "obj", "error=%.6g" % (1000 * error_m), "-o", out]
 
 

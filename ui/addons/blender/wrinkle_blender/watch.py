@@ -68,6 +68,8 @@ class Watcher:
                 os.close(fd)
         if self.child and end_child and self.child.runs():
             self.child.end()
+        if self.child:
+            self.child.close()
 
     # ---- on the thread ----
 
