@@ -241,6 +241,8 @@ def refresh(folder, names):
         try:
             mapset.read_map(_absolute(image))  # whole and readable, else the old picture stays
             image.reload()
+            if not len(image.pixels):  # reads the file now, while it is whole
+                raise WrinkleError("%s: Blender cannot read it" % _absolute(image))
             image.update_tag()
         except WrinkleError as why:
             errors.append(str(why))
