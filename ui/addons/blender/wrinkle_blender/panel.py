@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The sidebar's panels, the operators behind their buttons, and the settings."""
 import os
+import textwrap
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
@@ -71,7 +72,7 @@ class WrinkleMaterialSettings(bpy.types.PropertyGroup):
     cell: StringProperty()
     document: StringProperty()
     of_mesh: BoolProperty(
-        name="Normals of the Mesh",
+        name="Baked",
         description="The document's object is this mesh: its normal map is baked for its faces",
     )
 
@@ -203,7 +204,7 @@ class WRINKLE_OT_paint(_Operator, bpy.types.Operator):
         link.start(
             folder,
             program.paint_line(path, document, folder, context.scene.wrinkle.maps),
-            what="linked to Wrinkle's window",
+            what="Wrinkle's window",
         )
 
 
@@ -222,7 +223,7 @@ class WRINKLE_OT_follow(_Operator, bpy.types.Operator):
             folder,
             program.watch_line(path, document, folder, context.scene.wrinkle.maps),
             ends=True,
-            what="linked to the saved document",
+            what="Saved document",
         )
 
 
@@ -236,7 +237,7 @@ class WRINKLE_OT_connect(_Operator, bpy.types.Operator):
     def work(self, context):
         folder = _folder(context)
         _set_to_material(context, mapset.read_set(folder))
-        link.start(folder, what="linked to the folder")
+        link.start(folder, what="Folder")
 
 
 class WRINKLE_OT_unlink(_Operator, bpy.types.Operator):
@@ -298,14 +299,14 @@ class WRINKLE_OT_send_mesh(_Operator, bpy.types.Operator):
         made = _first_maps(context, path, document, folder)
         made.wrinkle.of_mesh = True
         if self.window:
-            link.start(folder, program.paint_line(path, document, folder, own.maps), what="linked to Wrinkle's window")
+            link.start(folder, program.paint_line(path, document, folder, own.maps), what="Wrinkle's window")
 
 
 class WRINKLE_OT_bring_mesh(_Operator, bpy.types.Operator):
     """Add the document's object with its relief as triangles, as it was last saved"""
 
     bl_idname = "wrinkle.bring_mesh"
-    bl_label = "Bring Back Displaced Mesh"
+    bl_label = "Bring Back Mesh"
     bl_options = {"REGISTER", "UNDO"}
 
     def work(self, context):
@@ -351,7 +352,7 @@ class _Panel:
                 for name in ("Strength", "Scale"):
                     column.prop(relief.inputs[name], "default_value", text=name)
             column.prop(made.wrinkle, "of_mesh")
-            column.operator("wrinkle.export_all", icon="FILE_REFRESH")
+            column.operator("wrinkle.export_all", icon="RENDERLAYERS")
         box = layout.box()
         box.label(text="Mesh", icon="MESH_DATA")
         column = box.column()
@@ -364,7 +365,7 @@ class _Panel:
 
     def _draw_link(self, layout, own):
         box = layout.box()
-        box.label(text="Live Link", icon="LINKED")
+        box.label(text="Live Link", icon="FILE_REFRESH")
         column = box.column()
         column.prop(own, "document")
         column.prop(own, "folder")
@@ -375,12 +376,14 @@ class _Panel:
         column.operator("wrinkle.connect", icon="FILE_FOLDER")
         for folder in link.folders():
             row = box.row()
-            row.label(text="%s: %s" % (os.path.basename(folder), link.status(folder)[1]), icon="CHECKMARK")
+            is_error, said = link.status(folder)
+            row.label(text="" if is_error else said, icon="ERROR" if is_error else "LINKED")
             row.operator("wrinkle.unlink", text="", icon="X").folder = folder
         where = own.folder or (os.path.splitext(own.document)[0] + "_maps" if own.document else "")
-        said = link.status(where) if where else None
-        if said and not link.is_linked(where):
-            box.label(text=said[1], icon="ERROR" if said[0] else "INFO")
+        is_error, said = where and link.status(where) or (False, "")
+        if is_error or not link.is_linked(where):
+            for line in textwrap.wrap(said, 32):
+                box.label(text=line)
 
 
 class WRINKLE_PT_view(_Panel, bpy.types.Panel):
