@@ -278,6 +278,17 @@ class Watching(unittest.TestCase):
         time.sleep(0.5)
         self.assertTrue(child.runs())
         child.end()
+        # a program that only exports ends with Blender, also when that is killed
+        text = (
+            "import os, sys\nsys.path.insert(0, %r)\nimport program\npid = program.Child(['/bin/sleep', '600'], True).pid\n"
+            "while open('/proc/%%d/comm' %% pid).read() != 'sleep\\n': pass\nprint(pid, flush=True)\nos.kill(os.getpid(), 9)\n" % ADDON
+        )
+        pid = int(subprocess.run(["/usr/bin/python3", "-c", text], capture_output=True, text=True).stdout)
+        end = time.monotonic() + 60
+        gone = lambda: not os.path.exists("/proc/%d" % pid) or ") Z " in read("/proc/%d/stat" % pid)
+        while not gone() and time.monotonic() < end:
+            time.sleep(0.05)
+        self.assertTrue(gone())
         files = len(os.listdir("/proc/self/fd"))
         for _ in range(5):
             Events("stays").watcher.stop()

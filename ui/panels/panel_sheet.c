@@ -34,8 +34,8 @@
 /* Background work: pictures while the dialog is open; files after the button or, in live export, after each pause in
    editing. Live export ends at the first error. */
 
-/* Pause in editing before files are written again, so that large files are not begun after each of several strokes.
-   Files that take less than SOON_SECONDS are written at once. */
+/* Pause in editing before files are written again, so that large files are not begun after each of several strokes:
+   the time of the last writing beyond SOON_SECONDS, at most PAUSE_SECONDS. Small files are written at once. */
 #define PAUSE_SECONDS 0.5
 #define SOON_SECONDS 0.25
 
@@ -248,7 +248,7 @@ static void take_write(WrApp *app)
     WrSheetWrite *write = sheet->write ? wr_job_take(sheet->write) : NULL;
     if (!write) return;
     if (write->ok) {
-        sheet->pause = write->seconds < SOON_SECONDS ? 0.0 : PAUSE_SECONDS;
+        sheet->pause = fmin(fmax(write->seconds - SOON_SECONDS, 0.0), PAUSE_SECONDS);
         if (sheet->loud) wr_app_say_each_line(app, wr_text_get(&write->report));
         wr_app_say(app,
                    write->files == 1 ? "%s: wrote %d file to %s in %.2g s%s"

@@ -49,7 +49,7 @@ def start(folder, words=None, ends=False, what=""):
     """Watches a folder, beside a program that is started by `words`. ends: the link's end ends the program too."""
     folder = key(folder)
     stop(folder)
-    child = program.Child(words) if words else None
+    child = program.Child(words, ends) if words else None
     try:
         watcher = watch.Watcher(folder, _wake, child)
     except WrinkleError:

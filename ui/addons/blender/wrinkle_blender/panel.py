@@ -369,7 +369,7 @@ class _Panel:
         column = box.column()
         column.prop(own, "document")
         column.prop(own, "folder")
-        column.prop(own, "maps", expand=True)
+        column.row(align=True).prop(own, "maps", expand=True)
         column = box.column(align=True)
         column.operator("wrinkle.paint", icon="BRUSH_DATA")
         column.operator("wrinkle.follow", icon="FILE_TICK")

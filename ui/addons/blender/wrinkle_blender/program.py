@@ -85,14 +85,15 @@ def run(words, folder=None):
 
 class Child:
     """A program beside Blender. Its standard error is a nameless file, not a pipe: the window with the user's work
-    goes on when nobody reads it any more."""
+    goes on when nobody reads it any more. ends: it ends with Blender, also when that is killed."""
 
-    def __init__(self, words):
+    def __init__(self, words, ends=False):
         self.words = words
+        setpriv = ends and shutil.which("setpriv")
         self._errors = tempfile.TemporaryFile()
         try:
             self._process = subprocess.Popen(
-                words,
+                [setpriv, "--pdeathsig", "TERM"] + words if setpriv else words,
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,
                 stderr=self._errors,
