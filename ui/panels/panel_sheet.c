@@ -325,11 +325,13 @@ static bool works(WrApp *app)
            (sheet->write && wr_job_busy(sheet->write, NULL, NULL));
 }
 
-/* Live export that was requested on the command line, into that folder only. */
+/* Live export that was requested on the command line, into that folder only. A set that is named there is written as it
+   is, without the document's settings of another. */
 static void start_live(WrApp *app)
 {
     const WrAppOptions *o = app->options;
     WrSheetRequest *ask = &sheet_open(app)->ask;
+    if (o->live_as) *ask = (WrSheetRequest){ .as = "" };
     WrText name = { 0 };
     wr_map_set_cell_name(o->live_file, &name);
     snprintf(ask->name, sizeof ask->name, "%.120s", wr_text_get(&name));
