@@ -7,6 +7,7 @@ news registers its own timer, so that none is lost while one runs; nothing else 
 Links are kept by the folder's path, never by references to Blender's data, so undo and other files do not matter."""
 import functools
 import os
+import textwrap
 
 import bpy
 from bpy.app.handlers import persistent
@@ -78,8 +79,12 @@ def _tell(folder, text, is_error):
         return
     windows = bpy.context.window_manager.windows
     if is_error and windows:
+        lines = textwrap.wrap(text, 80)
+        # A menu: an operator's error, called from here, would be an exception instead of a report.
         with bpy.context.temp_override(window=windows[0]):
-            bpy.ops.wrinkle.report("INVOKE_DEFAULT", text=text)
+            bpy.context.window_manager.popup_menu(
+                lambda menu, context: [menu.layout.label(text=line) for line in lines], title="Wrinkle", icon="ERROR"
+            )
 
 
 def flush():

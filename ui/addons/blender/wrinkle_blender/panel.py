@@ -314,19 +314,6 @@ class WRINKLE_OT_bring_mesh(_Operator, bpy.types.Operator):
         return "%s: %d triangles" % (made.name, len(made.data.polygons))
 
 
-class WRINKLE_OT_report(bpy.types.Operator):
-    """Report an event of the live link"""
-
-    bl_idname = "wrinkle.report"
-    bl_label = "Wrinkle"
-    bl_options = {"INTERNAL"}
-    text: StringProperty()
-
-    def invoke(self, context, event):
-        self.report({"ERROR"}, self.text)
-        return {"FINISHED"}
-
-
 # ---- panels ----
 
 
@@ -382,8 +369,10 @@ class _Panel:
         where = own.folder or (os.path.splitext(own.document)[0] + "_maps" if own.document else "")
         is_error, said = where and link.status(where) or (False, "")
         if is_error or not link.is_linked(where):
+            column = box.column(align=True)
+            column.scale_y = 0.7
             for line in textwrap.wrap(said, 32):
-                box.label(text=line)
+                column.label(text=line)
 
 
 class WRINKLE_PT_view(_Panel, bpy.types.Panel):
@@ -410,7 +399,6 @@ CLASSES = (
     WRINKLE_OT_export_all,
     WRINKLE_OT_send_mesh,
     WRINKLE_OT_bring_mesh,
-    WRINKLE_OT_report,
     WRINKLE_PT_view,
     WRINKLE_PT_nodes,
 )
