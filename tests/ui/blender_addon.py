@@ -179,7 +179,8 @@ def check_displacement():
         bpy.ops.wrinkle.import_set(filepath=os.path.abspath(path))
         made = thing.active_material
         made.wrinkle.use = "DISPLACEMENT"
-        assert getattr(made, "displacement_method", made.cycles.displacement_method) == "BOTH"
+        owner = made if hasattr(made, "displacement_method") else made.cycles
+        assert owner.displacement_method == "BOTH"
         # a plane of the same numbers is a hundredth as wide in a scene of centimetres: its relief has 100 times the units
         z = [unit * h for h in heights_seen(thing, 48, 32)]
         error, worst = scale_error(z, 48, 32)

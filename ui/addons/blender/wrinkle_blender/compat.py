@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Differences between Blender 3.4 and 4.x; no other file asks for the version.
 
-Run with 3.4.1 (Debian 12). For 4.x read in Blender's own API change logs, not run:
-  4.0  NodeTree.inputs and .outputs became NodeTree.interface
-       https://docs.blender.org/api/4.0/change_log.html, https://docs.blender.org/api/4.3/bpy.types.NodeTreeInterface.html
-  4.1  CyclesMaterialSettings.displacement_method became Material.displacement_method; Mesh.use_auto_smooth was removed
+Run with 3.4.1 (Debian 12). For 4.x these pages were read; nothing was run there:
+  4.0  NodeTree.inputs and .outputs became NodeTree.interface: https://docs.blender.org/api/4.3/bpy.types.NodeTreeInterface.html
+  4.1  CyclesMaterialSettings.displacement_method was removed, for Material.displacement_method:
        https://docs.blender.org/api/4.1/change_log.html
+  4.1  Mesh.use_auto_smooth was removed: https://github.com/REDxEYE/SourceIO/issues/305
+  4.4  obj_export as below: export_active_obj.py of https://github.com/varkenvarken/blenderaddons
 The inputs of the Principled BSDF that 4.0 renamed are not used: "Base Color" and "Normal" kept their names."""
 
 
@@ -51,7 +52,7 @@ def export_obj(bpy, path, scale):
         export_materials=False,
         forward_axis="Y",
         up_axis="Z",
-        # 3.x scaling_factor, https://docs.blender.org/api/3.4/bpy.ops.wm.html; 4.x global_scale, .../api/4.2/bpy.ops.wm.html
+        # scaling_factor in 3.4; other versions of the same operator say global_scale
         **{"global_scale" if "global_scale" in known else "scaling_factor": scale},
     )
 
