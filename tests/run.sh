@@ -63,22 +63,33 @@ build() {
     wr_say "$name: built in $((SECONDS - begin)) s"
 }
 
-# run_tests NAME FOLDER CTEST-ARGUMENT...: runs tests of a folder that was built, and counts them.
-run_tests() {
-    local name=$1 folder=$2 begin=$SECONDS log bad all
+# tests_of FOLDER LOG CTEST-ARGUMENT...: runs tests of a folder that was built.
+tests_of() {
+    local folder=$1 log=$2
     shift 2
-    log=$folder/tests.log
     ctest --test-dir "$folder" --parallel $(($(nproc) * 3 / 2)) --timeout 900 "$@" 2>&1 | tee "$log"
+}
+
+# count NAME LOG: adds what tests_of wrote.
+count() {
+    local bad all
     # "97% tests passed, 2 tests failed out of 60"
-    read -r bad all < <(sed -nE 's/.* ([0-9]+) tests? failed out of ([0-9]+)$/\1 \2/p' "$log") || true
+    read -r bad all < <(sed -nE 's/.* ([0-9]+) tests? failed out of ([0-9]+)$/\1 \2/p' "$2") || true
     if [[ -z ${all:-} || $all -eq 0 ]]; then
-        wr_say "$name: no test ran"
+        wr_say "$1: no test ran"
         failed=$((failed + 1))
         return
     fi
     passed=$((passed + all - bad))
     failed=$((failed + bad))
-    wr_say "$name: $all tests in $((SECONDS - begin)) s, $bad failed"
+    wr_say "$1: $all tests, $bad failed, after $SECONDS s"
+}
+
+# run_tests NAME FOLDER CTEST-ARGUMENT...
+run_tests() {
+    local name=$1 log=$2/tests.log
+    tests_of "$2" "$log" "${@:3}"
+    count "$name" "$log"
 }
 
 packages=("${wr_program_packages[@]}" "${wr_test_packages[@]}")
@@ -99,18 +110,32 @@ if build "optimised" "$prefix" "${optimised[@]}"; then
 else
     ready=no failed=$((failed + 1))
 fi
-# Tests of the window wait much of the time, and so do some others: the next build takes the processor time that is left.
+# Some tests wait: the next build takes the processor time that is left.
 (
     renice -n 19 "$BASHPID" >/dev/null
     build "address and undefined" "$prefix-asan" "${address[@]}"
 ) &
 builder=$!
 [[ $ready == yes ]] && run_tests "optimised" "$prefix" -LE "$leave_out"
-[[ -f $prefix/wrinkle ]] && run_tests "window" "$prefix" -L window
+# Tests of the window wait most of the time; sanitized ones run beside them, and step back.
+window='' log=$prefix/window.log
+if [[ -f $prefix/wrinkle ]]; then
+    tests_of "$prefix" "$log" -L window >/dev/null &
+    window=$!
+fi
 if wait "$builder"; then
-    run_tests "address and undefined" "$prefix-asan" -L "$sanitized"
+    (
+        renice -n 19 "$BASHPID" >/dev/null
+        tests_of "$prefix-asan" "$prefix-asan/tests.log" -L "$sanitized"
+    )
+    count "address and undefined" "$prefix-asan/tests.log"
 else
     failed=$((failed + 1))
+fi
+if [[ -n $window ]]; then
+    wait "$window"
+    cat "$log"
+    count "window" "$log"
 fi
 if [[ $full == yes ]]; then
     if build "threads" "$prefix-tsan" CMAKE_BUILD_TYPE=Debug WR_SANITIZE=thread WR_KERNELS=all; then

@@ -44,6 +44,12 @@ static inline int test_amount(int whole, int sanitized)
     return whole;
 }
 
+/* Of a list of cases, how many to go on by: `step`, `sanitized` under the address sanitizer; with WR_FULL by one. */
+static inline int test_step(int step, int sanitized)
+{
+    return getenv("WR_FULL") ? 1 : test_amount(step, sanitized);
+}
+
 /* A repeatable random stream: splitmix64. */
 typedef struct TestRandom {
     uint64_t state;

@@ -14,8 +14,8 @@
 #include <math.h>
 
 #define THREADS 2
-#define STOPS 14     /* of one picture */
-#define LINE_STOPS 3 /* of one line */
+#define STOPS (getenv("WR_FULL") ? 14 : 9)     /* of one picture */
+#define LINE_STOPS (getenv("WR_FULL") ? 3 : 2) /* of one line */
 #define TABLE "table 130x97", "noise perlin", "surface sphere", "bump height=0.05"
 #define SCENE 10
 
@@ -159,7 +159,7 @@ static void a_line_stops_at_any_look(void **state)
     wr_pool_free(pool);
 }
 
-#define LARGE_STOPS test_amount(6, 3)
+#define LARGE_STOPS (getenv("WR_FULL") ? 6 : 3)
 #define CHECKS_AFTER                                                                               \
     1200 /* one for each of the 768 tiles at most, whose work it ends, and some on the way back */
 #define TILES_AFTER 256 /* of two tables' batch */

@@ -584,13 +584,14 @@ static void hc96_values_that_are_not_finite_are_replaced_and_counted(void **stat
 static void the_bytes_do_not_depend_on_the_number_of_threads(void **state)
 {
     (void)state;
-    const int threads[] = { 1, 2, 7 };
+    const int threads[2][2] = { { 1, 7 }, { 1, 2 } };
     WrDocument *table = document_of(random_field(150, 201, WR_WRAP_CLAMP, -1, 2));
     WrDocument *formula = document_of(new_field(150, 201, WR_WRAP_PERIODIC));
     set_wave(own_scene(formula), 3, 2, 0.5);
     for (int kind = 0; kind < WR_EXPORT_KIND_COUNT; kind++)
-        for (int which = 0; which < 2; which++)
-            for (int t = 0; t < 3; t++) {
+        for (int which = 0; which < 2; which++) {
+            WrExportReport first = { 0 };
+            for (int t = 0; t < 2; t++) {
                 const char *name = wr_export_kinds[kind].name;
                 fit_surface(which ? formula : table, &wr_export_kinds[kind]);
                 bool drawn = wr_export_kinds[kind].write || wr_export_kinds[kind].floats;
@@ -598,8 +599,8 @@ static void the_bytes_do_not_depend_on_the_number_of_threads(void **state)
                     options_of(name, drawn ? NULL : SETTINGS("depth=8", "dither=on"));
                 options.range = WR_EXPORT_RANGE_AUTO;
                 options.scheme = WR_SCHEME_BSPLINE_FIT;
-                WrPool *pool = wr_pool_new(threads[t]);
-                WrExportReport report, first;
+                WrPool *pool = wr_pool_new(threads[which][t]);
+                WrExportReport report;
                 const char *ending = wr_export_kinds[kind].ending;
                 char path[16], line[64];
                 snprintf(path, sizeof path, "%s.%s", t == 0 ? "first" : "other",
@@ -613,6 +614,7 @@ static void the_bytes_do_not_depend_on_the_number_of_threads(void **state)
                 assert_int_equal(system(line), 0);
                 assert_true(report.clipped == first.clipped && report.low == first.low);
             }
+        }
     wr_document_free(table);
     wr_document_free(formula);
 }

@@ -198,7 +198,7 @@ static void bad_values_give_one_error_that_names_the_parameter(void **state)
 }
 
 /* Every parameter at each end of its range separately, on the smallest and on odd tables (in an ordinary run each
- * high end on one of those, alternating): it works with finite heights, or reports an error. */
+ * end on one of those, alternating): it works with finite heights, or reports an error. */
 static void check_ends(const WrGenerator *g)
 {
     const bool full = getenv("WR_FULL");
@@ -206,7 +206,8 @@ static void check_ends(const WrGenerator *g)
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
         WrField *like = table_of(sizes[s][0], sizes[s][1]);
         for (int i = 0; g->params[i].name; i++)
-            for (int end = 0; end < (full || (size_t)i % 3 == s ? 2 : 1); end++) {
+            for (int end = 0; end < 2; end++) {
+                if (!full && (size_t)(i + end) % 3 != s) continue;
                 const WrParam *p = &g->params[i];
                 WrParamValue values[WR_GENERATOR_PARAMS];
                 WrError err = { "" };

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A painter's first hours, by hand: thirty tasks in the real window, each checked by what was saved or written, a
+# A painter's first hours, by hand: thirty-six tasks in the real window, each checked by what was saved or written, a
 # screenshot of each kept.  window_tour.sh PROGRAM SOURCE-FOLDER [PICTURES [WIDTHxHEIGHT [SCALE [THEME [MANAGER]]]]]
 #
 # PICTURES: a folder that keeps the screenshots, or none. THEME: 0 dark, 1 light, 2 high contrast. MANAGER: a window
@@ -246,6 +246,58 @@ search 'solid sphere'
 settle
 key Return
 became 'solid sphere*'
+done_with
+
+task 'a layer changed after the fact'
+save spheres
+search 'Edit filter or generator'
+settle
+key ctrl+a
+done_with
+key Return
+
+task 'layers in a group'
+search 'Layer below'
+search 'Choose all layers'
+search 'Group layers'
+became 'layer group *'
+save grouped
+is "$(ask grouped '[.layer_list[] | select(.group)] | length')" 1 'the number of groups'
+done_with
+
+task 'a linked copy'
+search 'Layer below'
+search 'Linked copy'
+became 'layer duplicate *linked=on*'
+save linked
+done_with
+
+task 'a live mask'
+search 'Live mask'
+settle
+key Return
+became 'layer mask * live=*'
+done_with
+
+task 'two variants'
+search 'New variant'
+settle
+xdotool type --delay 15 'new'
+key Return
+became 'variant add *'
+search 'Layer is shown'
+search 'New variant'
+settle
+xdotool type --delay 15 'worn'
+key Return
+became 'variant add worn*'
+save variants
+done_with
+
+task 'a layer becomes heights'
+search 'Rasterize layer'
+became 'layer rasterize*'
+search 'Layer is shown'
 done_with
 
 task 'half a cell on'

@@ -346,6 +346,6 @@ void wr_dialog_dynamics(WrApp *app)
     wr_gui_space(4);
     chips(app);
     wr_gui_space(8);
-    if (wr_gui_button("Close", true) || wr_gui_escape_pressed()) wr_dialog_close(app);
+    wr_dialog_close_button(app, "Close");
     wr_gui_dialog_end();
 }

@@ -126,7 +126,7 @@ void wr_dialog_link(WrApp *app)
         wr_busy_hold(app);
         if (!layer_row(app, call)) number_rows(app, call);
         wr_busy_hold_end();
-        if (wr_gui_button("Done", true) || wr_gui_escape_pressed()) wr_dialog_close(app);
+        wr_dialog_close_button(app, "Done");
         wr_gui_dialog_end();
     }
     wr_call_free(call);

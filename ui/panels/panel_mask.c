@@ -240,7 +240,7 @@ void wr_dialog_mask(WrApp *app)
         if (!changed && terms.count < WR_MASK_TERMS && wr_gui_button("Add a term", false))
             put_term(app, &terms, terms.count, "noise");
         wr_busy_hold_end();
-        if (wr_gui_button("Done", true) || wr_gui_escape_pressed()) wr_dialog_close(app);
+        wr_dialog_close_button(app, "Done");
         wr_gui_dialog_end();
     }
     wr_mask_terms_free(&terms);

@@ -89,6 +89,12 @@ int wr_dialog_buttons(WrApp *app, const char *done, bool enabled)
     return answer;
 }
 
+void wr_dialog_close_button(WrApp *app, const char *word)
+{
+    const bool key = !app->dialog->fresh && (wr_gui_escape_pressed() || wr_gui_return_pressed());
+    if (wr_gui_button(word, true) || key) wr_dialog_close(app);
+}
+
 SDL_Rect wr_dialog_side(const WrApp *app)
 {
     int wide = app->layout->panel.w > 0 ? app->layout->panel.w : wr_gui_px(320);

@@ -54,6 +54,8 @@ SDL_Rect wr_dialog_side(const WrApp *app);
 void wr_dialog_open(WrApp *app, WrDialog dialog);
 /* The buttons at the end of a dialog: 1 confirmed, -1 cancelled (also by Escape), 0 neither. */
 int wr_dialog_buttons(WrApp *app, const char *done, bool enabled);
+/* The button of a dialog whose changes are made at once; it, Enter and Escape close the dialog. */
+void wr_dialog_close_button(WrApp *app, const char *word);
 /* wr_time_left as text in the user's language, "0:07 left"; "" for NAN. */
 #define WR_TIME_LEFT 24
 void wr_time_left_words(WrTimeLeft *task, double fraction, double seconds, char text[WR_TIME_LEFT]);
