@@ -23,7 +23,7 @@ wr_test_packages=(
 )
 # Of tests/run.sh --full.
 # shellcheck disable=SC2034
-wr_full_packages=(krita python3-pyqt5)
+wr_full_packages=(blender krita python3-pyqt5)
 
 wr_say() {
     printf 'wrinkle: %s\n' "$*" >&2

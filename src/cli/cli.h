@@ -55,6 +55,7 @@ struct WrCli {
     const char *coding; /* --coding */
     const char *kind;   /* --as */
     bool watch;         /* --watch */
+    const char *live;   /* --live; NULL: not given */
     bool sized;         /* --size was given */
     int width, height;  /* default 512x512 */
     bool framed;        /* --frames was given */
@@ -105,7 +106,8 @@ struct WrCli {
 
 typedef enum WrOption {
     WR_OPTION_OUT,
-    WR_OPTION_AS, /* --as, --watch */
+    WR_OPTION_AS,   /* --as, --watch */
+    WR_OPTION_LIVE, /* --live, --as of its maps */
     WR_OPTION_SIZE,
     WR_OPTION_FULL,
     WR_OPTION_RENDER, /* --frames, --of, --turn, --fps, --loop, --missing, --memory */
@@ -154,6 +156,8 @@ bool wr_cli_open(const WrCli *cli, WrSession *session, WrError *err);
 WrDoc *wr_cli_doc(const WrCli *cli, bool outputs, WrError *err);
 /* An empty session with notes to standard error. */
 WrSession *wr_cli_session(const WrCli *cli, bool outputs, WrError *err);
+/* True if the word is a kind of export or a set. False with an error that suggests one. */
+bool wr_cli_check_kind(const char *name, WrError *err);
 /* Index of a word in a list. False with an error that names the option and suggests a word: "--as hieght: ..." */
 bool wr_cli_find_word(const char *option, const char *word,
                       const char *(*list)(const void *ctx, int i), const void *ctx, int *place,

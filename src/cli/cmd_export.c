@@ -200,11 +200,16 @@ static bool is_set(const char *name)
     return found;
 }
 
+bool wr_cli_check_kind(const char *name, WrError *err)
+{
+    return wr_export_find(name) || is_set(name) || fail_unknown(name, err);
+}
+
 static bool export_as(const WrCli *cli, Last *last, WrText *report, WrError *err)
 {
     const WrExportKind *kind = wr_export_find(cli->kind);
     if (kind) return export_file(cli, kind, last, report, err);
-    if (!is_set(cli->kind)) return fail_unknown(cli->kind, err);
+    if (!wr_cli_check_kind(cli->kind, err)) return false;
     WrMapSet *set = wr_map_set_find(cli->kind, err);
     bool good = set && export_maps(cli, set, last, report, err);
     wr_map_set_free(set);
@@ -252,12 +257,13 @@ static bool is_another(const WrCli *cli, WrFileIdentity *stamp, const Last *last
     return other;
 }
 
-/* Wait until no change has come for SETTLE_SECONDS; a file that another program still writes is empty or in part. */
+/* Wait until no change has come for SETTLE_SECONDS; a file that another program still writes is empty or in part. A
+   file that replaced another by its name is complete. */
 static WrWatchEnd settle(const WrCli *cli, WrWatch *watch)
 {
     WrWatchEnd end;
     do end = wr_watch_wait(watch, SETTLE_SECONDS);
-    while (end == WR_WATCH_CHANGED && !is_cancelled(cli));
+    while ((end == WR_WATCH_CHANGED || end == WR_WATCH_REPLACED) && !is_cancelled(cli));
     return end;
 }
 

@@ -5,8 +5,11 @@
 #include "base/text.h"
 
 #ifdef WR_HAVE_UI
+#include "scene/export_settings.h"
 #include "system/process.h"
 #include "ui/app/app.h"
+
+#include <string.h>
 
 static void keep_note(void *ctx, const char *text)
 {
@@ -26,6 +29,17 @@ static bool open_asked(WrSession *session, void *ctx, WrError *err)
     return good;
 }
 
+/* --live needs a document, whose name its maps have. */
+static bool check_live(const WrCli *cli, WrError *err)
+{
+    if (cli->live && !cli->file) return wr_fail(err, "paint: --live needs FILE");
+    if (cli->live && strlen(cli->live) >= WR_SHEET_FOLDER)
+        return wr_fail(err, "--live %.60s...: must be shorter than %d bytes", cli->live,
+                       WR_SHEET_FOLDER);
+    if (cli->kind && !cli->live) return wr_fail(err, "paint: --as needs --live FOLDER");
+    return !cli->kind || wr_cli_check_kind(cli->kind, err);
+}
+
 /* The window shows notes itself. */
 int wr_cli_paint(const WrCli *cli)
 {
@@ -42,6 +56,10 @@ int wr_cli_paint(const WrCli *cli)
     WrSession *session = wr_session_new(&options);
     const bool given = cli->file || cli->do_count > 0;
     int status = WR_EXIT_FAILED;
+    if (!check_live(cli, &err)) {
+        wr_session_free(session);
+        return wr_cli_fail(cli, cli->live && cli->file ? WR_EXIT_FAILED : WR_EXIT_USAGE, &err);
+    }
     if (!given) wr_session_set_journal(session, true);
     if (wr_api_check_instruction_set(cli->isa, &err)) {
         WrAppOptions app = { .session = session,
@@ -49,6 +67,9 @@ int wr_cli_paint(const WrCli *cli)
                              .open_ctx = (void *)cli,
                              .file = cli->do_count == 0 ? cli->file : NULL,
                              .file_given = given,
+                             .live_folder = cli->live,
+                             .live_as = cli->kind,
+                             .live_file = cli->file,
                              .threads = cli->threads,
                              .isa = cli->isa,
                              .notes = &notes };

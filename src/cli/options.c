@@ -45,6 +45,13 @@ static bool set_out(WrCli *cli, const char *value, WrError *err)
     return true;
 }
 
+static bool set_live(WrCli *cli, const char *value, WrError *err)
+{
+    if (!*value) return wr_fail(err, "--live: the folder's name is empty");
+    cli->live = value;
+    return true;
+}
+
 /* The ending of a file's name, with or without its dot. */
 static bool set_format(WrCli *cli, const char *value, WrError *err)
 {
@@ -233,6 +240,14 @@ static const struct Option {
     { "--watch", NULL, NULL, WR_OPTION_AS,
       "stay, and write again when FILE or a file that it reads changes",
       .member = offsetof(WrCli, watch) },
+    { "--live", NULL, "FOLDER", WR_OPTION_LIVE,
+      "write the maps of FILE into FOLDER, and again after each change, as *Live* of *Export maps* "
+      "does",
+      .set = set_live },
+    { "--as", NULL, "KIND", WR_OPTION_LIVE,
+      "maps of --live: a set, or a kind of export (default: those chosen last for FILE, or "
+      "blender)",
+      .member = offsetof(WrCli, kind) },
     { "--as", NULL, "KIND", WR_OPTION_CHECK,
       "content of the files: height, normal, slopes or colour (default: detected)",
       .member = offsetof(WrCli, kind) },

@@ -5,7 +5,7 @@
 #define BIT(name) (1u << WR_OPTION_##name)
 
 const WrSubcommand wr_subcommands[] = {
-    { "paint", "[paint] [FILE]", "the window", 0,
+    { "paint", "[paint] [FILE] [--live FOLDER [--as KIND]]", "the window", BIT(LIVE),
       "Opens FILE, or a starter document, for painting.", wr_cli_paint },
     { "run", "run SCRIPT [--json]", "run a script's commands, files included", BIT(JSON),
       "SCRIPT is a text file with one command a line; - reads standard input. Files are read "
@@ -31,7 +31,8 @@ const WrSubcommand wr_subcommands[] = {
       "the table for other programs", BIT(OUT) | BIT(AS) | BIT(FORMAT) | BIT(FILES) | BIT(JSON),
       "`wrinkle help export` lists the kinds and their arguments. `--as SET -o FOLDER` writes the "
       "maps for another program, "
-      "all or none: blender, gltf, unreal, unity, godot, substance, renderman, arnold, povray, and "
+      "all or none: blender, gltf, unreal, unity, godot, substance, renderman, arnold, povray, "
+      "blender-live, and "
       "those of your own, NAME.set in the folder sets of your settings.\n"
       "Of several files, or where OUT is a folder, each output is OUT/NAME.ENDING. A file that "
       "fails "

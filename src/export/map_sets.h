@@ -50,7 +50,7 @@ typedef struct WrMapSet {
 typedef struct WrMapSetRow {
     const char *name, *about, *maps;
 } WrMapSetRow;
-#define WR_MAP_SET_ROWS 9
+#define WR_MAP_SET_ROWS 10
 extern const WrMapSetRow wr_map_set_rows[];
 
 /* The set of that name; the user's have priority. Owned by the caller (wr_map_set_free). NULL and an error: there is

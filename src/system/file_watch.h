@@ -14,9 +14,9 @@ bool wr_watch_add(WrWatch *watch, const char *path);
 
 typedef enum WrWatchEnd {
     WR_WATCH_NOTHING, /* timeout or interrupt */
-    WR_WATCH_CHANGED, /* a writer has closed one of the files, or it was replaced; the content may
-                         be equal */
-    WR_WATCH_LOST     /* a folder was removed */
+    WR_WATCH_REPLACED, /* another file was renamed to one of the paths, and is complete; the content may be equal */
+    WR_WATCH_CHANGED, /* a writer has closed one of the files; the content may be equal, or incomplete */
+    WR_WATCH_LOST /* a folder was removed */
 } WrWatchEnd;
 /* Sleeps until a change, `seconds` at most. */
 WrWatchEnd wr_watch_wait(WrWatch *watch, double seconds);

@@ -460,7 +460,7 @@ static WrWatchEnd judge(const WrWatch *watch, const struct inotify_event *event)
         if (event->wd != watch->marks[i].folder) continue;
         if (event->mask & (IN_DELETE_SELF | IN_MOVE_SELF)) return WR_WATCH_LOST;
         if (event->len > 0 && strcmp(event->name, watch->marks[i].name) == 0)
-            return WR_WATCH_CHANGED;
+            return event->mask & IN_MOVED_TO ? WR_WATCH_REPLACED : WR_WATCH_CHANGED;
     }
     return WR_WATCH_NOTHING;
 }

@@ -75,6 +75,7 @@ static void every_set_has_the_names_and_formats_of_its_program(void **state)
         { "arnold", "clay_ao.exr", WR_PIXEL_F32, 1, 0 },
         { "arnold", "clay_roughness.exr", WR_PIXEL_F32, 1, 0 },
         { "povray", "clay_hf.png", WR_PIXEL_U16, 1, 0 },
+        { "blender-live", "clay_displacement.exr", WR_PIXEL_F32, 1, 0 },
     };
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         WrError err = { "" };

@@ -13,7 +13,7 @@ mkdir -m 700 "$home/runtime"
 mkdir "$home/resources"
 export HOME=$home XDG_CONFIG_HOME=$home/config XDG_DATA_HOME=$home/data XDG_RUNTIME_DIR=$home/runtime
 export PYTHONDONTWRITEBYTECODE=1 WRINKLE_PROGRAM=$1/wrinkle KRITA_RESULT=$home/result
-/usr/bin/python3 - "$importer" "$1/wrinkle_krita.zip" "$home/resources" <<'PYTHON' || exit 1
+/usr/bin/python3 - "$importer" "$1/wrinkle-krita.zip" "$home/resources" <<'PYTHON' || exit 1
 import builtins
 import sys
 builtins.i18n = str

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The export sheet under an X server of its own: a set is written by the button, all its files at once; its settings stay
 # with the document; live, the files follow a stroke; what cannot be written is told, and ends it; also in a small window
-# at scale 2.  window_export.sh PROGRAM SOURCE-FOLDER
+# at scale 2; `--live` on the command line.  window_export.sh PROGRAM SOURCE-FOLDER
 set -uo pipefail
 program=$1
 source=$2
@@ -89,4 +89,32 @@ xdotool key ctrl+q
 rest
 if ! is_gone; then xdotool key d; fi
 ends 0
+
+# --live: the maps of the line's set are there without a dialog, have the document's name, and follow a stroke.
+export WRINKLE_SCALE=1
+mkdir maps
+live_there() { [[ -s maps/tile_displacement.exr ]]; }
+live_sum() { sha256sum maps/tile_displacement.exr; }
+live_differs() { [[ $(live_sum) != "$1" ]]; }
+start tile.wrinkle --live maps --as blender-live
+until_true 120 "maps of --live" live_there
+rest
+[[ $(ls maps) == tile_displacement.exr ]] || complain "--live wrote $(ls maps)"
+old=$(live_sum)
+xdotool mousemove $((X + 230)) $((Y + 400))
+rest
+xdotool mousedown 1
+rest
+for _ in 1 2 3 4 5 6; do xdotool mousemove_relative -- 9 4 && rest; done
+xdotool mouseup 1
+until_true 120 "maps of --live that follow the hand" live_differs "$old"
+xdotool key ctrl+q
+rest
+if ! is_gone; then xdotool key d; fi
+ends 0
+for line in 'paint --live maps' 'paint tile.wrinkle --as blender' 'paint tile.wrinkle --live maps --as blendre'; do
+    # shellcheck disable=SC2086  # words of a line
+    "$program" $line >log 2>&1 && complain "no error: $line"
+    grep -q '^wrinkle: ' log || complain "$line: $(cat log)"
+done
 exit $((failures > 0))

@@ -39,4 +39,4 @@ if(RSVG_CONVERT)
     add_custom_target(icons ALL DEPENDS ${rendered})
 endif()
 
-include(ui/addons/krita/krita.cmake)
+include(ui/addons/addons.cmake)

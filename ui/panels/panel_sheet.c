@@ -9,6 +9,7 @@
 #include "ui/toolkit/gui_sdl_renderer.h"
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/dialog.h"
+#include "ui/app/state/document.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 
@@ -33,7 +34,10 @@
 /* Background work: pictures while the dialog is open; files after the button or, in live export, after each pause in
    editing. Live export ends at the first error. */
 
-#define PAUSE_SECONDS 0.5 /* pause in editing before files are written again */
+/* Pause in editing before files are written again, so that large files are not begun after each of several strokes:
+   the time of the last writing beyond SOON_SECONDS, at most PAUSE_SECONDS. Small files are written at once. */
+#define PAUSE_SECONDS 0.5
+#define SOON_SECONDS 0.25
 
 /* ---- settings and their storage in the document ---- */
 
@@ -103,6 +107,7 @@ static WrSheetState *sheet_open(WrApp *app)
     app->sheet = wr_alloc(1, sizeof *app->sheet);
     take_place(app, &app->sheet->ask);
     app->sheet->names = wr_map_set_names();
+    app->sheet->pause = PAUSE_SECONDS;
     return app->sheet;
 }
 
@@ -243,6 +248,7 @@ static void take_write(WrApp *app)
     WrSheetWrite *write = sheet->write ? wr_job_take(sheet->write) : NULL;
     if (!write) return;
     if (write->ok) {
+        sheet->pause = fmin(fmax(write->seconds - SOON_SECONDS, 0.0), PAUSE_SECONDS);
         if (sheet->loud) wr_app_say_each_line(app, wr_text_get(&write->report));
         wr_app_say(app,
                    write->files == 1 ? "%s: wrote %d file to %s in %.2g s%s"
@@ -289,7 +295,7 @@ static void follow(WrApp *app)
         sheet->seen_key = key;
         sheet->seen_at = now;
     }
-    if (key != sheet->written_key && now - sheet->seen_at >= PAUSE_SECONDS) sheet_write(app, false);
+    if (key != sheet->written_key && now - sheet->seen_at >= sheet->pause) sheet_write(app, false);
 }
 
 static bool waits(const WrApp *app)
@@ -308,7 +314,7 @@ static void update(WrApp *app)
 
 static double next_time(const WrApp *app)
 {
-    return waits(app) ? app->sheet->seen_at + PAUSE_SECONDS : 0.0;
+    return waits(app) ? app->sheet->seen_at + app->sheet->pause : 0.0;
 }
 
 static bool works(WrApp *app)
@@ -319,9 +325,30 @@ static bool works(WrApp *app)
            (sheet->write && wr_job_busy(sheet->write, NULL, NULL));
 }
 
+/* Live export that was requested on the command line, into that folder only. A set that is named there is written as it
+   is, without the document's settings of another. */
+static void start_live(WrApp *app)
+{
+    const WrAppOptions *o = app->options;
+    WrSheetRequest *ask = &sheet_open(app)->ask;
+    if (o->live_as) *ask = (WrSheetRequest){ .as = "" };
+    WrText name = { 0 };
+    wr_map_set_cell_name(o->live_file, &name);
+    snprintf(ask->name, sizeof ask->name, "%.120s", wr_text_get(&name));
+    wr_text_fini(&name);
+    snprintf(ask->folder, sizeof ask->folder, "%s", o->live_folder);
+    if (o->live_as) snprintf(ask->as, sizeof ask->as, "%s", o->live_as);
+    app->sheet->live = true;
+    sheet_write(app, false);
+}
+
 /* Another document has other files. */
 static void another(WrApp *app)
 {
+    if (!app->sheet && app->options->live_folder && !app->file->unread) {
+        start_live(app);
+        return;
+    }
     if (!app->sheet) return;
     app->sheet->live = false;
     app->sheet->key = 0;
@@ -675,9 +702,8 @@ static void buttons(WrApp *app, WrSheetState *sheet)
     wr_gui_same_line(16);
     if (wr_gui_check("Live: write again after each pause", &sheet->live) && sheet->live && good)
         sheet_write(app, false);
-    wr_gui_tip("As long as this is on, the files follow the brush: half a second after the last "
-               "change that they know "
-               "of they are written again, all at once. An error ends it");
+    wr_gui_tip("As long as this is on, the files follow the brush: half a second or less after "
+               "the last change they are written again, all at once. An error ends it");
 }
 
 void wr_dialog_sheet(WrApp *app)

@@ -21,7 +21,8 @@ typedef struct WrSheetState {
     /* live: key of the present state, and the time of its first appearance */
     uint64_t seen_key;
     double seen_at;
-    bool loud; /* the running export was started by the button */
+    double pause; /* live: seconds from the last change to the writing */
+    bool loud;    /* the running export was started by the button */
 } WrSheetState;
 
 void wr_dialog_sheet(WrApp *app);

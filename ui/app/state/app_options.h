@@ -15,10 +15,13 @@ typedef struct WrAppOptions {
     void *open_ctx;
     const char
         *file; /* with open: requested file, if nothing else was requested; borrowed; NULL: none */
-    bool file_given;   /* false: the window opens the starter document (samples/bricks.wrinkle) */
-    int threads;       /* for the preview, as in wr_pool_new */
-    const char *isa;   /* kernel set of the preview, as in wr_renderer_new; NULL: auto */
-    int width, height; /* of the window, pixels; 0: the last size, at first 1440 x 900 */
+    bool file_given; /* false: the window opens the starter document (samples/bricks.wrinkle) */
+    /* live export from the start: folder of the maps, set or kind (NULL: the document's), and the file
+       whose name they have; borrowed; live_folder NULL: off */
+    const char *live_folder, *live_as, *live_file;
+    int threads;                /* for the preview, as in wr_pool_new */
+    const char *isa;            /* kernel set of the preview, as in wr_renderer_new; NULL: auto */
+    int width, height;          /* of the window, pixels; 0: the last size, at first 1440 x 900 */
     const volatile int *cancel; /* may be NULL; non-zero: stop a measurement */
     /* buffer that receives the session's notes, each line ended by '\n'; the window shows and
        clears them. May be NULL */

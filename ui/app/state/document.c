@@ -258,6 +258,7 @@ static void asked_is_done(WrApp *app, void *ctx, bool ok, const WrError *err)
         return;
     }
     wr_busy_fail(app, "opening", err);
+    app->file->unread = true;
     wr_app_changed_document(app); /* some of the lines may have run */
     wr_free(ctx);
 }

@@ -49,6 +49,7 @@ typedef struct WrDocumentState {
     /* additional revision that counts as saved: a starter made by commands */
     uint64_t clean_revision;
     bool starter;          /* the document is the starter */
+    bool unread;           /* the requested document could not be opened */
     struct WrAhead *ahead; /* starter being loaded; owned */
 } WrDocumentState;
 
