@@ -246,7 +246,7 @@ class Verbs:
         self, *_values: Any, shift: Sequence[float] | None = ..., turn: float | None = ..., scale: Sequence[float] |
         None = ..., factor: float | None = ...
     ) -> None:
-        """Copy the heights and the coverage of another layer."""
+        """Copy the heights and the coverage of another layer or group."""
 
     def open(
         self, *_values: Any, sha256: str | None = ...
@@ -258,10 +258,11 @@ class Verbs:
         'flatten', 'clear', 'solo', 'mask', 'paste', 'group', 'ungroup'], /, *_values: Any, from_: Any | None = ...,
         blend: Literal['add', 'subtract', 'max', 'min', 'smooth-max', 'smooth-min', 'replace', 'mix', 'multiply'] | None
         = ..., opacity: float | None = ..., radius: float | None = ..., above: int | str | None = ..., in_: Any | None =
-        ..., part: Literal['heights', 'mask'] | None = ..., to: float | None = ..., change: Any | None = ..., visible:
-        bool | str | None = ..., collapsed: bool | str | None = ..., lock: bool | str | None = ..., linked: bool | str |
-        None = ..., low: float | None = ..., high: float | None = ..., soft: float | None = ..., live: Any | None = ...,
-        at: Sequence[float] | None = ..., size: float | None = ..., sha256: str | None = ..., of: int | str | None = ...
+        ..., part: Literal['heights', 'mask'] | None = ..., to: float | None = ..., change: Any | None = ..., name: str
+        | None = ..., visible: bool | str | None = ..., collapsed: bool | str | None = ..., lock: bool | str | None =
+        ..., linked: bool | str | None = ..., low: float | None = ..., high: float | None = ..., soft: float | None =
+        ..., live: Any | None = ..., at: Sequence[float] | None = ..., size: float | None = ..., sha256: str | None =
+        ..., of: int | str | None = ...
     ) -> None:
         """Add, order, join and set layers."""
 
@@ -468,7 +469,8 @@ class Verbs:
         """The background behind the objects."""
 
     def tone(
-        self, *_values: Any, exposure: float | None = ...
+        self, *_values: Any, exposure: float | None = ..., view: Any | None = ..., display: Any | None = ..., ocio: Any
+        | None = ..., space: Any | None = ...
     ) -> None:
         """Exposure, and tone mapping of light too bright for a picture."""
 
