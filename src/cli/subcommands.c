@@ -105,7 +105,8 @@ const WrSubcommand wr_subcommands[] = {
       "--sheet paints the same stroke with each and shows them lit, with their names.",
       wr_cli_brushes },
     { "bench",
-      "bench [PART...|all|generate|brushes|edits|window] [--quick] [--exact] [--lines] [--size WxH] "
+      "bench [PART...|all|generate|brushes|edits|window] [--quick] [--exact] [--lines] [--size "
+      "WxH] "
       "[--json]",
       "the program's own benchmark", BIT(SIZE) | BIT(JSON) | BIT(ALL_WORDS) | BIT(OWN),
       "Pictures, documents, brushes and the window; with generate alone the generators, beside "
