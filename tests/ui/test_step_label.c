@@ -3,6 +3,7 @@
 
 #include "base/text.h"
 
+#include "ui/app/state/remedy.h"
 #include "ui/app/state/step_label.h"
 
 #include <string.h>
@@ -64,8 +65,46 @@ static void lines_are_said_in_words(void **state)
     wr_text_fini(&out);
 }
 
+static void an_error_offers_the_command_that_it_names(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *shown, *line, *label;
+    } rows[] = {
+        { "stroke: layer 8 \"Moss\" is hidden: `layer set 8 visible=on` shows it",
+          "stroke: layer 8 \"Moss\" is hidden", "layer set 8 visible=on", "Show layer" },
+        { "layer 3 is locked: `layer set 3 lock=off` unlocks it", "layer 3 is locked",
+          "layer set 3 lock=off", "Unlock layer" },
+        { "Ebene 2 ist verborgen: `layer set 2 visible=on` zeigt sie", "Ebene 2 ist verborgen",
+          "layer set 2 visible=on", "Show layer" },
+        /* the first one lacks its values */
+        { "layer 5 is a generator layer: `layer set 5 change=` changes its values, `layer "
+          "rasterize 5` makes heights of it",
+          "layer 5 is a generator layer", "layer rasterize 5", "Rasterize layer" },
+        { "there is no ground: `ground on` lays one", "there is no ground", "ground on",
+          "Correct" },
+        /* a file would be written; words that are no command; an open quote */
+        { "nothing to do: `save a.exr` writes it", NULL, NULL, NULL },
+        { "name= is for a new layer: `layer rename` renames one", NULL, NULL, NULL },
+        { "ends in `layer add", NULL, NULL, NULL },
+        { "", NULL, NULL, NULL },
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        WrRemedy remedy;
+        if (wr_remedy_find(rows[i].text, &remedy) != (rows[i].line != NULL))
+            fail_msg("%s", rows[i].text);
+        if (!rows[i].line) continue;
+        assert_string_equal(remedy.line, rows[i].line);
+        assert_string_equal(remedy.label, rows[i].label);
+        assert_int_equal(remedy.length, strlen(rows[i].shown));
+        assert_memory_equal(rows[i].text, rows[i].shown, (size_t)remedy.length);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(lines_are_said_in_words) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(lines_are_said_in_words),
+                                        cmocka_unit_test(
+                                            an_error_offers_the_command_that_it_names) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,7 +3,9 @@
 #include "ui/canvas/outline.h"
 #include "ui/canvas/view.h"
 #include "ui/app/state/app_state.h"
+#include "ui/app/state/background_command.h"
 #include "ui/app/state/pointer_state.h"
+#include "ui/app/state/remedy.h"
 #include "ui/app/state/layout.h"
 #include "ui/app/state/messages.h"
 #include "ui/app/state/session_view.h"
@@ -19,6 +21,7 @@
 #include "ui/app/jobs/edit_preview.h"
 
 #include "base/exactmath.h"
+#include "base/text.h"
 #include "command/session.h"
 #include "document/document.h"
 #include "field/field.h"
@@ -149,15 +152,31 @@ static bool message(WrApp *app, double from)
     }
     all_messages(app);
     if (!show) return false;
+    WrRemedy remedy;
+    const bool mends = error && wr_remedy_find(show->text, &remedy);
+    WrText text = { 0 };
+    wr_text_add_n(&text, show->text, mends ? (size_t)remedy.length : strlen(show->text));
     const double all = wr_gui_width() - wr_gui_place();
     wr_gui_as_it_is(true);
-    const bool cut = wr_gui_text_width(WR_FONT_TEXT, show->text) > all - wr_gui_px(12);
-    const double room = all - wr_gui_px(error ? 190 : cut ? 100 : 12);
-    wr_gui_text_cut(WR_FONT_TEXT, error ? WR_COLOUR_STRONG : WR_COLOUR_TEXT, show->text, room);
+    const bool cut = wr_gui_text_width(WR_FONT_TEXT, wr_text_get(&text)) > all - wr_gui_px(12);
+    const double button =
+        mends ? wr_gui_text_width(WR_FONT_TEXT, wr_words(remedy.label)) + wr_gui_px(30) : 0.0;
+    const double room = all - wr_gui_px(error ? 190 : cut ? 100 : 12) - button;
+    wr_gui_text_cut(WR_FONT_TEXT, error ? WR_COLOUR_STRONG : WR_COLOUR_TEXT, wr_text_get(&text),
+                    room);
     wr_gui_tip(show->text);
     wr_gui_as_it_is(false);
+    wr_text_fini(&text);
     if (!error && !cut) return true;
     wr_gui_same_line(8);
+    if (mends) {
+        if (wr_gui_chip(NULL, remedy.label)) {
+            dismiss(app);
+            wr_app_run_slow(app, remedy.line);
+        }
+        wr_gui_tip(remedy.line);
+        wr_gui_same_line(6);
+    }
     if (wr_gui_chip(NULL, "Details")) wr_gui_popup_open("messages");
     if (!error) return true;
     wr_gui_same_line(6);

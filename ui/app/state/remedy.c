@@ -1,0 +1,51 @@
+#include "ui/app/state/remedy.h"
+
+#include "base/error.h"
+#include "command/command_line.h"
+#include "command/command_table.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* By what the line contains; the last label is for all others. */
+static const struct {
+    const char *part, *label;
+} labels[] = {
+    { "visible=on", "Show layer" },     { "lock=off", "Unlock layer" },
+    { "solo off", "Show all layers" },  { "live=off", "Rasterize mask" },
+    { "rasterize", "Rasterize layer" }, { "", "Correct" },
+};
+
+/* Writes no file, and is no step back in the history. */
+static bool is_change(const char *line)
+{
+    WrCall *call = NULL;
+    WrError err;
+    if (!wr_call_parse(line, false, &call, &err)) return false;
+    const bool change = call->command && wr_call_class(call) <= WR_CLASS_VIEW;
+    wr_call_free(call);
+    return change;
+}
+
+/* The text is cut before the sentence's colon, so that nothing of the command language remains. */
+static int length_before(const char *text, const char *quote)
+{
+    const char *colon = quote;
+    while (colon > text && *colon != ':') colon--;
+    return (int)(colon > text ? colon - text : quote - text);
+}
+
+bool wr_remedy_find(const char *text, WrRemedy *remedy)
+{
+    for (const char *from = strchr(text, '`'), *to; from && (to = strchr(from + 1, '`'));
+         from = strchr(to + 1, '`')) {
+        snprintf(remedy->line, sizeof remedy->line, "%.*s", (int)(to - from - 1), from + 1);
+        if (to - from - 1 >= (int)sizeof remedy->line || !is_change(remedy->line)) continue;
+        int k = 0;
+        while (!strstr(remedy->line, labels[k].part)) k++;
+        remedy->label = labels[k].label;
+        remedy->length = length_before(text, strchr(text, '`'));
+        return true;
+    }
+    return false;
+}
