@@ -11,7 +11,7 @@ source "$source/tests/window/window_help.sh"
 serve
 # The patch and the outline of a selection stand still, so that the picture changes only when it has a
 # reason to.
-printf 'width 1200\nheight 800\nturning 0\nants 0\nrange_follows 0\nradius 24\nstrength 0.4\nmode 1\n' >"$folder/config/wrinkle/window.conf"
+printf 'width 1200\nheight 800\nturning 0\nants 0\nrange_follows 0\nlower 0.42\nradius 24\nstrength 0.4\nmode 1\n' >"$folder/config/wrinkle/window.conf"
 
 canvas=380x500+60+120
 patch=380x500+500+120

@@ -9,7 +9,7 @@ folder=$(mktemp -d) || exit 1
 source "$source/tests/window/window_help.sh"
 
 serve
-printf '%s\n' 'width 1200' 'height 800' 'turning 0' 'ants 0' 'range_follows 0' >config/wrinkle/window.conf
+printf '%s\n' 'width 1200' 'height 800' 'turning 0' 'ants 0' 'range_follows 0' 'lower 0.42' >config/wrinkle/window.conf
 printf 'table 128x128\nbump height=1\ngrid cells=4x4 width=6\nsave small.exr\n' | "$program" run - >/dev/null || exit 1
 # Nobody waits for the end of this: hours of work.
 {

@@ -209,7 +209,7 @@ key ctrl+Return
 becomes 'text "Blinn *' "the text as a command"
 home
 save_as written.exr
-"$program" run - <<<"$(printf '%s\n' 'table 256x256' 'bump height=0.1' 'layer add Text from="text \"Blinn \\\"78\\\"\""' 'save said.exr')" >/dev/null ||
+"$program" run - <<<"$(printf '%s\n' 'table 256x256' 'bump height=0.1' 'layer add "Text: Blinn \"78\"" from="text \"Blinn \\\"78\\\"\""' 'save said.exr')" >/dev/null ||
     complain "no said.exr"
 [[ $(hash_of written.exr) == "$(hash_of said.exr)" ]] || complain "what was typed is not what the command writes"
 quit
