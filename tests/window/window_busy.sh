@@ -120,7 +120,7 @@ cmp picture.png same.png || complain "the window's picture is another than the c
 rm picture.png
 ask_dialog 'render a picture'
 for y in 349 378; do # width and height
-    xdotool mousemove $((X + 650)) $((Y + y)) keydown ctrl click 1 keyup ctrl
+    xdotool mousemove $((X + 650)) $((Y + y)) click 1
     settle
     key ctrl+a
     xdotool type --delay 20 16384
