@@ -58,11 +58,13 @@ struct WrCli {
     const char *live;   /* --live; NULL: not given */
     bool sized;         /* --size was given */
     int width, height;  /* default 512x512 */
-    bool framed;        /* --frames was given */
-    int first, last;    /* of --frames */
-    int of;             /* --of; 0: not given */
-    double fps;         /* --fps; 0: not given */
-    bool looped;        /* --loop was given */
+    bool banded;        /* --rows was given */
+    int first_row, last_row;
+    bool framed;     /* --frames was given */
+    int first, last; /* of --frames */
+    int of;          /* --of; 0: not given */
+    double fps;      /* --fps; 0: not given */
+    bool looped;     /* --loop was given */
     int loop;
     bool missing;           /* --missing */
     double memory;          /* --memory, MB; 0: not given */
@@ -110,7 +112,7 @@ typedef enum WrOption {
     WR_OPTION_LIVE, /* --live, --as of its maps */
     WR_OPTION_SIZE,
     WR_OPTION_FULL,
-    WR_OPTION_RENDER, /* --frames, --of, --turn, --fps, --loop, --missing, --memory */
+    WR_OPTION_RENDER, /* --rows, --frames, --of, --turn, --fps, --loop, --missing, --memory */
     WR_OPTION_AT,
     WR_OPTION_NOISE,
     WR_OPTION_FACE,

@@ -10,7 +10,8 @@
 
 static bool is_there(const WrCli *cli, const WrSession *session, const char *path)
 {
-    return cli->missing && wr_session_has_rendered(session, path, cli->width, cli->height);
+    const int rows = cli->banded ? cli->last_row - cli->first_row + 1 : cli->height;
+    return cli->missing && wr_session_has_rendered(session, path, cli->width, rows);
 }
 
 static WrTurntable turntable_of(const WrCli *cli)
@@ -50,8 +51,9 @@ static bool render_one(void *ctx, const char *variant, WrError *err)
     const WrCli *cli = render->cli;
     char *out = wr_variant_fill(cli->out, variant);
     const bool there = is_there(cli, render->session, out);
-    const bool good =
-        there || wr_session_render(render->session, out, cli->width, cli->height, 0, err);
+    const WrPictureRows rows = { cli->first_row, cli->last_row - cli->first_row + 1 };
+    const bool good = there || wr_session_render(render->session, out, cli->width, cli->height,
+                                                 cli->banded ? &rows : NULL, 0, err);
     if (there) wr_cli_note("the picture was there");
     wr_free(out);
     return good;
@@ -68,6 +70,8 @@ static bool check_line(const WrCli *cli, WrError *err)
                        cli->out);
     if (to_stdout && cli->missing)
         return wr_fail(err, "render: --missing needs names of files, not -o -");
+    if (cli->banded && cli->framed)
+        return wr_fail(err, "render: --rows is of one picture; --frames A-B makes several");
     if (cli->turned && !cli->framed) return wr_fail(err, "render: --turn needs --frames A-B");
     if (cli->of && !cli->framed) return wr_fail(err, "render: --of needs --frames A-B");
     if (cli->fps > 0 && !cli->framed) return wr_fail(err, "render: --fps needs --frames A-B");

@@ -80,15 +80,28 @@ static bool set_size(WrCli *cli, const char *value, WrError *err)
                    value);
 }
 
-static bool set_frames(WrCli *cli, const char *value, WrError *err)
+/* "A-B" */
+static bool parse_span(const char *option, const char *value, int most, int *first, int *last,
+                       WrError *err)
 {
     const char *dash = strchr(value, '-');
-    cli->framed = true;
-    if (dash && parse_whole(value, (size_t)(dash - value), 0, 999999, &cli->first) &&
-        parse_whole(dash + 1, strlen(dash + 1), 0, 999999, &cli->last) && cli->first <= cli->last)
+    if (dash && parse_whole(value, (size_t)(dash - value), 0, most, first) &&
+        parse_whole(dash + 1, strlen(dash + 1), 0, most, last) && *first <= *last)
         return true;
-    return wr_fail(err, "--frames %.40s: must be A-B, two whole numbers, 0 <= A <= B <= 999999",
-                   value);
+    return wr_fail(err, "%s %.40s: must be A-B, two whole numbers, 0 <= A <= B <= %d", option,
+                   value, most);
+}
+
+static bool set_frames(WrCli *cli, const char *value, WrError *err)
+{
+    cli->framed = true;
+    return parse_span("--frames", value, 999999, &cli->first, &cli->last, err);
+}
+
+static bool set_rows(WrCli *cli, const char *value, WrError *err)
+{
+    cli->banded = true;
+    return parse_span("--rows", value, 65535, &cli->first_row, &cli->last_row, err);
 }
 
 static bool set_of(WrCli *cli, const char *value, WrError *err)
@@ -273,6 +286,9 @@ static const struct Option {
       "write a picture of where each effect ran; of --illusion: outline red, shading green, shadow "
       "blue",
       .set = set_map },
+    { "--rows", NULL, "A-B", WR_OPTION_RENDER,
+      "only these rows of the picture, from 0 at its top: the same pixels as in the whole picture",
+      .set = set_rows },
     { "--frames", NULL, "A-B", WR_OPTION_RENDER,
       "a turntable: #### in OUT becomes the frame's number, or OUT is a film: gif, apng, webp, mp4",
       .set = set_frames },

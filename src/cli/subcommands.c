@@ -14,7 +14,8 @@ const WrSubcommand wr_subcommands[] = {
       "--json prints a receipt of each written file, one object a line.",
       wr_cli_run },
     { "render",
-      "render [FILE] -o OUT [--size WxH] [--frames A-B [--of N] [--fps N]] [--missing] [--json]",
+      "render [FILE] -o OUT [--size WxH] [--rows A-B] [--frames A-B [--of N] [--fps N]] "
+      "[--missing] [--json]",
       "a picture, or a turntable as pictures or as a film",
       BIT(OUT) | BIT(SIZE) | BIT(FULL) | BIT(RENDER) | BIT(FORMAT) | BIT(JSON),
       "exr and tiff files hold linear float red, green, blue and coverage, others 8-bit sRGB over "

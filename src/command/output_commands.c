@@ -51,7 +51,7 @@ static bool run_render(WrSession *session, WrCall *call, WrError *err)
         if (wr_call_given(call, of_frames[i]))
             return wr_fail(err, "%s= is of several frames: say how many, frames=N", of_frames[i]);
     return wr_session_render(session, wr_call_arg(call, "FILE")->text, (int)size[0], (int)size[1],
-                             wr_call_arg(call, "turn")->numbers[0], err);
+                             NULL, wr_call_arg(call, "turn")->numbers[0], err);
 }
 
 /* ---- documents ---- */

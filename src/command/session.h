@@ -240,12 +240,16 @@ void wr_session_keep_chosen(WrSession *session, const char *text);
 const char *wr_chosen_recall(const char *kept, const WrFrameRequest *request, WrChoice *choice);
 /* Text form of a choice for storage in the document. */
 void wr_chosen_write(const WrChoice *choice, const WrFrameRequest *request, WrText *text);
+/* Rows of a picture, counted from 0 at its top. */
+typedef struct WrPictureRows {
+    int first, count;
+} WrPictureRows;
 /* Render to a file: linear float R, G, B, A (premultiplied, background 0) for exr, tif and tiff, else 8-bit sRGB over
    the scene's background. Large pictures are rendered and written in bands of rows, with the same result. Under a
    tolerance the whole picture is kept in memory, since the error bound applies to all of it. Works whatever
-   options.outputs is. */
-bool wr_session_render(WrSession *session, const char *path, int width, int height, double turn_deg,
-                       WrError *err);
+   options.outputs is. rows: the only ones to be written, with the same pixels as in the whole picture; NULL: all. */
+bool wr_session_render(WrSession *session, const char *path, int width, int height,
+                       const WrPictureRows *rows, double turn_deg, WrError *err);
 
 /* Frames of a turntable. A path with #### for the frame number makes one file for each frame; any other path makes
    one film, of a format in export/film.h. */

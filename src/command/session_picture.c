@@ -229,6 +229,7 @@ typedef struct Picture {
     WrSession *session;
     WrFrameRequest request;
     WrFrame frame;      /* rows of the present band */
+    int top, bottom;    /* the file's rows of the picture, [top, bottom) */
     int first;          /* first row of the band */
     int step;           /* rows of a band */
     double drawn;       /* share of a band's work for drawing; the rest is the file */
@@ -251,7 +252,8 @@ static int band_rows(const WrSession *session, int width, int height, size_t pix
 /* Progress of the picture for a share of the present band. */
 static double done_of(const Picture *picture, double share)
 {
-    return (picture->first + share * picture->frame.height) / picture->request.height;
+    return (picture->first - picture->top + share * picture->frame.height) /
+           (picture->bottom - picture->top);
 }
 
 static bool draw(Picture *picture, WrError *err)
@@ -265,7 +267,7 @@ static bool draw(Picture *picture, WrError *err)
 static bool draw_band(Picture *picture, int y, WrError *err)
 {
     WrProgressPart part;
-    const int left = picture->request.height - y;
+    const int left = picture->bottom - y;
     picture->first = y;
     picture->frame.height = left < picture->step ? left : picture->step;
     picture->request.first = y;
@@ -295,7 +297,7 @@ static void count_clipped(Picture *picture, int rows, const uint8_t *codes)
 
 static void report_clipped(const Picture *picture, const char *path)
 {
-    const double pixels = (double)picture->request.width * picture->request.height;
+    const double pixels = (double)picture->request.width * (picture->bottom - picture->top);
     const double share = (double)picture->clipped / pixels;
     if (share > CLIPPED_TOLD)
         wr_session_note(picture->session,
@@ -308,6 +310,7 @@ static void report_clipped(const Picture *picture, const char *path)
 static bool give_rows(void *ctx, int y, int rows, void *out, WrError *err)
 {
     Picture *picture = ctx;
+    y += picture->top;
     if (y >= picture->first + picture->frame.height && !draw_band(picture, y, err)) return false;
     const size_t width = (size_t)picture->request.width, row = width * 4 * sizeof(float);
     const size_t before = (size_t)(y - picture->first) * width;
@@ -364,7 +367,7 @@ static void report_choice(WrSession *session, const char *path)
 static bool write_picture(Picture *picture, const char *path, WrError *err)
 {
     const WrImageOut out = { .width = picture->request.width,
-                             .height = picture->request.height,
+                             .height = picture->bottom - picture->top,
                              .channels = picture->linear || picture->alpha ? 4 : 3,
                              .type = picture->linear ? WR_PIXEL_F32 : WR_PIXEL_U8,
                              .data = picture->linear,
@@ -424,7 +427,7 @@ bool wr_session_has_rendered(const WrSession *session, const char *path, int wid
 static bool session_pixels(WrSession *session, int width, int height, double turn_deg, bool alpha,
                            uint8_t *out, WrError *err)
 {
-    Picture picture = { .session = session, .alpha = alpha, .step = height };
+    Picture picture = { .session = session, .alpha = alpha, .step = height, .bottom = height };
     if (!make_request(session, width, height, turn_deg, &picture.request, err)) return false;
     const WrScene *scene = picture.request.scene;
     picture.request.codes =
@@ -440,11 +443,18 @@ static bool session_pixels(WrSession *session, int width, int height, double tur
     return good;
 }
 
-bool wr_session_render(WrSession *session, const char *path, int width, int height, double turn_deg,
-                       WrError *err)
+bool wr_session_render(WrSession *session, const char *path, int width, int height,
+                       const WrPictureRows *rows, double turn_deg, WrError *err)
 {
     const bool linear = is_linear(path);
-    Picture picture = { .session = session, .linear = linear, .alpha = has_alpha(session, path) };
+    Picture picture = { .session = session,
+                        .linear = linear,
+                        .alpha = has_alpha(session, path),
+                        .top = rows ? rows->first : 0,
+                        .bottom = rows ? rows->first + rows->count : height };
+    if (picture.bottom > height)
+        return wr_fail(err, "rows %d-%d: the picture has rows 0 to %d", picture.top,
+                       picture.bottom - 1, height - 1);
     if (!wr_image_can_write(path, linear ? WR_PIXEL_F32 : WR_PIXEL_U8,
                             linear || picture.alpha ? 4 : 3, linear, err))
         return false;
@@ -453,7 +463,8 @@ bool wr_session_render(WrSession *session, const char *path, int width, int heig
         return false;
     const WrScene *scene = picture.request.scene;
     const bool floats = linear || picture.alpha;
-    picture.step = band_rows(session, width, height, floats ? 4 * sizeof(float) : sizeof(uint32_t));
+    picture.step = band_rows(session, width, picture.bottom - picture.top,
+                             floats ? 4 * sizeof(float) : sizeof(uint32_t));
     picture.request.codes =
         wr_frame_codes_of(scene, !floats && scene->tolerance.kind == WR_TOLERANCE_NONE);
     const double began = wr_clock_seconds();
@@ -466,9 +477,10 @@ bool wr_session_render(WrSession *session, const char *path, int width, int heig
     wr_progress_enter(&part, picture.drawn > 0 ? 0.0 : DRAWN, 1.0);
     good = write_picture(&picture, path, err);
     wr_progress_set(whole);
-    const WrExportReport report = {
-        .width = width, .height = height, .channels = floats ? 4 : 3, .depth = linear ? 32 : 8
-    };
+    const WrExportReport report = { .width = width,
+                                    .height = picture.bottom - picture.top,
+                                    .channels = floats ? 4 : 3,
+                                    .depth = linear ? 32 : 8 };
     if (good) wr_session_receipt(session, path, "picture", &report, began);
     return good;
 }
@@ -569,7 +581,7 @@ static bool write_frame(Turning *turning, int frame, WrError *err)
         turning->there++;
     else
         good = (turning->chosen || choose_for_all(turning, err)) &&
-               wr_session_render(turning->session, path, order->width, order->height,
+               wr_session_render(turning->session, path, order->width, order->height, NULL,
                                  angle_of(turning, frame), err) &&
                ++turning->written;
     wr_text_fini(&name);

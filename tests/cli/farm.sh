@@ -61,8 +61,12 @@ if command -v parallel >/dev/null; then
     run "$(line '^seq 8 | parallel')"
     run "$(line '^mkdir -p unreal')"
     run "$(line '^parallel wrinkle export')"
+    run "$(line '^parallel wrinkle render')"
+    run "$(line '^convert band')"
+    wrinkle render samples/bricks.wrinkle -o one.png --size 512x512
+    [[ $(compare -metric AE one.png whole.png null: 2>&1) == 0 ]] || complain 'bands joined are not the whole picture'
     mkdir turn && mv turn??.png turn
-    rm -f samples lines out err
+    rm -f samples lines out err ./*.png
     cd ..
     same one parallel 'GNU parallel'
 else

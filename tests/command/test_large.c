@@ -9,6 +9,7 @@
 #include "base/pool.h"
 #include "base/progress.h"
 #include "command/session.h"
+#include "image/image.h"
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -55,7 +56,7 @@ static void render(WrSession *s, const char *name, const char *ending, int width
     WrError err = { "" };
     char path[64];
     snprintf(path, sizeof path, "%s.%s", name, ending);
-    if (!wr_session_render(s, path, width, height, 30, &err)) fail_msg("%s", err.text);
+    if (!wr_session_render(s, path, width, height, NULL, 30, &err)) fail_msg("%s", err.text);
 }
 
 /* One row of strips per band, and several: in every format, with an odd end, for a picture that fits one band. */
@@ -133,6 +134,57 @@ static void a_large_picture_takes_the_memory_of_a_band(void **state)
     wr_pool_free(pool);
 }
 
+static WrImage *read_picture(const char *path)
+{
+    WrError err = { "" };
+    WrImage *image = wr_image_read(path, &err);
+    if (!image) fail_msg("%s", err.text);
+    return image;
+}
+
+/* Cut anywhere, alone and together: pixels of files with 8 bits, with alpha, and with floats. */
+static void rows_alone_are_those_of_the_whole(void **state)
+{
+    (void)state;
+    static const char *const scenes[][3] = {
+        { "dials aa=supersample samples=2", "background none", NULL },
+        { "surface bezier", "dials aa=adaptive samples=4", NULL },
+        { "tolerance rms=0.01", NULL },
+    };
+    static const int cuts[] = { 0, 1, 70, 71, 150, 211 };
+    enum { WIDTH = 57, HEIGHT = 211 };
+    WrPool *pool = wr_pool_new(2);
+    for (int k = 0; k < 6; k++) {
+        const char *ending = k < 3 ? "png" : "exr";
+        WrSession *s = session_with(pool, k % 2, scenes[k % 3]);
+        render(s, "whole", ending, WIDTH, HEIGHT);
+        char path[16];
+        snprintf(path, sizeof path, "whole.%s", ending);
+        WrImage *whole = read_picture(path);
+        snprintf(path, sizeof path, "part.%s", ending);
+        for (size_t c = 0; c + 1 < sizeof cuts / sizeof *cuts; c++) {
+            WrError err = { "" };
+            const WrPictureRows rows = { cuts[c], cuts[c + 1] - cuts[c] };
+            if (!wr_session_render(s, path, WIDTH, HEIGHT, &rows, 30, &err))
+                fail_msg("%s", err.text);
+            WrImage *part = read_picture(path);
+            assert_true(part->width == WIDTH && part->height == rows.count &&
+                        part->channels == whole->channels);
+            const size_t row = (size_t)WIDTH * (size_t)part->channels;
+            assert_memory_equal(part->data, whole->data + row * (size_t)rows.first,
+                                row * (size_t)rows.count * sizeof *part->data);
+            wr_image_free(part);
+        }
+        wr_image_free(whole);
+        WrError err = { "" };
+        const WrPictureRows beyond = { 200, 12 };
+        assert_false(wr_session_render(s, path, WIDTH, HEIGHT, &beyond, 30, &err));
+        assert_string_equal(err.text, "rows 200-211: the picture has rows 0 to 210");
+        wr_session_free(s);
+    }
+    wr_pool_free(pool);
+}
+
 /* The whole would be 4.3 GB. */
 static void a_tolerance_that_lacks_memory_tells_the_way_out(void **state)
 {
@@ -145,7 +197,7 @@ static void a_tolerance_that_lacks_memory_tells_the_way_out(void **state)
     assert_int_equal(getrlimit(RLIMIT_AS, &was), 0);
     const struct rlimit now = { .rlim_cur = 4000000000, .rlim_max = was.rlim_max };
     assert_int_equal(setrlimit(RLIMIT_AS, &now), 0);
-    const bool good = wr_session_render(s, "tolerant.png", 16384, 16384, 0, &err);
+    const bool good = wr_session_render(s, "tolerant.png", 16384, 16384, NULL, 0, &err);
     assert_int_equal(setrlimit(RLIMIT_AS, &was), 0);
     assert_false(good);
     if (!strstr(err.text, "no memory for 4295 MB") || !strstr(err.text, "`tolerance off`"))
@@ -188,7 +240,7 @@ static int render_until(WrSession *s, const char *path, int at)
     const WrProgress progress = { &stop.cancel, hear, &stop };
     const int files = files_here();
     wr_progress_set(&progress);
-    const bool good = wr_session_render(s, path, 90, 700, 0, &err);
+    const bool good = wr_session_render(s, path, 90, 700, NULL, 0, &err);
     wr_progress_set(NULL);
     if (stop.cancel && good) fail_msg("%s: went on at report %d", path, at);
     if (!good && !strstr(err.text, "cancelled")) fail_msg("%s: %s", path, err.text);
@@ -218,6 +270,7 @@ static void giving_up_leaves_nothing_and_progress_rises(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rows_alone_are_those_of_the_whole),
         cmocka_unit_test(files_by_bands_are_those_of_the_whole),
         cmocka_unit_test(a_large_picture_takes_the_memory_of_a_band),
         cmocka_unit_test(a_tolerance_that_lacks_memory_tells_the_way_out),

@@ -174,14 +174,14 @@ static void tone(WrApp *app)
         [WR_ROW(WR_TONE_SOFT)] = "Soft",
     };
     WR_ROWS_END(kinds, WR_TONE_KINDS);
-    const WrScene *scene = wr_app_scene(app);
-    int kind = (int)scene->tone.kind;
     WrText line = { 0 };
     wr_gui_space(8);
     wr_gui_heading("EXPOSURE");
     wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_EXPOSURE]);
-    if (scene->tone.view) {
-        const WrDisplayView *view = scene->tone.view;
+    const WrTone *tone = &wr_app_scene(app)->tone; /* of the scene that the row may have made */
+    int kind = (int)tone->kind;
+    if (tone->view) {
+        const WrDisplayView *view = tone->view;
         if (view->ready) wr_text_addf(&line, wr_words("View: %s"), view->names.view);
         else wr_text_addf(&line, wr_words("View: %s, not found"), view->names.view);
         wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_text_get(&line));

@@ -287,6 +287,7 @@ void wr_menu_item(WrApp *app, const char *name)
     WR_ASSERT(action);
     if (!action) return;
     bool checked = action->checked && action->checked(app);
+    if (action->several) wr_gui_next_id(name); /* its label changes with the chosen layers */
     if (wr_gui_menu_item(wr_menu_label(app, action, label), wr_keys_label(app->keys, name, keys),
                          checked, wr_action_can(app, action)))
         wr_action_run(app, name);
