@@ -723,6 +723,7 @@ const WrCommand wr_command_shape = {
     .more = wr_args_brush,
     .run = run_shape,
     .generates = true,
+    .has_handles = true,
     .help = "draw or fill a rectangle, an ellipse, a polygon or a path",
     .details =
         "An outline is drawn as a stroke with the brush at full pressure; a closed one meets "
@@ -890,5 +891,6 @@ const WrCommand wr_command_ramp = { .name = "ramp",
                                     .form = form_ramp,
                                     .run = run_ramp,
                                     .generates = true,
+                                    .has_handles = true,
                                     .help = "heights that lead from one place to another",
                                     .example = "ramp linear from=0.1,0.5 to=0.6,0.5 fold=on" };

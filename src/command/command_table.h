@@ -136,6 +136,7 @@ typedef struct WrCommand {
     bool of_variants; /* outputs: <VARIANT> in its texts: it is run for each variant (variants.h) */
     bool links;       /* its layer is a linked copy of another one (linked_copies.c) */
     bool generates;   /* it can be the line of a generator layer (generator_layers.c) */
+    bool has_handles; /* the points of such a line are dragged on the canvas with any tool */
     bool streams;     /* an open call may get its samples one by one (wr_session_stroke_begin) */
     bool on_mesh;     /* it paints on the active object's mesh; its samples are x,y,z */
     bool of_views;    /* a history command that changes which view is shown, and nothing else */

@@ -1001,7 +1001,7 @@ static const WrForm layer_forms[] = {
                                       LAYER_FROM("of a generator layer: its new command line"),
                                       { .name = "name",
                                         .type = WR_ARG_NAME,
-                                        .help = "the new name, as `layer rename` gives it" },
+                                        .help = "the new name, as for `layer rename`" },
                                       { .name = "visible",
                                         .type = WR_ARG_CHOICE,
                                         .words = wr_off_on,

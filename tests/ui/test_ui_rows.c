@@ -393,7 +393,7 @@ static int list_new(Walk *walk, WrKeyStop *out)
 /* Of a long list, such as that of the hard cases, every sixth after the first ones; all with WR_FULL. */
 static void change_rows(Walk *walk, const WrKeyStop *rows, int count)
 {
-    enum { FIRST = 60, STEP = 6 };
+    enum { FIRST = 40, STEP = 6 };
     const Base base = base_of(walk);
     forget_messages(walk);
     for (int i = 0; i < count; i++)
@@ -406,7 +406,7 @@ static void change_again(Walk *walk, const WrKeyStop *rows, int count, int choic
 {
     const Base base = base_of(walk);
     for (int i = 0; i < count; i++)
-        if (abs(i - choice) <= 8 || (i + step) % 9 == 0 || getenv("WR_FULL"))
+        if (abs(i - choice) <= 5 || (i + step) % 23 == 0 || getenv("WR_FULL"))
             change_row(walk, rows[i].id, &base);
 }
 

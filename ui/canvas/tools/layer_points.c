@@ -35,8 +35,7 @@ static WrCall *call_of(const WrApp *app)
     WrCall *call = NULL;
     if (!layer->line || layer->on_mask || layer->locked || !layer->visible) return NULL;
     if (!wr_call_parse(layer->line, false, &call, NULL)) return NULL;
-    if (strcmp(call->command->name, "ramp") == 0 || strcmp(call->command->name, "shape") == 0)
-        return call;
+    if (call->command->has_handles) return call;
     wr_call_free(call);
     return NULL;
 }
