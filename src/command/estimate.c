@@ -22,7 +22,8 @@
 typedef struct Job {
     const WrCall *call;
     const WrDocument *document;
-    double width, height, texels;
+    double width, height;
+    double texels; /* those of whole tiles */
 } Job;
 
 typedef struct Need Need;
@@ -318,7 +319,8 @@ void wr_session_estimate_call(const WrSession *session, const WrCall *call, WrEs
                 .document = document,
                 .width = wr_field_width(field),
                 .height = wr_field_height(field) };
-    job.texels = job.width * job.height;
+    const double tiles = (double)wr_field_tiles_u(field) * wr_field_tiles_v(field);
+    job.texels = tiles * WR_TILE * WR_TILE; /* tables hold whole tiles */
     const Need *need = find(call->command->name, call->form_name);
     if (!need) return; /* scene, view and history commands */
     out->unknown = need->unknown;
