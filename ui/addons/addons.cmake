@@ -1,13 +1,19 @@
-# wr_addon(PROGRAM FILES...): the files of the folder PROGRAM as wrinkle-PROGRAM.zip, which that program installs.
+# wr_addon(PROGRAM FILES...): the files of the folder PROGRAM as wrinkle-PROGRAM.zip, which that program installs. Copied
+# first: the source folder may hold Python's caches, and Krita wants entries of folders too.
 function(wr_addon program)
-    set(folder ${CMAKE_CURRENT_SOURCE_DIR}/ui/addons/${program})
+    set(place ${CMAKE_BINARY_DIR}/addons/${program})
     set(zip ${CMAKE_BINARY_DIR}/wrinkle-${program}.zip)
-    list(TRANSFORM ARGN PREPEND ${folder}/ OUTPUT_VARIABLE paths)
+    foreach(file ${ARGN})
+        configure_file(ui/addons/${program}/${file} ${place}/${file} COPYONLY)
+    endforeach()
+    list(TRANSFORM ARGN PREPEND ${place}/ OUTPUT_VARIABLE copies)
+    list(TRANSFORM ARGN REPLACE "/.*" "" OUTPUT_VARIABLE entries)
+    list(REMOVE_DUPLICATES entries)
     add_custom_command(
         OUTPUT ${zip}
-        COMMAND ${CMAKE_COMMAND} -E tar cf ${zip} --format=zip -- ${ARGN}
-        WORKING_DIRECTORY ${folder}
-        DEPENDS ${paths}
+        COMMAND ${CMAKE_COMMAND} -E tar cf ${zip} --format=zip -- ${entries}
+        WORKING_DIRECTORY ${place}
+        DEPENDS ${copies}
         VERBATIM)
     add_custom_target(${program}_addon ALL DEPENDS ${zip})
     install(FILES ${zip} DESTINATION ${CMAKE_INSTALL_DATADIR}/wrinkle/addons)
