@@ -45,26 +45,26 @@ struct WrCli {
     int do_count;
     const char **ats; /* --at, in order */
     int at_count;
-    const char *noise;  /* --noise: a command line; NULL: none */
-    int threads;        /* 0: one per processor */
-    const char *isa;    /* NULL: auto */
-    const char *out;    /* -o */
-    const char *shown;  /* name of that file in reports; NULL: its own */
-    const char *format; /* --format; NULL: not given */
-    int jobs;           /* -j; 0: not given */
-    const char *coding; /* --coding */
-    const char *kind;   /* --as */
-    bool watch;         /* --watch */
-    const char *live;   /* --live; NULL: not given */
-    bool sized;         /* --size was given */
-    int width, height;  /* default 512x512 */
-    bool banded;        /* --rows was given */
-    int first_row, last_row;
-    bool framed;     /* --frames was given */
-    int first, last; /* of --frames */
-    int of;          /* --of; 0: not given */
-    double fps;      /* --fps; 0: not given */
-    bool looped;     /* --loop was given */
+    const char *noise;       /* --noise: a command line; NULL: none */
+    int threads;             /* 0: one per processor */
+    const char *isa;         /* NULL: auto */
+    const char *out;         /* -o */
+    const char *shown;       /* name of that file in reports; NULL: its own */
+    const char *format;      /* --format; NULL: not given */
+    int jobs;                /* -j; 0: not given */
+    const char *coding;      /* --coding */
+    const char *kind;        /* --as */
+    bool watch;              /* --watch */
+    const char *live;        /* --live; NULL: not given */
+    bool sized;              /* --size was given */
+    int width, height;       /* default 512x512 */
+    bool banded;             /* --rows was given */
+    int first_row, last_row; /* of --rows, from the top */
+    bool framed;             /* --frames was given */
+    int first, last;         /* of --frames */
+    int of;                  /* --of; 0: not given */
+    double fps;              /* --fps; 0: not given */
+    bool looped;             /* --loop was given */
     int loop;
     bool missing;           /* --missing */
     double memory;          /* --memory, MB; 0: not given */

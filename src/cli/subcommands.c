@@ -1,5 +1,7 @@
 #include "cli/cli.h"
 
+#include "export/map_sets.h"
+
 #include <string.h>
 
 #define BIT(name) (1u << WR_OPTION_##name)
@@ -32,8 +34,7 @@ const WrSubcommand wr_subcommands[] = {
       "the table for other programs", BIT(OUT) | BIT(AS) | BIT(FORMAT) | BIT(FILES) | BIT(JSON),
       "`wrinkle help export` lists the kinds and their arguments. `--as SET -o FOLDER` writes the "
       "maps for another program, "
-      "all or none: blender, gltf, unreal, unity, godot, substance, renderman, arnold, povray, "
-      "blender-live, and "
+      "all or none: " WR_MAP_SET_NAMES ", and "
       "those of your own, NAME.set in the folder sets of your settings.\n"
       "Of several files, or where OUT is a folder, each output is OUT/NAME.ENDING. A file that "
       "fails "

@@ -75,7 +75,7 @@ const char *wr_brush_mode_name(int i); /* word i of mode=, NULL past the last */
 void wr_brush_mode_explain(int i, WrText *text);
 extern const WrArgSpec wr_args_brush[]; /* the last row has name NULL */
 
-/* ---- the brush ---- */
+/* ---- transforms ---- */
 
 /* turn= and scale= of commands that transform a layer's piece (generate/transform_piece.h). about: help of turn= */
 #define WR_TRANSFORM_ARGS(about)                                                                   \
@@ -91,6 +91,8 @@ extern const WrArgSpec wr_args_brush[]; /* the last row has name NULL */
         .low = -WR_PLACE_SCALE, .high = WR_PLACE_SCALE, .fallback = NUMBERS(1, 1),                 \
         .help = "how much larger along u and v, before it is turned; below 0 mirrors"              \
     }
+
+/* ---- the brush ---- */
 
 /* Arguments of commands that paint, with a brush or without. */
 #define PAINT_ARGS                                                                                 \

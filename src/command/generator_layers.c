@@ -114,7 +114,7 @@ static bool by_painting(WrSession *session, int index, WrCall *call, WrError *er
     return good;
 }
 
-/* ---- only what changes ---- */
+/* ---- heights made again near changes ---- */
 
 /* Hash of the line without the settings that belong to the layer. */
 static WrHash values_hash(WrCall *call)
@@ -131,7 +131,7 @@ static WrHash values_hash(WrCall *call)
     return hash;
 }
 
-/* What a line that reads heights depends on, as for made_from.h: the heights and the coverage that it reads, and its values. */
+/* The inputs of a line that reads heights, for made_from.h: those heights, their coverage, and its own values. */
 static WrInputs inputs_of(const WrSession *session, int index, WrCall *call, const WrField *below)
 {
     const WrDocument *document = session->state.document;
@@ -145,21 +145,6 @@ static WrInputs inputs_of(const WrSession *session, int index, WrCall *call, con
     const uint64_t weighs = wr_blends[document->layers[index].blend].uses_cover;
     inputs.values = wr_hash_bytes(&weighs, sizeof weighs, values_hash(call));
     return inputs;
-}
-
-/* Tiles of a field with equal bits become shared with the field before; `wanted` 0: they have not been made. */
-static void share_tiles(WrField *field, const WrField *before, const uint8_t *wanted)
-{
-    if (!field || !before || !wr_field_alike(field, before)) return;
-    const float level = wr_field_level(before), now = wr_field_level(field);
-    if (memcmp(&level, &now, sizeof level) != 0) return;
-    for (int ty = 0, k = 0; ty < wr_field_tiles_v(field); ty++)
-        for (int tx = 0; tx < wr_field_tiles_u(field); tx++, k++) {
-            const float *a = wr_field_tile(field, tx, ty), *b = wr_field_tile(before, tx, ty);
-            const bool kept = wanted && !wanted[k];
-            if (kept || (a && b && memcmp(a, b, WR_TILE * WR_TILE * sizeof *a) == 0))
-                wr_field_tile_share(field, before, tx, ty);
-        }
 }
 
 static bool by_generator(WrSession *session, int index, WrCall *call, const WrField *below,
@@ -192,8 +177,8 @@ static bool by_generator(WrSession *session, int index, WrCall *call, const WrFi
                       wr_call_lay(call, &relief, layer, session->options.pool,
                                   wr_progress_part(&laying, wr_progress_here(), 0.9, 1.0), err);
     if (good) {
-        share_tiles(layer->heights, heights, before.wanted);
-        share_tiles(layer->cover, cover, before.wanted);
+        wr_field_share_equal(layer->heights, heights, before.wanted);
+        wr_field_share_equal(layer->cover, cover, before.wanted);
         if (now.of[0]) wr_made_from_note(&session->made_from, wr_field_key(layer->heights), &now);
     }
     wr_relief_fini(&relief);

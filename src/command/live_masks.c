@@ -594,19 +594,7 @@ static WrField *make_mask(MaskJob *job, const WrMaskTerms *terms, WrError *err)
     return NULL;
 }
 
-/* Tiles with equal bits are shared with the mask before, so that composites and the history handle only the tiles that differ. */
-static void share_equal(WrField *mask, const WrField *before)
-{
-    if (!before || !wr_field_alike(mask, before)) return;
-    for (int ty = 0; ty < wr_field_tiles_v(mask); ty++)
-        for (int tx = 0; tx < wr_field_tiles_u(mask); tx++) {
-            const float *a = wr_field_tile(mask, tx, ty), *b = wr_field_tile(before, tx, ty);
-            if (a && b && memcmp(a, b, WR_TILE * WR_TILE * sizeof *a) == 0)
-                wr_field_tile_share(mask, before, tx, ty);
-        }
-}
-
-/* ---- making only what changes ---- */
+/* ---- masks made again near changes ---- */
 
 static WrInputs inputs_of(MaskJob *job, const WrMaskTerms *terms, const char *line)
 {
@@ -697,7 +685,7 @@ static bool put_mask(MaskJob *job, const WrMaskTerms *terms, const char *line, W
     if (!mask) {
         mask = make_mask(job, terms, err);
         if (!mask) return false;
-        share_equal(mask, layer->mask);
+        wr_field_share_equal(mask, layer->mask, NULL);
     }
     wr_field_free(layer->mask);
     layer->mask = mask;

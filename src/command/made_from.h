@@ -27,7 +27,7 @@ const WrInputs *wr_made_from_find(const WrMadeFrom *all, uint64_t made, const Wr
  * is not known, or it is most of the table. blocks: output, [*count]; the caller frees it */
 bool wr_made_from_changes(const WrMadeFrom *all, uint64_t made, const WrInputs *now, int reach,
                           WrFieldRect **blocks, int *count);
-/* Removes what no layer of the document needs: that of hidden layers, and of results that are replaced. needed:
+/* Removes the inputs that no layer of the document needs: of hidden layers, and of replaced results. needed:
  * [layer_count] */
 void wr_made_from_prune(WrMadeFrom *all, const WrDocument *document, const bool *needed);
 void wr_made_from_free(WrMadeFrom *all); /* NULL is allowed */

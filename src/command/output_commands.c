@@ -361,10 +361,9 @@ const WrCommand wr_command_maps = {
     .run = run_maps,
     .of_variants = true,
     .help = "write the set of maps for another program",
-    .details = "Sets: blender, gltf, unreal, unity, godot, substance, renderman, arnold, povray, "
-               "blender-live, and those of your own, files NAME.set in the folder sets of your "
-               "settings. Each file is read back; "
-               "then all take their places, or none.",
+    .details = "Sets: " WR_MAP_SET_NAMES
+               ", and those of your own, files NAME.set in the folder sets of your settings. Each "
+               "file is read back; then all take their places, or none.",
     .example = "maps unreal . name=bricks"
 };
 

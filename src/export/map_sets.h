@@ -52,6 +52,9 @@ typedef struct WrMapSetRow {
 } WrMapSetRow;
 #define WR_MAP_SET_ROWS 10
 extern const WrMapSetRow wr_map_set_rows[];
+/* Their names in order, for help texts. */
+#define WR_MAP_SET_NAMES                                                                           \
+    "blender, gltf, unreal, unity, godot, substance, renderman, arnold, povray, blender-live"
 
 /* The set of that name; the user's have priority. Owned by the caller (wr_map_set_free). NULL and an error: there is
    none, with a list of the existing ones; or its file is invalid, with file and line. */

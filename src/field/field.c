@@ -370,6 +370,19 @@ void wr_field_tile_share(WrField *to, const WrField *from, int tx, int ty)
     *slot = shared;
 }
 
+void wr_field_share_equal(WrField *field, const WrField *before, const uint8_t *made)
+{
+    if (!field || !before || !wr_field_alike(field, before)) return;
+    const float was = wr_field_level(before), now = wr_field_level(field);
+    if (memcmp(&was, &now, sizeof was) != 0) return;
+    for (int ty = 0, k = 0; ty < wr_field_tiles_v(field); ty++)
+        for (int tx = 0; tx < wr_field_tiles_u(field); tx++, k++) {
+            const float *a = wr_field_tile(field, tx, ty), *b = wr_field_tile(before, tx, ty);
+            const bool equal = a && b && memcmp(a, b, WR_TILE * WR_TILE * sizeof *a) == 0;
+            if (equal || (made && !made[k])) wr_field_tile_share(field, before, tx, ty);
+        }
+}
+
 /* The hash covers only the used texels: their common height, or their bytes. A flat tile and an absent one of the same level
    have equal hashes, so that the hash depends on heights, not on the history of edits. Texels beyond the table's edge in the
    last tiles are undefined and stay out. */

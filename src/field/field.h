@@ -67,6 +67,10 @@ void wr_field_tile_put(WrField *field, int tx, int ty, float *texels);
 /* Copies tile (tx, ty) from `from`, a table of the same size; later writes to one do not affect the
    other. By reference, except where unused texels have another level. */
 void wr_field_tile_share(WrField *to, const WrField *from, int tx, int ty);
+/* Shares the tiles of `field` that have the bits of `before`, so that composites and the history handle only the others.
+   made: [tiles_v][tiles_u] from the top, 0: the tile was not made, and is taken from `before`; NULL: all were made.
+   Nothing happens if either field is NULL, or their sizes, wraps or levels differ. */
+void wr_field_share_equal(WrField *field, const WrField *before, const uint8_t *made);
 /* Resets the tile's texels to the level and frees its memory. */
 void wr_field_tile_drop(WrField *field, int tx, int ty);
 int wr_field_tiles_u(const WrField *field); /* ceil(W / 64) */

@@ -222,7 +222,7 @@ static WrField *shape_of(const WrParams *p, const WrGenerateJob *job, WrError *e
     return NULL;
 }
 
-/* ---- only what changes ---- */
+/* ---- edges made again near changes ---- */
 
 static void mark_piece(const Rim *rim, const WrTextPiece *piece, uint8_t *marked)
 {

@@ -1110,7 +1110,7 @@ struct WrCodecView {
 };
 
 /* Fails unless the name is one of those; the message lists them. */
-static bool check_name(const char *what, const std::string &name,
+static bool check_name(const char *kind, const std::string &name,
                        const std::vector<std::string> &known, char *reason)
 {
     std::string list;
@@ -1118,7 +1118,7 @@ static bool check_name(const char *what, const std::string &name,
         if (one == name) return true;
         list += (list.empty() ? "" : ", ") + one;
     }
-    return fail(reason, "has no " + std::string(what) + " '" + name + "', but " +
+    return fail(reason, "has no " + std::string(kind) + " '" + name + "', but " +
                             (list.empty() ? "none" : list));
 }
 

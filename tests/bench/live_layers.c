@@ -75,7 +75,7 @@ static const char *const lines[] = {
 
 /* A dragged value: value k of a drag is from + k step. */
 static const struct Drag {
-    const char *layer, *what;
+    const char *layer, *label;
     const char *line, *name; /* without the value, and its name */
     double from, step;
 } drags[] = {
@@ -226,7 +226,7 @@ bool wr_bench_live_layers(const WrCli *cli, bool quick, WrText *text, WrError *e
                  good ? wr_session_document(session)->layer_count : 0, "begin", "table", "95 %",
                  "patch", "95 %", "exact", "95 %", "cpu");
     for (size_t i = 0; good && i < sizeof drags / sizeof *drags; i++) {
-        wr_text_addf(text, "  %-36s", drags[i].what);
+        wr_text_addf(text, "  %-36s", drags[i].label);
         good = time_drag(cli, wr_session_document(session), (int)i, dragged, text, err) &&
                time_release(cli, session, (int)i, released, text, err);
     }

@@ -311,9 +311,20 @@ static int enter_with_settings(void **state)
                : setenv("XDG_CONFIG_HOME", path, 1);
 }
 
+static void the_list_of_names_is_that_of_the_table(void **state)
+{
+    (void)state;
+    WrText names = { 0 };
+    for (int i = 0; i < WR_MAP_SET_ROWS; i++)
+        wr_text_addf(&names, "%s%s", i ? ", " : "", wr_map_set_rows[i].name);
+    assert_string_equal(WR_MAP_SET_NAMES, wr_text_get(&names));
+    wr_text_fini(&names);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_list_of_names_is_that_of_the_table),
         cmocka_unit_test(every_set_has_the_names_and_formats_of_its_program),
         cmocka_unit_test(packed_maps_have_their_channels_where_programs_look),
         cmocka_unit_test(all_files_of_a_set_are_replaced_or_none),

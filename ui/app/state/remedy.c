@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* By what the line contains; the last label is for all others. */
+/* Label of the first row whose part is in the command; the last row fits all. */
 static const struct {
     const char *part, *label;
 } labels[] = {
