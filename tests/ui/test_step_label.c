@@ -81,8 +81,9 @@ static void an_error_offers_the_command_that_it_names(void **state)
         { "layer 5 is a generator layer: `layer set 5 change=` changes its values, `layer "
           "rasterize 5` makes heights of it",
           "layer 5 is a generator layer", "layer rasterize 5", "Rasterize layer" },
-        { "there is no ground: `ground on` lays one", "there is no ground", "ground on",
-          "Correct" },
+        { "layer 4 \"a: `layer delete 1` b\" is locked: `layer set 4 lock=off` unlocks it",
+          "layer 4 \"a: `layer delete 1` b\" is locked", "layer set 4 lock=off", "Unlock layer" },
+        { "there is no ground: `ground on` lays one", NULL, NULL, NULL }, /* has no label */
         /* a file would be written; words that are no command; an open quote */
         { "nothing to do: `save a.exr` writes it", NULL, NULL, NULL },
         { "name= is for a new layer: `layer rename` renames one", NULL, NULL, NULL },

@@ -1,5 +1,6 @@
 #include "ui/app/state/remedy.h"
 
+#include "base/enum_rows.h"
 #include "base/error.h"
 #include "command/command_line.h"
 #include "command/command_table.h"
@@ -7,14 +8,23 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Label of the first row whose part is in the command; the last row fits all. */
+/* Label of the first row whose part is in the layer's command. Only these are offered, and their labels state what they do: a
+   message may hold names and paths of strangers' files, with commands of theirs in backquotes. */
 static const struct {
     const char *part, *label;
 } labels[] = {
     { "visible=on", "Show layer" },     { "lock=off", "Unlock layer" },
     { "solo off", "Show all layers" },  { "live=off", "Rasterize mask" },
-    { "rasterize", "Rasterize layer" }, { "", "Correct" },
+    { "rasterize", "Rasterize layer" },
 };
+
+static const char *label_of(const char *line)
+{
+    if (strncmp(line, "layer ", 6) != 0) return NULL;
+    for (int k = 0; k < WR_LENGTH(labels); k++)
+        if (strstr(line, labels[k].part)) return labels[k].label;
+    return NULL;
+}
 
 /* Writes no file, and is no step back in the history. */
 static bool is_change(const char *line)
@@ -41,10 +51,9 @@ bool wr_remedy_find(const char *text, WrRemedy *remedy)
          from = strchr(to + 1, '`')) {
         snprintf(remedy->line, sizeof remedy->line, "%.*s", (int)(to - from - 1), from + 1);
         if (to - from - 1 >= (int)sizeof remedy->line || !is_change(remedy->line)) continue;
-        int k = 0;
-        while (!strstr(remedy->line, labels[k].part)) k++;
-        remedy->label = labels[k].label;
-        remedy->length = length_before(text, strchr(text, '`'));
+        remedy->label = label_of(remedy->line);
+        if (!remedy->label) continue;
+        remedy->length = length_before(text, from);
         return true;
     }
     return false;

@@ -8,5 +8,5 @@ typedef struct WrRemedy {
     const char *label; /* of the button, English */
 } WrRemedy;
 
-/* The first command between backquotes that is complete and changes the document or its view. False: there is none. */
+/* The first command between backquotes that is complete and in the table of remedy.c. False: there is none. */
 bool wr_remedy_find(const char *text, WrRemedy *remedy);
