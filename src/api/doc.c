@@ -254,7 +254,6 @@ WrDocInfo wr_doc_info(const WrDoc *doc)
     const WrDocument *document = wr_session_document(session);
     const WrField *field = document->layers[0].heights;
     const WrScene *scene = document->scene;
-    const int position = wr_session_history_position(session);
     return (WrDocInfo){ .width = wr_field_width(field),
                         .height = wr_field_height(field),
                         .periodic_u = wr_field_wrap_u(field) == WR_WRAP_PERIODIC,
@@ -263,8 +262,8 @@ WrDocInfo wr_doc_info(const WrDoc *doc)
                             wr_session_revision(session) != wr_session_saved_revision(session),
                         .layers = document->layer_count,
                         .active_layer = document->active,
-                        .undo_steps = position - wr_session_history_oldest(session),
-                        .redo_steps = wr_session_history_count(session) - position,
+                        .undo_steps = wr_session_undo_count(session),
+                        .redo_steps = wr_session_redo_count(session),
                         .cell_width = scene->cell.w,
                         .cell_height = scene->cell.h,
                         .relief = scene->cell.mm ? scene->cell.height : scene->height,

@@ -41,7 +41,7 @@ bool wr_call_parse_words(const WrCommand *command, const char *words, WrCall **c
 void wr_call_free(WrCall *call); /* NULL is allowed */
 
 WrCommandClass wr_call_class(const WrCall *call); /* class of the command's form */
-/* The call changes which view is shown and nothing else, so that a document loses no work without it. */
+/* The call changes which view is shown or which layer is active and nothing else, so that a document loses no work without it. */
 bool wr_call_of_views(const WrCall *call);
 
 /* The canonical line, without line end. Parsing it returns the same values; printing those returns the same line. */

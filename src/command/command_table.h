@@ -26,12 +26,14 @@ typedef enum WrCommandClass {
     /* changes the view: no edit step, but a step of the view history; journaled, saved with the
        document */
     WR_CLASS_VIEW,
+    /* chooses what edits apply to: no edit step; journaled, in scripts, saved with the document */
+    WR_CLASS_CHOICE,
     WR_CLASS_OUTPUT,  /* writes files: never in a journal, never in a document */
     WR_CLASS_HISTORY, /* moves through the history: no step of its own; journaled as such */
     WR_CLASS_COUNT
 } WrCommandClass;
 
-/* "edit", "scene", "view", "output", "history" */
+/* "edit", "scene", "view", "choice", "output", "history" */
 extern const char *const wr_class_names[WR_CLASS_COUNT];
 
 typedef enum WrArgType {
@@ -140,6 +142,8 @@ typedef struct WrCommand {
     bool streams;     /* an open call may get its samples one by one (wr_session_stroke_begin) */
     bool on_mesh;     /* it paints on the active object's mesh; its samples are x,y,z */
     bool of_views;    /* a history command that changes which view is shown, and nothing else */
+    bool
+        after_journal; /* its line is not journaled; if it changed something, the journal starts again after it */
     int steps; /* direction of argument N in the history of edits: -1 back, 1 forward, 0: no such argument */
     bool
         print_end; /* the chosen dials are appended to its line in a saved document (session_picture.c) */

@@ -19,7 +19,14 @@ extern const WrCommand wr_command_table, wr_command_fill, wr_command_grid, wr_co
     wr_command_camera, wr_command_background, wr_command_tone, wr_command_cell, wr_command_sheet,
     wr_command_dials, wr_command_tolerance, wr_command_transform, wr_command_copy, wr_command_save,
     wr_command_export, wr_command_maps, wr_command_render, wr_command_script, wr_command_undo,
-    wr_command_redo, wr_command_view, wr_command_history;
+    wr_command_redo, wr_command_step, wr_command_macro, wr_command_view, wr_command_history;
+
+/* ---- lists of steps: "3", "2,4..6" ---- */
+
+typedef struct WrError WrError;
+bool wr_check_steps(const void *ctx, const char *name, const char *value, WrError *err);
+/* True if step `step`, from 1, is in a checked list. */
+bool wr_step_listed(const char *list, int step);
 
 /* ---- generators ---- */
 

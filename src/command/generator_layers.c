@@ -416,8 +416,9 @@ static bool gives(const WrCall *call, const char *name)
 void wr_session_spell_change(WrSession *session, WrCall *call)
 {
     int index;
-    if (!gives(call, "change") || gives(call, "from") || !gives(call, "N") ||
-        !wr_session_find_layer(session, wr_call_arg(call, "N")->text, &index, NULL))
+    const char *layer = gives(call, "N") ? wr_call_arg(call, "N")->text : NULL; /* not a number's */
+    if (!gives(call, "change") || gives(call, "from") || !layer ||
+        !wr_session_find_layer(session, layer, &index, NULL))
         return;
     WrCall *line = call_of(session, index, NULL);
     if (line && wr_call_change(line, wr_call_arg(call, "change")->text, NULL) && names_file(line)) {

@@ -383,12 +383,16 @@ void wr_help_overview(WrText *text)
 {
     WR_ROWS(titles);
     static const char *const titles[WR_CLASS_COUNT] = {
-        [WR_ROW(WR_CLASS_EDIT)] = "Edits of the table",  [WR_ROW(WR_CLASS_SCENE)] = "The scene",
-        [WR_ROW(WR_CLASS_VIEW)] = "How it is looked at", [WR_ROW(WR_CLASS_OUTPUT)] = "Files",
+        [WR_ROW(WR_CLASS_EDIT)] = "Edits of the table",
+        [WR_ROW(WR_CLASS_SCENE)] = "The scene",
+        [WR_ROW(WR_CLASS_VIEW)] = "How it is looked at",
+        [WR_ROW(WR_CLASS_CHOICE)] = NULL,
+        [WR_ROW(WR_CLASS_OUTPUT)] = "Files",
         [WR_ROW(WR_CLASS_HISTORY)] = "What was done",
     };
     WR_ROWS_END(titles, WR_CLASS_COUNT);
     for (int kind = 0; kind < WR_CLASS_COUNT; kind++) {
+        if (!titles[kind]) continue; /* only forms of commands of other classes */
         wr_text_addf(text, "%s%s\n", kind ? "\n" : "", titles[kind]);
         for (int i = 0; i < wr_command_count; i++)
             if ((int)wr_commands[i]->kind == kind)

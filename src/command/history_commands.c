@@ -11,28 +11,33 @@
 
 #include <string.h>
 
+/* Goes there, and back again if the making of the composite is cancelled. */
+static bool travel(WrSession *session, int steps, WrError *err)
+{
+    if (!wr_session_refuse_in_stroke(session, err)) return false;
+    wr_session_travel(session, steps);
+    if (wr_session_make_composite(session, err)) return true;
+    wr_session_travel(session, -steps);
+    return false;
+}
+
 static bool run_undo(WrSession *session, WrCall *call, WrError *err)
 {
-    int steps = (int)wr_call_number(call, "N");
-    int position = wr_session_history_position(session);
-    int most = position - wr_session_history_oldest(session);
-    if (position == 0) return wr_fail(err, "nothing to undo");
+    const int steps = (int)wr_call_number(call, "N"), most = wr_session_undo_count(session);
+    const bool all = wr_session_history_oldest(session) == 0;
+    if (most == 0 && all) return wr_fail(err, "nothing to undo");
     if (steps > most)
         return wr_fail(err, "%d steps: %d can be undone%s", steps, most,
-                       position > most ? "; older states were given up to keep the history in its "
-                                         "budget"
-                                       : "");
-    return wr_session_go_to(session, position - steps, err);
+                       all ? "" : "; older states were given up to keep the history in its budget");
+    return travel(session, -steps, err);
 }
 
 static bool run_redo(WrSession *session, WrCall *call, WrError *err)
 {
-    int steps = (int)wr_call_number(call, "N");
-    int position = wr_session_history_position(session);
-    int most = wr_session_history_count(session) - position;
+    const int steps = (int)wr_call_number(call, "N"), most = wr_session_redo_count(session);
     if (most == 0) return wr_fail(err, "nothing to redo");
     if (steps > most) return wr_fail(err, "%d steps: %d can be redone", steps, most);
-    return wr_session_go_to(session, position + steps, err);
+    return travel(session, steps, err);
 }
 
 static bool run_history(WrSession *session, WrCall *call, WrError *err)
@@ -40,10 +45,8 @@ static bool run_history(WrSession *session, WrCall *call, WrError *err)
     (void)err;
     if (wr_call_given(call, "budget"))
         wr_session_set_history_budget(session, (size_t)wr_call_number(call, "budget"));
-    int position = wr_session_history_position(session);
     wr_session_note(session, "%d steps can be undone, %d redone; they take %.1f of %.1f MB",
-                    position - wr_session_history_oldest(session),
-                    wr_session_history_count(session) - position,
+                    wr_session_undo_count(session), wr_session_redo_count(session),
                     (double)wr_session_history_bytes(session) / 1e6,
                     (double)wr_session_history_budget(session) / 1e6);
     return true;
@@ -107,9 +110,29 @@ bool wr_session_save_history(WrSession *session, const char *path, WrError *err)
     return good;
 }
 
+/* Only the listed steps in force, as a macro. */
+static bool save_steps(WrSession *session, const char *path, const char *steps, WrError *err)
+{
+    const WrHistory *history = session->state.history;
+    char *folder = wr_path_folder(path), *real = wr_path_real(folder);
+    Script script = { .home = real ? real : "" };
+    for (int i = 0; i < wr_history_position(history); i++)
+        if (wr_step_listed(steps, i + 1) && !wr_history_is_off(history, i))
+            add_line(&script, wr_history_line(history, i), wr_history_folder(history, i));
+    const bool good =
+        (script.text.length || wr_fail(err, "steps=%s: none of them is in force", steps)) &&
+        wr_file_write(path, wr_text_get(&script.text), script.text.length, err);
+    free(real);
+    wr_free(folder);
+    wr_text_fini(&script.text);
+    return good;
+}
+
 static bool run_script(WrSession *session, WrCall *call, WrError *err)
 {
-    return wr_session_save_history(session, wr_call_arg(call, "FILE")->text, err);
+    const char *path = wr_call_arg(call, "FILE")->text, *steps = wr_call_arg(call, "steps")->text;
+    if (!steps) return wr_session_save_history(session, path, err);
+    return save_steps(session, path, steps, err);
 }
 
 static bool run_view(WrSession *session, WrCall *call, WrError *err)
@@ -128,6 +151,17 @@ static bool run_view(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
+static void put_lines(const char *text, WrLineSink *sink, void *ctx)
+{
+    for (const char *p = text; *p;) {
+        size_t length = strcspn(p, "\n");
+        char *line = wr_strndup(p, length);
+        sink(ctx, line, NULL);
+        wr_free(line);
+        p += length + 1;
+    }
+}
+
 /* Send the lines that set `view`. */
 static void put_view(const WrSceneView *view, WrLineSink *sink, void *ctx)
 {
@@ -137,13 +171,7 @@ static void put_view(const WrSceneView *view, WrLineSink *sink, void *ctx)
     if (view->of_one && !view->posed) wr_text_add(&text, "rotate pose=own\n");
     wr_print_rotate(scene, &text);
     wr_print_camera(scene, &text);
-    for (const char *p = wr_text_get(&text); *p;) {
-        size_t length = strcspn(p, "\n");
-        char *line = wr_strndup(p, length);
-        sink(ctx, line, NULL);
-        wr_free(line);
-        p += length + 1;
-    }
+    put_lines(wr_text_get(&text), sink, ctx);
     wr_scene_free(scene);
     wr_text_fini(&text);
 }
@@ -163,7 +191,9 @@ void wr_session_lines(const WrSession *session, WrLineSink *sink, void *ctx)
             now = there;
             known = true;
         }
+        put_lines(wr_history_choices(history, i), sink, ctx);
         if (i == position) break;
+        if (wr_history_is_off(history, i)) continue;
         sink(ctx, wr_history_line(history, i), wr_history_folder(history, i));
         known = known && !brings;
     }
@@ -202,7 +232,13 @@ static const WrArgSpec args_history[] = {
 };
 
 static const WrArgSpec args_script[] = {
-    { PLACE("FILE"), .type = WR_ARG_PATH, .help = "a script, *.wrinkle" }, { 0 }
+    { PLACE("FILE"), .type = WR_ARG_PATH, .help = "a script, *.wrinkle" },
+    { .name = "steps",
+      .type = WR_ARG_TEXT,
+      .shape = "N|N,N..N",
+      .check = wr_check_steps,
+      .help = "only these, for `macro`; left out, all in force" },
+    { 0 }
 };
 
 /* ---- the rows ---- */

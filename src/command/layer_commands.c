@@ -1081,9 +1081,15 @@ WR_FORMS(form_layer, layer_forms)
 
 /* ---- the row ---- */
 
+static WrCommandClass class_of(int form)
+{
+    return form == LAYER_USE ? WR_CLASS_CHOICE : WR_CLASS_EDIT;
+}
+
 const WrCommand wr_command_layer = {
     .name = "layer",
     .kind = WR_CLASS_EDIT,
+    .class_of = class_of,
     .form_word = "ACTION",
     .form = form_layer,
     .run = run_layer,

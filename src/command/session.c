@@ -21,6 +21,7 @@
 #include "scene/objects.h"
 #include "scene/scene.h"
 #include "surface/mesh_texels.h"
+#include "system/clock.h"
 #include "system/path.h"
 
 #include <ctype.h>
@@ -452,6 +453,8 @@ void wr_session_remember(WrSession *session, const WrCall *call)
     wr_call_print(call, &text);
     wr_history_push(session->state.history, session->state.document, wr_text_get(&text), folder,
                     ++session->last_revision);
+    wr_history_note_step(session->state.history, session->step_seconds, false);
+    session->step_seconds = 0.0;
     wr_free(folder);
     wr_text_fini(&text);
 }
@@ -517,7 +520,7 @@ static bool went_through(bool good, WrError *err)
 }
 
 /* Update the composite after the outermost command, if options.composites is set. */
-static bool make_composite(WrSession *session, WrError *err)
+bool wr_session_make_composite(WrSession *session, WrError *err)
 {
     if (!session->options.composites || session->depth > 1 || session->opening) return true;
     wr_document_composite(session->state.document, session->options.pool);
@@ -577,38 +580,37 @@ static bool run_edit(WrSession *session, WrCall *call, WrError *err)
     good = went_through(good, err);
     part.from = part.to;
     part.to = 1.0;
-    good = good && make_composite(session, err);
+    good = good && wr_session_make_composite(session, err);
     wr_progress_set(whole);
     return good;
 }
 
-/* Move through the steps, and back again if cancelled. */
-static bool run_history(WrSession *session, WrCall *call, WrError *err)
+static void record_choice(WrSession *session, const WrCall *call)
 {
-    int position = wr_session_history_position(session);
-    if (!call->command->run(session, call, err)) return false;
-    if (wr_session_history_position(session) == position || make_composite(session, err))
-        return true;
-    wr_session_go_to(session, position, NULL);
-    return false;
+    WrText text = { 0 };
+    wr_call_print(call, &text);
+    wr_history_record_choice(session->state.history, session->state.document, wr_text_get(&text));
+    wr_text_fini(&text);
 }
 
 /* Only the outermost command is a step, and only its failure restores the old state. A view is no step: it changes
-   only the view of the present state. Commands run others (gltf, script); depth counts the nesting. Order: the journal is
+   only the view of the present state; nor is the choice of a layer. Commands run others (gltf, script); depth counts the nesting. Order: the journal is
    written before the change, so that a crash within the command leaves its line to be reported by the recovery. */
 static bool run_call(WrSession *session, WrCall *call, WrError *err)
 {
     if (!call->command) return true;
     if (wr_call_class(call) == WR_CLASS_OUTPUT) return run_output(session, call, err);
     bool good, view = wr_call_class(call) == WR_CLASS_VIEW;
+    const bool choice = wr_call_class(call) == WR_CLASS_CHOICE;
+    const double began = wr_clock_seconds();
     wr_session_journal_before(session, call);
     if (wr_call_class(call) == WR_CLASS_HISTORY) {
-        good = run_history(session, call, err);
+        good = call->command->run(session, call, err);
         if (good) session_note_view(session);
-        wr_session_journal_after(session, good, false);
+        wr_session_journal_after(session, call, good, false);
         return good;
     }
-    if (session->depth == 0 && !view && !session->made)
+    if (session->depth == 0 && !view && !choice && !session->made)
         session->made_before = wr_layer_time_last(); /* `made` was made before */
     session->depth++;
     good = run_edit(session, call, err);
@@ -617,9 +619,13 @@ static bool run_call(WrSession *session, WrCall *call, WrError *err)
     good = good && wr_session_follow(session, err);
     if (!good) wr_session_restore(session);
     else if (view) wr_history_record_view(session->state.history, session->state.document);
-    else wr_session_remember(session, call);
+    else if (choice) record_choice(session, call);
+    else {
+        session->step_seconds = wr_clock_seconds() - began;
+        wr_session_remember(session, call);
+    }
     if (good) session_note_view(session);
-    wr_session_journal_after(session, good, !view);
+    wr_session_journal_after(session, call, good, !view && !choice);
     return good;
 }
 
@@ -711,12 +717,19 @@ bool wr_session_run(WrSession *session, const char *line, WrError *err)
 bool wr_session_history_go(WrSession *session, int state, WrError *err)
 {
     char line[32];
-    int steps = state - wr_session_history_position(session);
-    if (state < wr_session_history_oldest(session) || state > wr_session_history_count(session) ||
-        steps == 0)
-        return wr_session_go_to(session, state, err); /* which reports the cause */
-    snprintf(line, sizeof line, "%s %d", steps < 0 ? "undo" : "redo", abs(steps));
+    snprintf(line, sizeof line, "step go %d", state);
     return wr_session_run(session, line, err);
+}
+
+bool wr_session_travel(WrSession *session, int steps)
+{
+    WrHistory **history = &session->state.history, *before = *history;
+    if (steps == 0 || -steps > wr_history_undo_count(before) ||
+        steps > wr_history_redo_count(before))
+        return false;
+    wr_session_put_document(session, wr_history_travel(history, steps));
+    if (*history != before) wr_session_journal_cut(session);
+    return true;
 }
 
 bool wr_session_go_to(WrSession *session, int state, WrError *err)
@@ -738,6 +751,16 @@ int wr_session_history_count(const WrSession *session)
     return wr_history_count(session->state.history);
 }
 
+int wr_session_undo_count(const WrSession *session)
+{
+    return wr_history_undo_count(session->state.history);
+}
+
+int wr_session_redo_count(const WrSession *session)
+{
+    return wr_history_redo_count(session->state.history);
+}
+
 int wr_session_history_position(const WrSession *session)
 {
     return wr_history_position(session->state.history);
@@ -752,6 +775,20 @@ const char *wr_session_history_line(const WrSession *session, int index)
 {
     if (index < 0 || index >= wr_history_count(session->state.history)) return "";
     return wr_history_line(session->state.history, index);
+}
+
+bool wr_session_history_is_off(const WrSession *session, int index)
+{
+    return index >= 0 && index < wr_history_count(session->state.history) &&
+           wr_history_is_off(session->state.history, index);
+}
+
+double wr_session_history_seconds(const WrSession *session, int index)
+{
+    double seconds = 0.0;
+    for (int k = index < 0 ? 0 : index; k < wr_history_position(session->state.history); k++)
+        seconds += wr_history_step_seconds(session->state.history, k);
+    return seconds;
 }
 
 size_t wr_session_history_bytes(const WrSession *session)

@@ -179,9 +179,16 @@ void wr_session_journal_leave(WrSession *session);
 /* ---- history ---- */
 
 /* Steps: canonical lines of the edits and scene commands since the document was created or opened, oldest first,
-   including undone ones that can be redone. View, output and history commands are not steps. */
+   including undone ones that can be redone. View, output and history commands are not steps, nor is the choice of a
+   layer. The command `step` changes earlier steps. */
 int wr_session_history_count(const WrSession *session);
 const char *wr_session_history_line(const WrSession *session, int index); /* "" out of range */
+bool wr_session_history_is_off(const WrSession *session, int index); /* switched off: no effect */
+/* Running time of the steps in force from this one on, measured when they ran, in seconds. */
+double wr_session_history_seconds(const WrSession *session, int index);
+/* Steps that `undo` and `redo` can go: a change of a step (command `step`) is one of them. */
+int wr_session_undo_count(const WrSession *session);
+int wr_session_redo_count(const WrSession *session);
 /* Heights of the active layer after `position` steps, 0 .. count; for a filter layer, those of the layer below it.
    NULL if that state was dropped. Borrowed until the next command. */
 const WrField *wr_session_history_heights(const WrSession *session, int position);

@@ -18,6 +18,7 @@
 #include "system/path.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -687,7 +688,7 @@ void wr_session_journal_before(WrSession *session, const WrCall *call)
     bool view = wr_call_of_views(call);
     if (!session->journal && view) return;
     if (!session->journal) begin(session);
-    if (!session->journal) return;
+    if (!session->journal || call->command->after_journal) return;
     WrText canonical = { 0 }, text = { 0 };
     wr_call_print(call, &canonical);
     journal_line(session, wr_text_get(&canonical), session->folder, &text);
@@ -708,10 +709,17 @@ static void follow(WrSession *session, bool pushed)
     if (!known || !seen) restart(session, false, NULL);
 }
 
-void wr_session_journal_after(WrSession *session, bool good, bool pushed)
+void wr_session_journal_cut(WrSession *session)
+{
+    session->journal_base = INT_MAX;
+}
+
+void wr_session_journal_after(WrSession *session, const WrCall *call, bool good, bool pushed)
 {
     if (!journaled(session) || !session->journal) return;
-    wr_journal_done(session->journal, good ? WR_JOURNAL_OK : WR_JOURNAL_DROPPED, NULL, NULL);
+    if (!call->command->after_journal)
+        wr_journal_done(session->journal, good ? WR_JOURNAL_OK : WR_JOURNAL_DROPPED, NULL, NULL);
+    else if (good) wr_session_journal_cut(session);
     if (good) follow(session, pushed);
 }
 

@@ -99,6 +99,7 @@ struct WrSession {
     /* tables from which live masks and layers with a line were made, to make them again where these change only */
     WrMadeFrom *made_from;
     bool still;           /* this is a snapshot: wr_session_snapshot */
+    double step_seconds;  /* running time of the step so far */
     uint64_t made_before; /* number of the last making (layer_times.h) before the last command */
     bool unsafe;          /* of a snapshot: the journal is not safe */
     char *unsafe_words;   /* the cause; owned */
@@ -126,8 +127,14 @@ bool wr_session_refuse_in_stroke(const WrSession *session, WrError *err);
 WrHash wr_session_hash_with(const WrSession *session, const WrScene *scene);
 /* Record the finished command of that call as a step. */
 void wr_session_remember(WrSession *session, const WrCall *call);
-/* Go to a state of the history. Only undo and redo call this, so that the journal records it. */
+/* Make the composite after the outermost command, if options.composites is set. */
+bool wr_session_make_composite(WrSession *session, WrError *err);
+/* Go to a state of the history. Only commands call this, so that the journal records it. */
 bool wr_session_go_to(WrSession *session, int state, WrError *err);
+/* Goes `steps` back (negative) or forward, over revisions too. False: not so many. */
+bool wr_session_travel(WrSession *session, int steps);
+/* The next line of the journal cannot be replayed on what is in it: the journal starts again after this command. */
+void wr_session_journal_cut(WrSession *session);
 /* Restore the document to the history's present state. */
 void wr_session_restore(WrSession *session);
 /* Replace the session's document by another one (ownership passes); its cached composite is reused. */
@@ -162,7 +169,7 @@ WrScene *wr_session_scene_at_start(const WrSession *session);
    view would be lost. */
 void wr_session_journal_before(WrSession *session, const WrCall *call);
 /* pushed: the command made a step, rather than moving through the history. */
-void wr_session_journal_after(WrSession *session, bool good, bool pushed);
+void wr_session_journal_after(WrSession *session, const WrCall *call, bool good, bool pushed);
 /* Journal a stroke; a sample's numbers as printed. kept: false if it was cancelled or empty. */
 void wr_session_journal_stroke_begin(WrSession *session, const WrCall *call);
 void wr_session_journal_stroke_add(WrSession *session, const double *row, int length);

@@ -17,6 +17,7 @@
 #include "field/select.h"
 #include "scene/scene.h"
 #include "surface/mesh_texels.h"
+#include "system/clock.h"
 #include "surface/triangles.h"
 #include "system/path.h"
 
@@ -764,6 +765,7 @@ bool wr_session_stroke_begin(WrSession *session, const char *head, WrError *err)
         return false;
     }
     wr_session_journal_stroke_begin(session, call);
+    session->step_seconds = 0.0;
     session->stroke_call = call;
     session->painting = painting;
     session->stroke = wr_stroke_new_on(&session->painting.ground, &session->painting.held.brush);
@@ -842,7 +844,11 @@ bool wr_session_stroke_push(WrSession *session, const WrSample *samples, int cou
 
 bool wr_session_stroke_work(WrSession *session, double seconds)
 {
-    return session->stroke && wr_stroke_work(session->stroke, seconds);
+    if (!session->stroke) return false;
+    const double began = wr_clock_seconds();
+    const bool more = wr_stroke_work(session->stroke, seconds);
+    session->step_seconds += wr_clock_seconds() - began;
+    return more;
 }
 
 bool wr_session_stroke_add(WrSession *session, const WrSample *samples, int count, WrError *err)

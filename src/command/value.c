@@ -434,7 +434,8 @@ WrCommandClass wr_call_class(const WrCall *call)
 
 bool wr_call_of_views(const WrCall *call)
 {
-    return wr_call_class(call) == WR_CLASS_VIEW || call->command->of_views;
+    const WrCommandClass kind = wr_call_class(call);
+    return kind == WR_CLASS_VIEW || kind == WR_CLASS_CHOICE || call->command->of_views;
 }
 
 bool wr_call_given(const WrCall *call, const char *name)

@@ -3,12 +3,15 @@
 
 #include "base/array.h"
 #include "base/error.h"
+#include "base/memory.h"
+#include "base/text.h"
 #include "document/document.h"
 #include "field/field.h"
 #include "image/image.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- memory cost of a step ---- */
@@ -171,6 +174,9 @@ typedef struct Step {
     WrDocument *after; /* NULL: discarded */
     uint64_t mark;
     bool brings_view; /* its two states have different views */
+    bool off;
+    double seconds;
+    char *choices; /* in the state after it; owned; NULL: none */
 } Step;
 
 /* State k is the document after k steps; step k leads from state k to state k + 1. States below `oldest` are discarded to
@@ -181,7 +187,22 @@ struct WrHistory {
     WR_ARRAY(Step *) steps;
     int position, oldest;
     size_t budget, bytes; /* bytes: of steps oldest..count - 1 */
+    char *start_choices;  /* as Step.choices */
+    /* The list that this one revised, and one that revised this one: owned by the present history, and each by its neighbour
+       nearer to it. */
+    WrHistory *earlier, *later;
+    int revised;          /* position at the end of the revision; -1: it is not one */
+    size_t earlier_bytes; /* of the steps of all earlier lists that are not in this one */
+    int counts_there
+        [2]; /* of a snapshot: steps back and forward over its ends, which it does not keep */
 };
+
+/* Steps forward over the start of a later list and in it. */
+static int forward_from(const WrHistory *later)
+{
+    const int own = 1 + later->steps.count - later->revised;
+    return later->later ? own + forward_from(later->later) : own;
+}
 
 WrHistory *wr_history_new(const WrDocument *start, uint64_t mark, size_t budget)
 {
@@ -189,6 +210,7 @@ WrHistory *wr_history_new(const WrDocument *start, uint64_t mark, size_t budget)
     history->start = wr_document_snapshot(start);
     history->start_mark = mark;
     history->budget = budget;
+    history->revised = -1;
     return history;
 }
 
@@ -201,6 +223,7 @@ static void free_step(Step *step)
 {
     if (!is_last_of(&step->refs)) return;
     wr_document_free(step->after);
+    wr_free(step->choices);
     if (is_last_of(&step->words->refs)) {
         wr_free(step->words->line);
         wr_free(step->words->folder);
@@ -220,6 +243,7 @@ static Step *make_own(WrHistory *history, int k)
     *own = *step;
     own->refs = 1;
     own->after = step->after ? wr_document_snapshot(step->after) : NULL;
+    own->choices = wr_strdup(step->choices);
     __atomic_add_fetch(&own->words->refs, 1, __ATOMIC_RELAXED);
     free_step(step);
     history->steps.data[k] = own;
@@ -229,23 +253,37 @@ static Step *make_own(WrHistory *history, int k)
 void wr_history_free(WrHistory *history)
 {
     if (!history) return;
+    wr_history_free(history->earlier);
+    wr_history_free(history->later);
+    wr_free(history->start_choices);
     for (int i = 0; i < history->steps.count; i++) free_step(history->steps.data[i]);
     wr_array_free(&history->steps);
     wr_document_free(history->start);
     wr_free(history);
 }
 
-WrHistory *wr_history_snapshot(const WrHistory *history)
+/* A history with the same first steps, and no others before and after it. */
+static WrHistory *share(const WrHistory *history, int count)
 {
-    WrHistory *still = wr_alloc(1, sizeof *still);
-    *still = *history;
-    still->start = history->start ? wr_document_snapshot(history->start) : NULL;
-    memset(&still->steps, 0, sizeof still->steps);
-    for (int i = 0; i < history->steps.count; i++) {
+    WrHistory *other = wr_alloc(1, sizeof *other);
+    *other = *history;
+    other->start = history->start ? wr_document_snapshot(history->start) : NULL;
+    other->start_choices = wr_strdup(history->start_choices);
+    other->earlier = other->later = NULL;
+    memset(&other->steps, 0, sizeof other->steps);
+    for (int i = 0; i < count; i++) {
         Step *step = history->steps.data[i];
         __atomic_add_fetch(&step->refs, 1, __ATOMIC_RELAXED);
-        wr_array_push(&still->steps, step);
+        wr_array_push(&other->steps, step);
     }
+    return other;
+}
+
+WrHistory *wr_history_snapshot(const WrHistory *history)
+{
+    WrHistory *still = share(history, history->steps.count);
+    still->counts_there[0] = history->earlier ? 1 + wr_history_undo_count(history->earlier) : 0;
+    still->counts_there[1] = history->later ? forward_from(history->later) : 0;
     return still;
 }
 
@@ -269,8 +307,21 @@ static void drop_last(WrHistory *history)
     history->steps.count--;
 }
 
+/* Forget the list that this one revised, and those that it leads to. */
+static void forget_earlier(WrHistory *history)
+{
+    wr_history_free(history->earlier);
+    history->earlier = NULL;
+    history->earlier_bytes = 0;
+    history->revised = -1;
+}
+
 static void keep_to_budget(WrHistory *history)
 {
+    const bool settled = history->revised >= 0; /* it is not being made */
+    if (settled && history->bytes + history->earlier_bytes > history->budget &&
+        history->position != history->revised)
+        forget_earlier(history);
     while (history->bytes > history->budget && history->oldest < history->position - 1) {
         WrDocument **state = own_state(history, history->oldest);
         wr_document_free(*state);
@@ -287,6 +338,9 @@ void wr_history_push(WrHistory *history, const WrDocument *document, const char 
                      const char *folder, uint64_t mark)
 {
     while (history->steps.count > history->position) drop_last(history);
+    wr_history_free(history->later);
+    history->later = NULL;
+    if (history->position < history->revised) forget_earlier(history); /* that state is gone */
     const WrDocument *before = state_at(history, history->position);
     WrSceneView old = wr_scene_view(before->scene), now = wr_scene_view(document->scene);
     Step *step = wr_alloc(1, sizeof *step);
@@ -302,6 +356,26 @@ void wr_history_push(WrHistory *history, const WrDocument *document, const char 
     history->position++;
     history->bytes += step->bytes;
     keep_to_budget(history);
+}
+
+void wr_history_note_step(WrHistory *history, double seconds, bool off)
+{
+    WR_ASSERT(history->position > 0);
+    Step *step = make_own(history, history->position - 1);
+    step->seconds = seconds;
+    step->off = off;
+}
+
+double wr_history_step_seconds(const WrHistory *history, int step)
+{
+    WR_ASSERT(step >= 0 && step < history->steps.count);
+    return history->steps.data[step]->seconds;
+}
+
+bool wr_history_is_off(const WrHistory *history, int step)
+{
+    WR_ASSERT(step >= 0 && step < history->steps.count);
+    return history->steps.data[step]->off;
 }
 
 int wr_history_count(const WrHistory *history)
@@ -357,6 +431,42 @@ void wr_history_record_view(WrHistory *history, const WrDocument *document)
     *present = wr_document_snapshot(document);
 }
 
+/* The lines without those equal to this one: it is added behind the others. The caller frees them. */
+static char *lines_without(const char *lines, const char *line)
+{
+    WrText kept = { 0 };
+    for (const char *p = lines; *p; p += strcspn(p, "\n") + 1) {
+        const size_t length = strcspn(p, "\n");
+        if (strlen(line) != length || strncmp(p, line, length) != 0)
+            wr_text_add_n(&kept, p, length + 1);
+    }
+    char *text = wr_strdup(wr_text_get(&kept));
+    wr_text_fini(&kept);
+    return text;
+}
+
+void wr_history_record_choice(WrHistory *history, const WrDocument *document, const char *line)
+{
+    WrText text = { 0 };
+    char **choices = history->position == 0 ? &history->start_choices
+                                            : &make_own(history, history->position - 1)->choices;
+    char *kept = lines_without(*choices ? *choices : "", line);
+    wr_history_record_view(history, document);
+    wr_text_addf(&text, "%s%s\n", kept, line);
+    wr_free(kept);
+    wr_free(*choices);
+    *choices = wr_strdup(wr_text_get(&text));
+    wr_text_fini(&text);
+}
+
+const char *wr_history_choices(const WrHistory *history, int state)
+{
+    WR_ASSERT(state >= 0 && state <= history->steps.count);
+    const char *choices =
+        state == 0 ? history->start_choices : history->steps.data[state - 1]->choices;
+    return choices ? choices : "";
+}
+
 bool wr_history_view(const WrHistory *history, int state, WrSceneView *view)
 {
     WR_ASSERT(state >= 0 && state <= history->steps.count);
@@ -365,10 +475,15 @@ bool wr_history_view(const WrHistory *history, int state, WrSceneView *view)
     return document != NULL;
 }
 
-const WrField *wr_history_heights(const WrHistory *history, int state)
+const WrDocument *wr_history_document(const WrHistory *history, int state)
 {
     WR_ASSERT(state >= 0 && state <= history->steps.count);
-    const WrDocument *document = state_at(history, state);
+    return state_at(history, state);
+}
+
+const WrField *wr_history_heights(const WrHistory *history, int state)
+{
+    const WrDocument *document = wr_history_document(history, state);
     if (!document) return NULL;
     int layer = document->active;
     while (layer > 0 && !wr_layer_holds(&document->layers[layer])) layer--;
@@ -412,6 +527,94 @@ WrDocument *wr_history_go(WrHistory *history, int state)
     WrDocument *present = *own_state(history, state);
     look(present, &view);
     return wr_document_snapshot(present);
+}
+
+/* ---- revised lists of steps ---- */
+
+WrHistory *wr_history_revise(WrHistory *history, int state)
+{
+    WR_ASSERT(state >= history->oldest && state <= history->position);
+    WrHistory *revision = share(history, state);
+    for (int k = state; k < history->steps.count; k++) {
+        revision->bytes -= history->steps.data[k]->bytes;
+        if (k < history->position) revision->earlier_bytes += history->steps.data[k]->bytes;
+    }
+    revision->earlier = history;
+    revision->position = state;
+    revision->revised = -1;
+    return revision;
+}
+
+void wr_history_revised(WrHistory *history)
+{
+    WrHistory *earlier = history->earlier;
+    while (earlier->steps.count > earlier->position) drop_last(earlier);
+    wr_history_free(earlier->later);
+    earlier->later = NULL;
+    history->revised = history->position;
+    keep_to_budget(history);
+}
+
+WrHistory *wr_history_take_back(WrHistory *history)
+{
+    WrHistory *earlier = history->earlier;
+    history->earlier = NULL;
+    wr_history_free(history);
+    return earlier;
+}
+
+/* The steps back end at the revision rather than at the oldest state. */
+static bool revision_behind(const WrHistory *history)
+{
+    return history->revised >= history->oldest && history->revised <= history->position;
+}
+
+int wr_history_undo_count(const WrHistory *history)
+{
+    if (!revision_behind(history)) return history->position - history->oldest;
+    const int there =
+        history->earlier ? 1 + wr_history_undo_count(history->earlier) : history->counts_there[0];
+    return history->position - history->revised + there;
+}
+
+int wr_history_redo_count(const WrHistory *history)
+{
+    const int there = history->later ? forward_from(history->later) : history->counts_there[1];
+    return history->steps.count - history->position + there;
+}
+
+/* Makes the neighbour the present list. Its view becomes the present one. */
+static WrHistory *cross(WrHistory *history, bool back)
+{
+    const WrSceneView view = wr_scene_view(state_at(history, history->position)->scene);
+    WrHistory *other = back ? history->earlier : history->later;
+    if (back) {
+        history->earlier = NULL;
+        other->later = history;
+    } else {
+        history->later = NULL;
+        other->earlier = history;
+        other->position = other->revised;
+    }
+    look(*own_state(other, other->position), &view);
+    return other;
+}
+
+WrDocument *wr_history_travel(WrHistory **history, int steps)
+{
+    while (steps != 0) {
+        WrHistory *now = *history;
+        const bool back = steps < 0;
+        const int limit = !back                  ? now->steps.count
+                          : revision_behind(now) ? now->revised
+                                                 : now->oldest;
+        const int room = abs(limit - now->position), wish = abs(steps);
+        const int count = room == 0 ? 1 : wish < room ? wish : room;
+        if (room == 0) *history = cross(now, back);
+        else wr_document_free(wr_history_go(now, now->position + (back ? -count : count)));
+        steps += back ? count : -count;
+    }
+    return wr_history_go(*history, (*history)->position);
 }
 
 void wr_history_set_budget(WrHistory *history, size_t bytes)

@@ -9,7 +9,10 @@
 
    The view of the scene is not part of a state: going back and forth keeps the current view, except over a step
    that had a view of its own (a document was opened). There the view changes to that on the other side of the
-   step. */
+   step.
+
+   A list of steps can be revised: a new history shares the steps before the first change, and the changed ones are
+   added to it. The former list is kept behind it, so that one undo goes back to it and a redo returns. */
 #pragma once
 #include "scene/camera.h"
 
@@ -39,6 +42,10 @@ WrHistory *wr_history_snapshot(const WrHistory *history);
 void wr_history_push(WrHistory *history, const WrDocument *document, const char *line,
                      const char *folder, uint64_t mark);
 
+/* Properties of the last added step: its running time in seconds, and whether it is switched off: its line is kept, but its
+   two states are equal. */
+void wr_history_note_step(WrHistory *history, double seconds, bool off);
+
 int wr_history_count(const WrHistory *history);    /* steps, including undone ones */
 int wr_history_position(const WrHistory *history); /* the current state: 0..count */
 int wr_history_oldest(const WrHistory *history);   /* the oldest stored state: 0..position */
@@ -46,13 +53,22 @@ int wr_history_oldest(const WrHistory *history);   /* the oldest stored state: 0
 const char *wr_history_line(const WrHistory *history, int step);
 const char *wr_history_folder(const WrHistory *history, int step); /* NULL: none */
 size_t wr_history_step_bytes(const WrHistory *history, int step); /* 0 if its state was discarded */
-size_t wr_history_bytes(const WrHistory *history);                /* of all stored steps */
-uint64_t wr_history_mark(const WrHistory *history);               /* of the current state */
+double wr_history_step_seconds(const WrHistory *history, int step);
+bool wr_history_is_off(const WrHistory *history, int step);
+size_t wr_history_bytes(const WrHistory *history);  /* of all stored steps */
+uint64_t wr_history_mark(const WrHistory *history); /* of the current state */
 
 /* Records a changed view of the current state: `document` differs from it in nothing else. */
 void wr_history_record_view(WrHistory *history, const WrDocument *document);
+/* The same of a changed choice of the active layer, or of its part. line: the command that chose it. */
+void wr_history_record_choice(WrHistory *history, const WrDocument *document, const char *line);
+/* The lines of the choices in a state while it was current, each with its line end; "": none. Borrowed until the history
+   changes. */
+const char *wr_history_choices(const WrHistory *history, int state);
 /* The last view of a state while it was current; false if the state was discarded. */
 bool wr_history_view(const WrHistory *history, int state, WrSceneView *view);
+/* The document of a state; NULL: it was discarded. Borrowed until the history changes. */
+const WrDocument *wr_history_document(const WrHistory *history, int state);
 /* The heights of a state's active layer, or for a filter of the layer below; NULL: it was discarded. Borrowed
    until the history changes. */
 const WrField *wr_history_heights(const WrHistory *history, int state);
@@ -61,6 +77,21 @@ bool wr_history_restores_view(const WrHistory *history, int step);
 
 /* Makes `state` (oldest..count) the current one. Returns its document, a snapshot owned by the caller. */
 WrDocument *wr_history_go(WrHistory *history, int state);
+
+/* ---- revised lists of steps ---- */
+
+/* A history with the first `state` steps (oldest..position) of this one, which it owns from now on. The caller adds the
+   other steps, and then ends the revision, which removes the undone steps of the former list, or takes it back. */
+WrHistory *wr_history_revise(WrHistory *history, int state);
+void wr_history_revised(WrHistory *history);
+/* Frees the new history, and returns the former one. */
+WrHistory *wr_history_take_back(WrHistory *history);
+/* Steps that wr_history_travel can go back and forward: revisions count as one each. */
+int wr_history_undo_count(const WrHistory *history);
+int wr_history_redo_count(const WrHistory *history);
+/* Goes `steps` back (negative) or forward; *history becomes another one over a revision. Returns the document there, a snapshot
+   owned by the caller. steps: not 0, within the two counts */
+WrDocument *wr_history_travel(WrHistory **history, int steps);
 
 /* Discards at once whatever exceeds the budget: the oldest states first, then undone steps, the last one first. */
 void wr_history_set_budget(WrHistory *history, size_t bytes);

@@ -85,6 +85,7 @@ static const char *const instant[] = {
     "bake-tiles", /* test_udim_command.c */
     "sculpt",
     "project", /* test_sculpt.c */
+    "macro",   /* test_steps.c */
 };
 
 /* Arguments that generators need besides their defaults; generators that read files are tested elsewhere. */

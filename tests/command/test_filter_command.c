@@ -56,8 +56,7 @@ static void a_filter_is_made_above_the_active_layer_and_changed_by_its_number(vo
     must_run(other, "dab 0.31,0.77 radius=9 strength=0.6");
     must_run(other, "adjust blur sigma=2.5");
     assert_true(same_field(wr_document_field(doc(s)), wr_document_field(doc(other))));
-    must_run(s, "undo 2"); /* the stroke and the choice of layer */
-    must_run(s, "undo");
+    must_run(s, "undo 2"); /* the stroke and the filter */
     assert_true(same_field(plain, wr_document_field(doc(s))));
     wr_field_free(plain);
     wr_field_free(blurred);
@@ -282,14 +281,15 @@ static void what_a_filter_cannot_be_carried_out_for_is_refused(void **state)
     assert_int_not_equal(access("lacks.png", F_OK), 0);
     must_run(s, "layer use 1");
     must_run(s, "dab 0.5,0.5 radius=3 strength=1"); /* lines that do not need it still work */
-    must_run(s, "undo 2");
+    must_run(s, "undo");
     must_run(s, "layer set 3 blend=mix");
     must_run(s, "layer use 3");
     break_filter(s, 1, 0.17);
     WrError erased = { "" };
     assert_false(wr_session_stroke_begin(s, "stroke mode=erase radius=5", &erased));
     assert_non_null(strstr(erased.text, "cannot be carried out"));
-    must_run(s, "undo 2");
+    must_run(s, "undo");
+    must_run(s, "layer use 2");
     break_filter(s, 1, 0.17);
     must_run(s, "layer set 2 visible=off");
     must_run(s, "save lacks.exr");

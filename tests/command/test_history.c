@@ -151,7 +151,7 @@ static void a_step_costs_the_tiles_that_it_touches(void **state)
     must_run(s, "grid cells=64x64 width=4");    /* fills every tile: 64 MB */
     must_run(s, "dab 0.5078,0.5078 radius=10"); /* in the middle of a tile */
     must_run(s, "surface torus");
-    must_run(s, "layer use 1");
+    must_run(s, "bump height=0.31");
     size_t dab = wr_session_history_step_bytes(s, 2), scene = wr_session_history_step_bytes(s, 3);
     assert_true(wr_session_history_step_bytes(s, 1) >= 4096 * TILE);
     assert_true(dab >= TILE && dab < 2 * TILE);

@@ -597,7 +597,6 @@ static void actions_change_all_chosen_layers_in_one_step(void **state)
         { "layer_raise", "layer move 2,4 to=4", "fdbeca", "bD" },
         { "layer_lower", "layer move 2,4 to=1", "fecadb", "bD" },
         { "layer_clear", "layer clear 2,4", "fedcba", "bD" },
-        { "layer_above", "layer use 5", "fedcba", "E" },
     };
     Bench bench;
     open_list(&bench, 6);
@@ -617,6 +616,11 @@ static void actions_change_all_chosen_layers_in_one_step(void **state)
         wr_action_run(bench.app, "undo");
         settle(&bench);
     }
+    const int before = steps(&bench);
+    wr_action_run(bench.app, "layer_above");
+    settle(&bench);
+    assert_list(&bench, "fedcba", "E");
+    assert_int_equal(steps(&bench), before); /* a choice is no step */
     finish(&bench);
 }
 

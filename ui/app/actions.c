@@ -48,12 +48,12 @@ static void undo(WrApp *app)
 static bool can_undo(const WrApp *app)
 {
     return wr_strokes_under_way(app) ||
-           wr_session_history_position(app->session) > wr_session_history_oldest(app->session);
+           wr_session_undo_count(app->session) > 0;
 }
 
 static bool can_redo(const WrApp *app)
 {
-    return wr_session_history_position(app->session) < wr_session_history_count(app->session);
+    return wr_session_redo_count(app->session) > 0;
 }
 
 /* A drag that this ends may have made a step: then there is nothing to redo. */

@@ -42,14 +42,6 @@ static void tip_of(const WrApp *app, int step, bool kept)
     wr_gui_as_it_is(false);
 }
 
-/* Go to the state after `position` steps. */
-static void go(WrApp *app, int position)
-{
-    int now = wr_session_history_position(app->session);
-    if (position < now) wr_app_run_linef(app, "undo %d", now - position);
-    if (position > now) wr_app_run_linef(app, "redo %d", position - now);
-}
-
 /* The state after `position` steps, with the step that led to it; position 0 is the start. True if clicked. */
 static bool row(WrApp *app, int position, bool seen)
 {
@@ -121,5 +113,5 @@ void wr_panel_history(WrApp *app)
     for (int i = count; i >= last; i--) /* newest on top */
         if (row(app, i, wr_gui_will_see(wr_gui_px(ROW_UNITS)))) goal = i;
     wr_busy_hold_end();
-    if (goal >= 0) go(app, goal);
+    if (goal >= 0) wr_app_run_linef(app, "step go %d", goal);
 }

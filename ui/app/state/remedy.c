@@ -32,7 +32,7 @@ static bool is_change(const char *line)
     WrCall *call = NULL;
     WrError err;
     if (!wr_call_parse(line, false, &call, &err)) return false;
-    const bool change = call->command && wr_call_class(call) <= WR_CLASS_VIEW;
+    const bool change = call->command && wr_call_class(call) <= WR_CLASS_CHOICE;
     wr_call_free(call);
     return change;
 }

@@ -451,6 +451,9 @@ void wr_guide_effect(const WrApp *app, const char *line, WrText *out)
     case WR_CLASS_VIEW:
         wr_text_add(out, wr_words("Changes the view, no heights. No undo step."));
         break;
+    case WR_CLASS_CHOICE:
+        wr_text_add(out, wr_words("Chooses what later edits apply to. No undo step."));
+        break;
     case WR_CLASS_OUTPUT: add_output(call, out); break;
     default: wr_text_add(out, wr_words("Goes to another step of the history.")); break;
     }
