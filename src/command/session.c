@@ -336,6 +336,12 @@ WrSession *wr_session_snapshot(const WrSession *session)
     return still;
 }
 
+void wr_session_let_run(WrSession *snapshot, WrPool *pool)
+{
+    snapshot->still = false;
+    snapshot->options.pool = pool;
+}
+
 /* ---- the session ---- */
 
 static void state_fini(WrSessionState *state)
@@ -713,11 +719,22 @@ bool wr_session_run(WrSession *session, const char *line, WrError *err)
 
 /* ---- moves through the history ---- */
 
+/* The journal can replay undo and redo; after `step go` it starts again from a snapshot. */
+void wr_session_history_go_line(const WrSession *session, int state, char line[WR_GO_LINE])
+{
+    const WrHistory *history = session->state.history;
+    const int steps = state - wr_history_position(history);
+    const bool beyond =
+        state < wr_history_list_end(history) || steps == 0 || state > wr_history_count(history);
+    if (beyond) snprintf(line, WR_GO_LINE, "step go %d", state);
+    else snprintf(line, WR_GO_LINE, "%s %d", steps < 0 ? "undo" : "redo", abs(steps));
+}
+
 /* Goes through a command line, so that moves are written to the journal like every other command. */
 bool wr_session_history_go(WrSession *session, int state, WrError *err)
 {
-    char line[32];
-    snprintf(line, sizeof line, "step go %d", state);
+    char line[WR_GO_LINE];
+    wr_session_history_go_line(session, state, line);
     return wr_session_run(session, line, err);
 }
 

@@ -76,6 +76,9 @@ WrSession *wr_session_of(const WrDocument *document, WrPool *pool);
    The caller owns it. */
 WrSession *wr_session_snapshot(const WrSession *session);
 
+/* A snapshot becomes a session of its own, with its history, in the thread that calls this; without a journal. */
+void wr_session_let_run(WrSession *snapshot, WrPool *pool);
+
 /* Change options.outputs. */
 void wr_session_set_outputs(WrSession *session, bool outputs);
 
@@ -199,6 +202,9 @@ int wr_session_history_oldest(const WrSession *session);
 /* Go to the state after `position` steps, oldest .. count, bit-identical; the view is unchanged (document/history.h).
    The next edit drops the later steps. Fails during a stroke. */
 bool wr_session_history_go(WrSession *session, int position, WrError *err);
+/* The command line that does it. */
+#define WR_GO_LINE 32
+void wr_session_history_go_line(const WrSession *session, int position, char line[WR_GO_LINE]);
 
 /* Numbers of views that can be undone and redone. Views are not edits: they have their own history (commands
    `camera`, `rotate` and `view`) and do not make a document unsaved. */

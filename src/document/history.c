@@ -569,6 +569,11 @@ static bool revision_behind(const WrHistory *history)
     return history->revised >= history->oldest && history->revised <= history->position;
 }
 
+int wr_history_list_end(const WrHistory *history)
+{
+    return revision_behind(history) ? history->revised : history->oldest;
+}
+
 int wr_history_undo_count(const WrHistory *history)
 {
     if (!revision_behind(history)) return history->position - history->oldest;
@@ -605,9 +610,7 @@ WrDocument *wr_history_travel(WrHistory **history, int steps)
     while (steps != 0) {
         WrHistory *now = *history;
         const bool back = steps < 0;
-        const int limit = !back                  ? now->steps.count
-                          : revision_behind(now) ? now->revised
-                                                 : now->oldest;
+        const int limit = back ? wr_history_list_end(now) : now->steps.count;
         const int room = abs(limit - now->position), wish = abs(steps);
         const int count = room == 0 ? 1 : wish < room ? wish : room;
         if (room == 0) *history = cross(now, back);

@@ -89,6 +89,8 @@ WrHistory *wr_history_take_back(WrHistory *history);
 /* Steps that wr_history_travel can go back and forward: revisions count as one each. */
 int wr_history_undo_count(const WrHistory *history);
 int wr_history_redo_count(const WrHistory *history);
+/* The lowest state that is reached without a revision in between. */
+int wr_history_list_end(const WrHistory *history);
 /* Goes `steps` back (negative) or forward; *history becomes another one over a revision. Returns the document there, a snapshot
    owned by the caller. steps: not 0, within the two counts */
 WrDocument *wr_history_travel(WrHistory **history, int steps);

@@ -17,6 +17,7 @@ const char *const wr_action_helps[] = {
     ROW(render, "Write the lit patch as a picture of any size"),
     ROW(film, "Turn the objects once round and write that as a film or as pictures"),
     ROW(save_history, "Write all that was done as lines that can be run again"),
+    ROW(run_macro, "Run the commands of a file on this document, with other values"),
     ROW(quit, "Close the window; you are asked about unsaved changes first"),
     ROW(undo, "Take the newest change back"),
     ROW(redo, "Redo the step that was undone"),

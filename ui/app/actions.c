@@ -1,6 +1,7 @@
 /* The table of actions, used by menus, keys and buttons. */
 #include "ui/app/actions.h"
 #include "ui/app/actions_display.h"
+#include "ui/panels/panel_history.h"
 #include "ui/panels/accuracy/accuracy.h"
 #include "ui/app/registry_list.h"
 #include "ui/canvas/canvas.h"
@@ -47,8 +48,7 @@ static void undo(WrApp *app)
 
 static bool can_undo(const WrApp *app)
 {
-    return wr_strokes_under_way(app) ||
-           wr_session_undo_count(app->session) > 0;
+    return wr_strokes_under_way(app) || wr_session_undo_count(app->session) > 0;
 }
 
 static bool can_redo(const WrApp *app)
@@ -282,6 +282,7 @@ const WrAction wr_actions[] = {
     EDIT(film, "Save a turntable as a film...", film, NULL, NULL),
     EDIT(save_history, "Save history as script...", wr_app_save_history, has_history, NULL),
     ROW(quit, "Quit", wr_app_quit, NULL, NULL),
+    EDIT(run_macro, "Run a macro...", wr_macro_open, NULL, NULL),
     EDIT(undo, "Undo", undo, can_undo, NULL),
     EDIT(redo, "Redo", redo, can_redo, NULL),
     LAYER(cut, "Cut", wr_act_cut, wr_has_heights, NULL),

@@ -39,6 +39,7 @@
 #include "ui/panels/panel_layers.h"
 #include "ui/panels/panel_status.h"
 #include "ui/panels/panel_dynamics.h"
+#include "ui/panels/panel_history.h"
 #include "ui/panels/panel_tablet.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/panel_presets.h"
@@ -106,6 +107,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
     app->trial = wr_edit_preview_new(app->options->threads, app->job_event);
     app->marks->outliner = wr_outliner_new(app->options->threads, app->job_event);
     app->layers->dragged = app->layers->renamed = app->layers->eyes_from = -1;
+    app->history->dragged = app->history->menu = -1;
     app->canvas = wr_canvas_new();
     app->canvas_map = wr_canvas_map_new(app->options->threads, app->job_event);
     app->canvas_second = wr_canvas_map_new(app->options->threads, app->job_event);
@@ -176,6 +178,7 @@ void wr_app_end(WrApp *app)
     wr_guide_free(app);
     if (app->renderer) wr_panel_layers_forget(app);
     wr_missing_files_free(app);
+    wr_history_panel_free(app);
     wr_canvas_free(app->canvas);
     wr_canvas_map_free(app->canvas_map);
     wr_canvas_map_free(app->canvas_second);
@@ -511,6 +514,7 @@ typedef struct Store {
     WrSelectState select;
     WrLayersState layers;
     WrLayerPlanState layer_plan;
+    WrHistoryState history;
     WrSurfaceState surface;
     WrObjectsState objects;
     WrAdjust adjust;
@@ -554,6 +558,7 @@ WrApp *wr_store_new(void)
     app->select = &store->select;
     app->layers = &store->layers;
     app->layer_plan = &store->layer_plan;
+    app->history = &store->history;
     app->surface = &store->surface;
     app->objects = &store->objects;
     app->adjust = &store->adjust;

@@ -15,6 +15,7 @@
 #include "ui/panels/help/guide.h"
 #include "ui/panels/panel_adjust.h"
 #include "ui/panels/panel_dynamics.h"
+#include "ui/panels/panel_history.h"
 #include "ui/panels/panel_layers.h"
 #include "ui/panels/panel_preferences.h"
 #include "ui/panels/panel_search.h"
@@ -64,6 +65,8 @@ static const WrDialogRow dialogs[] = {
     [WR_ROW(WR_DIALOG_MASK)] = { wr_dialog_mask, true },
     [WR_ROW(WR_DIALOG_LINK)] = { wr_dialog_link, true },
     [WR_ROW(WR_DIALOG_VARIANT)] = { wr_dialog_variant, false },
+    [WR_ROW(WR_DIALOG_STEP)] = { wr_dialog_step, true },
+    [WR_ROW(WR_DIALOG_MACRO)] = { wr_dialog_macro, true },
     [WR_ROW(WR_DIALOG_TABLET)] = { wr_dialog_tablet, false },
     [WR_ROW(WR_DIALOG_BAKE)] = { wr_dialog_bake, false },
     [WR_ROW(WR_DIALOG_CASES)] = { wr_dialog_cases, false },
@@ -99,6 +102,8 @@ static WrFileTake *const takes[] = {
     [WR_ROW(WR_FILE_FILM)] = wr_file_take_film,
     [WR_ROW(WR_FILE_IMPORT)] = wr_file_take_import,
     [WR_ROW(WR_FILE_HISTORY)] = wr_file_take_history,
+    [WR_ROW(WR_FILE_MACRO_SAVE)] = wr_macro_save_chosen,
+    [WR_ROW(WR_FILE_MACRO)] = wr_macro_chosen,
     [WR_ROW(WR_FILE_STAMP)] = wr_stamp_file_chosen,
     [WR_ROW(WR_FILE_GENERATE)] = wr_generate_file,
     [WR_ROW(WR_FILE_LOCATE)] = wr_missing_file_chosen,

@@ -47,9 +47,9 @@ static const char *const file_menu[] = { WR_ACT(new),
                                          WR_ACT(quit),
                                          NULL };
 static const char *const edit_menu[] = {
-    WR_ACT(undo),        WR_ACT(redo),        "-", WR_ACT(cut),    WR_ACT(copy), WR_ACT(copy_shown),
-    WR_ACT(paste),       WR_ACT(transform),   "-", WR_ACT(search), "-",          WR_ACT(keys_paint),
-    WR_ACT(keys_sculpt), WR_ACT(preferences), NULL
+    WR_ACT(undo),       WR_ACT(redo),        WR_ACT(run_macro),   "-", WR_ACT(cut),    WR_ACT(copy),
+    WR_ACT(copy_shown), WR_ACT(paste),       WR_ACT(transform),   "-", WR_ACT(search), "-",
+    WR_ACT(keys_paint), WR_ACT(keys_sculpt), WR_ACT(preferences), NULL
 };
 static const char *const brush_menu[] = { WR_ACT(brushes),
                                           WR_ACT(round_brush),

@@ -37,7 +37,6 @@ void wr_panel_camera(WrApp *app);
 void wr_panel_cell(WrApp *app);
 void wr_panel_solid(WrApp *app); /* relief and solid textures */
 void wr_panel_plan(WrApp *app);
-void wr_panel_history(WrApp *app);
 void wr_dialog_unsaved(WrApp *app);
 void wr_dialog_new(WrApp *app);
 void wr_dialog_table(WrApp *app);

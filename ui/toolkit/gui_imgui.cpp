@@ -191,6 +191,7 @@ try {
         if (event->type == SDL_MOUSEBUTTONUP) gui->let_go_at = gui->pointer;
         else if (io.MouseDown[button] && !gui->held[button]) gui->again[button] = true;
         gui->held[button] = event->type == SDL_MOUSEBUTTONDOWN;
+        if (button == 0 && gui->held[0]) gui->clicks = event->button.clicks;
         if (gui->held[button]) gui->pressed[button] = true;
         break;
     case SDL_MOUSEWHEEL:

@@ -120,6 +120,7 @@ struct WrGui {
     char typed[64];
     /* the open row in pixels of the window; the dragged row */
     float row_left, row_right, row_top, row_height;
+    int clicks; /* of the last left press, counted by the time of its event, since frames may be late; 2: a double click */
     ImGuiID row_drag, row_double;      /* row_double: pressed for the second time */
     bool drag_scrolls;                 /* its area scrolls in this frame */
     float scroll_rest;                 /* part of a pixel that it has not scrolled yet */

@@ -232,7 +232,7 @@ try {
     const ImGuiID id = ImGui::GetItemID();
     const bool enter =
         wr_gui_focus_key(id, SDL_SCANCODE_RETURN) || wr_gui_focus_key(id, SDL_SCANCODE_KP_ENTER);
-    return enter || ImGui::IsMouseDoubleClicked(0) ? 2 : 1;
+    return enter || wr_gui_current()->clicks == 2 || ImGui::IsMouseDoubleClicked(0) ? 2 : 1;
 }
 WR_CAUGHT(0)
 

@@ -565,7 +565,8 @@ try {
     list->AddRectFilled(ImVec2(left, at.y + height - 1), ImVec2(right, at.y + height),
                         wr_gui_colour_u32(WR_COLOUR_POPUP));
     if (hovered && ImGui::IsMouseClicked(0))
-        gui->row_double = ImGui::IsMouseDoubleClicked(0) ? own : 0; /* a drag may follow */
+        gui->row_double =
+            gui->clicks == 2 || ImGui::IsMouseDoubleClicked(0) ? own : 0; /* a drag may follow */
     const bool was = gui->row_drag == own;
     if (held && moved) gui->row_drag = own;
     bool dragging = held && gui->row_drag == own, dropped = was && !held;

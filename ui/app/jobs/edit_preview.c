@@ -215,8 +215,9 @@ typedef struct Work {
     WrEditPreviewRequest ask;
     /* unchanged copy of the snapshot, for the exact result after a rough one; NULL: none */
     WrDocument *again;
-    char *line; /* generator line or command; ask.line or ask.command points to it */
-    Slot *slot; /* the preview's; borrowed */
+    WrSession *session; /* copy of ask.session; owned; NULL: none */
+    char *line;         /* generator line or command; ask.line or ask.command points to it */
+    Slot *slot;         /* the preview's; borrowed */
     WrCoarse
         *coarse; /* small copy of the layers, used again by the next request; owned; NULL: none */
     WrText notes;
@@ -250,6 +251,7 @@ static void drop(void *arg)
     wr_document_free(work->again);
     wr_coarse_free(work->coarse);
     wr_free(work->line);
+    wr_session_free(work->session);
     wr_text_fini(&work->notes);
     wr_field_free(work->field);
     if (work->ask.dab) wr_tip_free((WrTip *)work->brush.tip); /* a shared reference of its own */
@@ -361,7 +363,9 @@ static bool generate(Work *work, WrPool *pool, const WrProgress *progress)
 
 static bool run_command(Work *work, WrPool *pool)
 {
-    WrSession *session = wr_session_of(work->document, pool);
+    WrSession *session = work->session ? work->session : wr_session_of(work->document, pool);
+    if (work->session) wr_session_let_run(session, pool);
+    work->session = NULL;
     const bool good = wr_session_run(session, work->ask.command, &work->err);
     wr_document_free(work->document);
     work->document = wr_document_share(wr_session_document(session));
@@ -576,6 +580,7 @@ void wr_edit_preview_request(WrEditPreview *trial, const WrDocument *document,
     if (work->ask.rough) work->again = wr_document_share(document);
     if (ask->line) work->ask.line = work->line = wr_strdup(ask->line);
     if (ask->command) work->ask.command = work->line = wr_strdup(ask->command);
+    if (ask->session) work->session = wr_session_snapshot(ask->session);
     if (ask->dab) {
         work->brush = *ask->dab;
         work->brush.preset = NULL;

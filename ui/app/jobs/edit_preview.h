@@ -9,6 +9,7 @@
 #include <stdbool.h>
 
 typedef struct WrBrush WrBrush;
+typedef struct WrSession WrSession;
 
 typedef struct WrEditPreview WrEditPreview;
 
@@ -41,6 +42,8 @@ typedef struct WrEditPreviewRequest {
     bool rough;          /* a fast rough result first, then the exact one */
 
     const char *command; /* or any other command line, run on a copy of the document; copied */
+    const WrSession *
+        session; /* and of this session's history, for commands that change steps; NULL: not needed */
 
     int layer; /* or a layer with changed settings; or the filter or generator layer */
     WrBlend blend;

@@ -71,6 +71,8 @@ static const struct {
     [WR_ROW(WR_FILE_FILM)] = { "Save the film to", "Save", ".mp4" },
     [WR_ROW(WR_FILE_IMPORT)] = { "Import heights", "Import", NULL },
     [WR_ROW(WR_FILE_HISTORY)] = { "Save the history as a script", "Save", ".wrinkle" },
+    [WR_ROW(WR_FILE_MACRO_SAVE)] = { "Save steps as a macro", "Save", ".wrinkle" },
+    [WR_ROW(WR_FILE_MACRO)] = { "Run a macro", "Open", NULL },
     [WR_ROW(WR_FILE_STAMP)] = { "Open a picture as a stamp", "Open", NULL },
     [WR_ROW(WR_FILE_GENERATE)] = { "Choose a file", "Choose", NULL },
     [WR_ROW(WR_FILE_LOCATE)] = { "Locate the missing file", "Locate", NULL },

@@ -14,6 +14,8 @@ typedef enum WrFilePurpose {
     WR_FILE_FILM,
     WR_FILE_IMPORT,
     WR_FILE_HISTORY,
+    WR_FILE_MACRO_SAVE,
+    WR_FILE_MACRO,
     WR_FILE_STAMP,
     WR_FILE_GENERATE,
     WR_FILE_LOCATE,

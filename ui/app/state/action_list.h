@@ -13,6 +13,7 @@
     X(export, "Ctrl+E Ctrl+Shift+E")                                                               \
     X(maps, "Ctrl+Alt+M")                                                                          \
     X(save_history, "")                                                                            \
+    X(run_macro, "")                                                                               \
     X(quit, "Ctrl+Q")                                                                              \
     X(undo, "Ctrl+Z Z")                                                                            \
     X(redo, "Ctrl+Shift+Z Ctrl+Y Y")                                                               \

@@ -30,6 +30,7 @@ typedef struct WrForms WrForms;
 typedef struct WrGenerateState WrGenerateState;
 typedef struct WrGui WrGui;
 typedef struct WrGuide WrGuide;
+typedef struct WrHistoryState WrHistoryState;
 typedef struct WrInputRouter WrInputRouter;
 typedef struct WrKeyMap WrKeyMap;
 typedef struct WrLatency WrLatency;
@@ -144,6 +145,7 @@ struct WrApp {
     WrSelectState *select;
     WrLayersState *layers;
     WrLayerPlanState *layer_plan;
+    WrHistoryState *history;
     WrSurfaceState *surface;
     WrObjectsState *objects;
     WrSheetState *sheet;    /* state of the export sheet; owned; NULL until it is opened */

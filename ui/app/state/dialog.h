@@ -32,6 +32,8 @@ typedef enum WrDialog {
     WR_DIALOG_MASK,      /* terms of a live mask */
     WR_DIALOG_LINK,      /* values of a linked copy */
     WR_DIALOG_VARIANT,   /* name of a variant */
+    WR_DIALOG_STEP,      /* other values of a step of the history */
+    WR_DIALOG_MACRO,     /* values of a macro */
     WR_DIALOG_TABLET,
     WR_DIALOG_BAKE, /* maps of a detailed mesh */
     WR_DIALOG_CASES,

@@ -126,6 +126,8 @@ static const struct {
     { "rim", "Edge" },
     { "open", "Opened" },
     { "layer", "Layer" },
+    { "macro", "Macro" },
+    { "step", "Change of the history" },
     { "select", "Selection" },
     { "transform", "Transform" },
     { "object", "Object" },
@@ -169,6 +171,21 @@ static const char *name_of(const char *verb)
     return NULL;
 }
 
+#define NAMED_MAX 2         /* values that are said */
+#define NAMED_LENGTH_MAX 14 /* bytes of one */
+
+/* The first short values with a name: ", height 0.1". */
+static void add_named(const Words *w, WrText *out)
+{
+    int said = 0;
+    for (int i = 1; i < w->count && said < NAMED_MAX; i++) {
+        const char *name = w->word[i].text, *value = w->word[i].value;
+        if (!value || !*value || strlen(value) > NAMED_LENGTH_MAX || strchr(value, ';')) continue;
+        wr_text_addf(out, ", %.*s %s", (int)(value - 1 - name), name, value);
+        said++;
+    }
+}
+
 /* The command's name, and its first words that specify the action. */
 static void other_words(const Words *w, WrText *out)
 {
@@ -180,40 +197,53 @@ static void other_words(const Words *w, WrText *out)
         if (strchr(plain(w, i), '/')) file_name(plain(w, i), out);
         else wr_text_addf(out, "%.40s", plain(w, i));
     }
+    add_named(w, out);
 }
 
-/* Text for a change of the settings of several layers; %d is their number. */
-static const char *layers_deed(const Words *w)
-{
-    const char *visible = value_of(w, "visible"), *lock = value_of(w, "lock");
-    if (visible) return strcmp(visible, "off") == 0 ? "%d layers hidden" : "%d layers shown";
-    if (lock) return strcmp(lock, "off") == 0 ? "%d layers unlocked" : "%d layers locked";
-    return NULL;
-}
-
-/* Text for a click on a layer; %.20s is the layer's number. */
-static const char *layer_deed(const Words *w)
-{
-    const char *deed = plain(w, 1), *visible = value_of(w, "visible"), *lock = value_of(w, "lock");
-    if (!deed || !plain(w, 2)) return NULL;
-    if (strcmp(deed, "use") == 0) return "Layer %.20s at hand";
-    if (strcmp(deed, "set") != 0) return NULL;
-    if (visible && strcmp(visible, "off") == 0) return "Layer %.20s hidden";
-    if (visible) return "Layer %.20s shown";
-    if (lock && strcmp(lock, "off") == 0) return "Layer %.20s unlocked";
-    return lock ? "Layer %.20s locked" : NULL;
-}
+/* Texts for a layer (%.20s is its number) and for several (%d is how many). */
+static const struct {
+    const char *form, *argument, *value; /* as in `layer FORM N ARGUMENT=VALUE`; NULL: any */
+    const char *one, *several;
+} layer_deeds[] = {
+    { "set", "visible", "off", "Layer %.20s hidden", "%d layers hidden" },
+    { "set", "visible", "on", "Layer %.20s shown", "%d layers shown" },
+    { "set", "lock", "off", "Layer %.20s unlocked", "%d layers unlocked" },
+    { "set", "lock", "on", "Layer %.20s locked", "%d layers locked" },
+    { "set", NULL, NULL, "Layer %.20s", "%d layers" },
+    { "use", NULL, NULL, "Layer %.20s chosen", NULL },
+    { "delete", NULL, NULL, "Layer %.20s deleted", "%d layers deleted" },
+    { "duplicate", NULL, NULL, "Layer %.20s duplicated", "%d layers duplicated" },
+    { "move", NULL, NULL, "Layer %.20s moved", "%d layers moved" },
+    { "rename", NULL, NULL, "Layer %.20s renamed", NULL },
+    { "merge", NULL, NULL, "Layer %.20s merged", "%d layers merged" },
+    { "mask", NULL, NULL, "Mask of layer %.20s", NULL },
+    { "clear", NULL, NULL, "Layer %.20s cleared", "%d layers cleared" },
+    { "rasterize", NULL, NULL, "Layer %.20s rasterized", "%d layers rasterized" },
+};
 
 /* True if the line is such a change. */
 static bool layer_words(const Words *w, WrText *out)
 {
-    const char *deed = layer_deed(w), *list = plain(w, 2);
-    if (!deed) return false;
+    const char *form = plain(w, 1), *list = plain(w, 2);
+    if (!form) return false;
+    if (strcmp(form, "add") == 0) {
+        wr_text_add(out, wr_words("New layer"));
+        if (list) wr_text_addf(out, ": %.40s", list);
+        return true;
+    }
     int layers = 1;
-    for (const char *p = list; *p; p++) layers += *p == ',';
-    if (layers > 1 && layers_deed(w)) wr_text_addf(out, wr_words(layers_deed(w)), layers);
-    else wr_text_addf(out, wr_words(deed), list);
-    return true;
+    for (const char *p = list; p && *p; p++) layers += *p == ',';
+    for (int i = 0; list && i < WR_LENGTH(layer_deeds); i++) {
+        const char *argument = layer_deeds[i].argument, *several = layer_deeds[i].several;
+        const char *value = argument ? value_of(w, argument) : NULL;
+        if (strcmp(form, layer_deeds[i].form) != 0) continue;
+        if (argument && (!value || strcmp(value, layer_deeds[i].value) != 0)) continue;
+        if (layers > 1 && several) wr_text_addf(out, wr_words(several), layers);
+        else wr_text_addf(out, wr_words(layer_deeds[i].one), list);
+        if (!argument) add_named(w, out);
+        return true;
+    }
+    return false;
 }
 
 void wr_step_label(const char *line, WrText *out)
@@ -226,13 +256,15 @@ void wr_step_label(const char *line, WrText *out)
     if (strcmp(verb, "stroke") == 0) brush_words(&w, "Stroke", out);
     else if (strcmp(verb, "sculpt") == 0) brush_words(&w, "Stroke on the mesh", out);
     else if (strcmp(verb, "dab") == 0) brush_words(&w, "Dab", out);
-    else if (kind && strcmp(verb, "text") == 0)
+    else if (kind && strcmp(verb, "text") == 0) {
         wr_text_addf(out, "%s: %.40s", wr_words("Text"), kind);
-    else if (kind && strcmp(verb, "layer") == 0 && strcmp(kind, "paste") == 0)
+        add_named(&w, out);
+    } else if (kind && strcmp(verb, "layer") == 0 && strcmp(kind, "paste") == 0)
         wr_text_add(out, wr_words("Pasted"));
     else if (strcmp(verb, "layer") == 0 && layer_words(&w, out)) (void)0;
-    else if (op) wr_text_add(out, wr_words(op->label));
-    else if (generator && generator->label) wr_text_add(out, wr_words(generator->label));
-    else if (w.count > 0) other_words(&w, out);
+    else if (op || (generator && generator->label)) {
+        wr_text_add(out, wr_words(op ? op->label : generator->label));
+        add_named(&w, out);
+    } else if (w.count > 0) other_words(&w, out);
     free_words(&w);
 }

@@ -248,6 +248,11 @@ class Verbs:
     ) -> None:
         """Copy the heights and the coverage of another layer or group."""
 
+    def macro(
+        self, *_values: Any, values: Any | None = ..., sha256: str | None = ...
+    ) -> None:
+        """Run the commands of a file as one step."""
+
     def open(
         self, *_values: Any, sha256: str | None = ...
     ) -> None:
@@ -569,7 +574,7 @@ class Verbs:
         """Write a picture of the scene, or a turntable."""
 
     def script(
-        self, *_values: Any
+        self, *_values: Any, steps: Any | None = ...
     ) -> None:
         """Write the history as a script."""
 
@@ -582,6 +587,12 @@ class Verbs:
         self, *_values: Any
     ) -> None:
         """Redo the last undone command."""
+
+    def step(
+        self, _form: Literal['go', 'set', 'off', 'on', 'delete', 'move'], /, *_values: Any, change: Any | None = ...,
+        line: Any | None = ..., to: float | None = ...
+    ) -> None:
+        """Change earlier steps of the history."""
 
     def view(
         self, _form: Literal['back', 'forward'], /, *_values: Any
