@@ -522,8 +522,10 @@ static bool run_macro(WrSession *session, WrCall *call, WrError *err)
     size_t length;
     bool good = wr_session_check_sha256(call, path, err) &&
                 wr_file_read(path, MACRO_BYTES, &bytes, &length, err);
-    if (good && strlen(bytes) != length)
-        good = wr_fail(err, "%s: a NUL byte: this is no text file", name);
+    if (good && strlen(bytes) != length) {
+        good = wr_fail(err, "a NUL byte: this is no text file");
+        wr_error_prefix(err, "%s: ", name);
+    }
     if (good) {
         session->folder = wr_path_folder(path);
         good = run_macro_lines(session, bytes, name, values ? values : "", err);

@@ -182,7 +182,7 @@ static void steps_are_removed_and_moved(void **state)
 }
 
 /* A refused change leaves every bit, the list, and the undone steps. */
-static void what_cannot_be_changed_is_refused(void **state)
+static void impossible_changes_are_refused(void **state)
 {
     (void)state;
     WrSession *s = session_of((const char *[]){
@@ -332,7 +332,7 @@ static void the_choice_of_a_layer_is_no_step(void **state)
     must_run(s, "dab 0.5,0.5 radius=9 mode=lower strength=0.5");
     const WrHash hash = wr_session_hash(s);
     must_run(s, "undo");
-    assert_int_equal(doc(s)->active, 1); /* what was chosen before the dab */
+    assert_int_equal(doc(s)->active, 1); /* the choice before the dab */
     must_run(s, "redo");
     assert_true(wr_hash_equal(wr_session_hash(s), hash));
     WrSession *other = wr_session_new(NULL);
@@ -350,7 +350,7 @@ int main(void)
         cmocka_unit_test(changed_steps_are_those_of_a_new_run),
         cmocka_unit_test(one_undo_takes_a_change_back_and_more_go_on),
         cmocka_unit_test(steps_are_removed_and_moved),
-        cmocka_unit_test(what_cannot_be_changed_is_refused),
+        cmocka_unit_test(impossible_changes_are_refused),
         cmocka_unit_test(a_cancelled_change_leaves_no_trace),
         cmocka_unit_test(a_crash_after_a_change_loses_nothing),
         cmocka_unit_test(a_macro_is_one_step_with_other_values),

@@ -86,7 +86,7 @@ static void pick(List *list, char name, WrChoosing how)
     follow(list);
     const int next = wr_chosen_pick(&list->chosen, document->active, index, how);
     snprintf(line, sizeof line, "layer use %d", next + 1);
-    wr_chosen_expect(&list->chosen, line, list->chosen.chosen);
+    wr_chosen_expect_active(&list->chosen, next, list->chosen.chosen);
     if (next != document->active) run(list->session, line);
 }
 

@@ -34,7 +34,7 @@ bool wr_layer_pick(WrApp *app, int index, WrChoosing how)
     wr_app_redraw(app);
     if (next == active) return false;
     snprintf(line, sizeof line, "layer use %d", next + 1);
-    wr_chosen_expect(chosen, line, chosen->chosen);
+    wr_chosen_expect_active(chosen, next, chosen->chosen);
     return wr_app_run_line(app, line);
 }
 

@@ -13,7 +13,8 @@ typedef struct WrChosenLayers {
     int anchor;                   /* index of the layer at which a range begins */
     int count;                    /* layers of the document that was followed; 0: none yet */
     uint64_t name[WR_LAYERS_MAX]; /* hashes of their names: they identify layers that move */
-    char *line; /* the line after which `next` will be chosen, owned; NULL: none */
+    char *line;  /* the line after which `next` will be chosen, owned; NULL: none */
+    int awaited; /* or the number, from 1, of the layer that becomes active; 0: none */
     bool next[WR_LAYERS_MAX];
 } WrChosenLayers;
 
@@ -31,6 +32,8 @@ typedef enum WrChoosing {
 /* Choose layer `index`. Returns the layer that must become active; until it is, it should be expected (below). */
 int wr_chosen_pick(WrChosenLayers *chosen, int active, int index, WrChoosing how);
 void wr_chosen_range(WrChosenLayers *chosen, int first, int last);
+/* These layers will be chosen when layer `active` has become the active one. */
+void wr_chosen_expect_active(WrChosenLayers *chosen, int active, const bool next[WR_LAYERS_MAX]);
 /* These layers will be chosen when the line has become the newest command. */
 void wr_chosen_expect(WrChosenLayers *chosen, const char *line, const bool next[WR_LAYERS_MAX]);
 

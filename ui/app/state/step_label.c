@@ -240,7 +240,7 @@ static bool layer_words(const Words *w, WrText *out)
         if (argument && (!value || strcmp(value, layer_deeds[i].value) != 0)) continue;
         if (layers > 1 && several) wr_text_addf(out, wr_words(several), layers);
         else wr_text_addf(out, wr_words(layer_deeds[i].one), list);
-        if (!argument) add_named(w, out);
+        if (!argument && strcmp(form, "set") == 0) add_named(w, out);
         return true;
     }
     return false;
