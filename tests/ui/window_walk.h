@@ -152,7 +152,7 @@ static inline bool walk_open_tab(Walk *walk, int which)
     WrApp *app = walk->app;
     if (which > app->registry->tab_count) return false;
     app->settings->tab = which;
-    app->accuracy->inspector.shown = which % 2 == 1;
+    app->settings->inspector = which % 2 == 1;
     return walk_name(walk, "tab %s",
                      which < app->registry->tab_count ? app->registry->tabs[which].label
                                                       : "Layers");

@@ -1,6 +1,7 @@
 /* gui_imgui.h - shared state and helpers of the gui_imgui*.cpp files. Private to them. */
 #pragma once
 #include "ui/toolkit/focus.h"
+#include "ui/toolkit/folds.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/words.h"
 
@@ -64,6 +65,7 @@ struct WrTyped {
     char letters[SDL_TEXTINPUTEVENT_TEXT_SIZE]; /* UTF-8; "" for a key */
 };
 
+#define WR_GUI_SCOPE 48 /* bytes of a name of an area */
 #define WR_GUI_SHOWN 64 /* recorded windows, menus and dialogs of a frame */
 
 /* A window of the displayed frame. */
@@ -128,7 +130,17 @@ struct WrGui {
     const char *next_id;               /* of wr_gui_next_id; NULL: none */
     WrShownWindow shown[WR_GUI_SHOWN]; /* windows of the displayed frame, lowest first */
     int shown_count;
-    ImGuiID shown_top; /* the topmost open menu or dialog; 0: none */
+    ImGuiID shown_top;             /* the topmost open menu or dialog; 0: none */
+    char **folds;                  /* borrowed, or NULL */
+    char scope[WR_GUI_SCOPE];      /* name of the area being drawn */
+    char fold_scope[WR_GUI_SCOPE]; /* area in which all folds will be opened or closed, */
+    int fold_frame;                /* in this frame, */
+    bool fold_open;                /* to this state */
+    int tab_torn, tab_menu;        /* of the previous tabs; -1: none */
+    bool floating;                 /* areas are parts of a floating panel */
+    ImGuiID float_held;            /* the floating panel that is dragged or resized, */
+    bool float_resized;
+    ImVec2 float_from; /* the pointer relative to the panel's corner at the press */
     WrFocus focus;
 };
 
@@ -196,6 +208,17 @@ inline float wr_gui_size_of(const ImFont *font)
     return font->LegacySize;
 #else
     return font->FontSize;
+#endif
+}
+
+/* A child window with the padding of windows. */
+inline bool wr_gui_begin_part(const char *name, float w, float h, ImGuiWindowFlags flags)
+{
+#if IMGUI_VERSION_NUM >= 19000
+    return ImGui::BeginChild(name, ImVec2(w, h), ImGuiChildFlags_AlwaysUseWindowPadding, flags);
+#else
+    return ImGui::BeginChild(name, ImVec2(w, h), false,
+                             flags | ImGuiWindowFlags_AlwaysUseWindowPadding);
 #endif
 }
 

@@ -307,20 +307,48 @@ try {
 }
 WR_CAUGHT(false)
 
-static float tabs_wide(const char *const *items, int count)
+#define TAB_GAP 14 /* least distance of two labels, units */
+
+/* Tabs from `first` that fit into a row, at least one; their widths in *wide. */
+static int tabs_in_row(const char *const *items, int first, int count, float width, float *wide)
 {
-    float wide = 0;
-    for (int i = 0; i < count; i++) wide += ImGui::CalcTextSize(wr_gui_said(items[i])).x;
-    return wide;
+    int n = 0;
+    *wide = 0;
+    while (first + n < count) {
+        const float more = ImGui::CalcTextSize(wr_gui_said(items[first + n])).x;
+        if (n > 0 && *wide + more + px(TAB_GAP) * (float)(n + 1) > width) break;
+        *wide += more;
+        n++;
+    }
+    return n;
 }
 
-/* Two rows if even the small font leaves hardly a gap. */
+static int rows_of_tabs(const char *const *items, int count, float width)
+{
+    float wide;
+    int rows = 0;
+    for (int i = 0; i < count; rows++) i += tabs_in_row(items, i, count, width, &wide);
+    return rows;
+}
+
+static bool small_tabs(const char *const *items, int count, float width)
+{
+    return rows_of_tabs(items, count, width) > 1;
+}
+
+static int rows_in_font(const char *const *items, int count, float width, bool small)
+{
+    if (small) ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
+    const int rows = rows_of_tabs(items, count, width);
+    if (small) ImGui::PopFont();
+    return rows;
+}
+
 extern "C" int wr_gui_tab_rows(const char *const *items, int count, double width)
 try {
-    ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
-    bool tight = tabs_wide(items, count) + px(8) * (float)count > (float)width;
-    ImGui::PopFont();
-    return tight && count > 2 ? 2 : 1;
+    const bool small = small_tabs(items, count, (float)width);
+    const int rows = rows_in_font(items, count, (float)width, small);
+    return rows > 0 ? rows : 1;
 }
 WR_CAUGHT(1)
 
@@ -338,7 +366,7 @@ static bool tab(const char *label, ImVec2 place, ImVec2 size, bool on)
     }
     const char *said = wr_gui_said(label);
     ImVec2 text = ImGui::CalcTextSize(said);
-    wr_gui_fits(said, text.x, size.x);
+    wr_gui_fits(said, text.x, size.x - px(TAB_GAP) + 2);
     bool bright = on || ImGui::IsItemHovered();
     list->AddText(
         ImVec2(at.x + roundf((size.x - text.x) / 2), at.y + roundf((size.y - text.y) / 2)),
@@ -346,30 +374,51 @@ static bool tab(const char *label, ImVec2 place, ImVec2 size, bool on)
     return pressed;
 }
 
+/* The last tab was dragged out of the bar, or pressed with the right button. */
+static void note_tab(int index, float bar_height)
+{
+    WrGui *gui = wr_gui_current();
+    const float y = ImGui::GetIO().MousePos.y - ImGui::GetWindowPos().y;
+    const bool out = y < -px(16) || y > bar_height + px(16);
+    if (ImGui::IsItemActive() && out && ImGui::IsMouseDragPastThreshold(0, px(5)))
+        gui->tab_torn = index;
+    if ((ImGui::IsItemHovered() && ImGui::IsMouseClicked(1)) ||
+        wr_gui_focus_menu(ImGui::GetItemID()))
+        gui->tab_menu = index;
+}
+
+/* Rows are filled evenly: each has the width that the last one would need too. */
 extern "C" bool wr_gui_tabs(const char *id, const char *const *items, int count, int *index)
 try {
+    WrGui *gui = wr_gui_current();
     bool changed = false;
     ImGui::PushID(id);
     ImDrawList *list = ImGui::GetWindowDrawList();
     ImVec2 origin = ImGui::GetWindowPos();
-    float width = ImGui::GetWindowWidth(), h = px(32);
-    int rows = wr_gui_tab_rows(items, count, (double)width), each = (count + rows - 1) / rows;
+    const float width = ImGui::GetWindowWidth(), h = px(32);
+    const bool small = small_tabs(items, count, width);
+    const int rows = rows_in_font(items, count, width, small);
+    gui->tab_torn = gui->tab_menu = -1;
     /* over the padding */
     list->PushClipRect(origin, ImVec2(origin.x + width, origin.y + h * (float)rows));
-    bool small = rows > 1 || tabs_wide(items, count) + px(6) * (float)count > width;
-    if (small) ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
-    for (int row = 0; row < rows; row++) {
-        const char *const *first = items + row * each;
-        int n = count - row * each < each ? count - row * each : each;
-        float gap = (width - tabs_wide(first, n)) / (float)n, end = 0;
-        for (int i = 0; i < n; i++) {
+    if (small) ImGui::PushFont(gui->fonts[WR_FONT_SMALL]);
+    for (int row = 0, first = 0; first < count; row++) {
+        float wide, end = 0;
+        int n = tabs_in_row(items, first, count, width, &wide);
+        const int even = (count - first + rows - row - 1) / (rows - row);
+        while (n > even) wide -= ImGui::CalcTextSize(wr_gui_said(items[first + --n])).x;
+        const float gap = (width - wide) / (float)n;
+        for (int i = first; i < first + n; i++) {
             float x0 = roundf(end);
-            end += ImGui::CalcTextSize(wr_gui_said(first[i])).x + gap;
+            end += ImGui::CalcTextSize(wr_gui_said(items[i])).x + gap;
             ImVec2 place(x0, h * (float)row), size(roundf(end) - x0, h);
-            if (!tab(first[i], place, size, row * each + i == *index)) continue;
-            changed = row * each + i != *index;
-            *index = row * each + i;
+            if (tab(items[i], place, size, i == *index)) {
+                changed = i != *index;
+                *index = i;
+            }
+            note_tab(i, h * (float)rows);
         }
+        first += n;
     }
     if (small) ImGui::PopFont();
     list->PopClipRect();
@@ -378,3 +427,13 @@ try {
     return changed;
 }
 WR_CAUGHT(false)
+
+extern "C" int wr_gui_tab_torn(void)
+{
+    return wr_gui_current()->tab_torn;
+}
+
+extern "C" int wr_gui_tab_menu(void)
+{
+    return wr_gui_current()->tab_menu;
+}

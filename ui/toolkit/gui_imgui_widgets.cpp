@@ -28,6 +28,7 @@ static float px(double units)
 extern "C" void wr_gui_area_begin(const char *name, WrAreaKind kind, SDL_Rect rect,
                                   WrColour background)
 try {
+    snprintf(wr_gui_current()->scope, WR_GUI_SCOPE, "%s", name);
     ImGui::SetNextWindowPos(ImVec2((float)rect.x, (float)rect.y));
     ImGui::SetNextWindowSize(ImVec2((float)rect.w, (float)rect.h));
     /* it would end a drag */
@@ -47,8 +48,14 @@ try {
     }
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, wr_gui_colour_u32(background));
-    ImGui::Begin(name, nullptr, flags);
+    ImGui::PushStyleColor(wr_gui_current()->floating ? ImGuiCol_ChildBg : ImGuiCol_WindowBg,
+                          wr_gui_colour_u32(background));
+    if (wr_gui_current()->floating) {
+        ImGui::SetCursorScreenPos(ImVec2((float)rect.x, (float)rect.y));
+        wr_gui_begin_part(name, (float)rect.w, (float)rect.h, flags);
+    } else {
+        ImGui::Begin(name, nullptr, flags);
+    }
     ImGui::PopStyleColor();
     ImGui::PopStyleVar(2);
 }
@@ -57,7 +64,8 @@ WR_CAUGHT()
 extern "C" void wr_gui_area_end(void)
 try {
     wr_gui_stop_scrolled();
-    ImGui::End();
+    if (wr_gui_current()->floating) ImGui::EndChild();
+    else ImGui::End();
 }
 WR_CAUGHT()
 
@@ -1003,21 +1011,74 @@ try {
 }
 WR_CAUGHT(false)
 
-extern "C" bool wr_gui_fold(const char *label, bool open)
-try {
-    ImGui::PushStyleColor(ImGuiCol_Header, wr_gui_colour_u32(0));
-    ImGui::PushStyleColor(ImGuiCol_HeaderHovered, wr_gui_colour_u32(WR_COLOUR_BUTTON));
-    ImGui::PushStyleColor(ImGuiCol_HeaderActive, wr_gui_colour_u32(WR_COLOUR_BUTTON));
-    ImGui::PushStyleColor(ImGuiCol_Text, wr_gui_colour_u32(WR_COLOUR_LABEL));
-    ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
+/* Name for the list of folds: the area without "##" and final digits, and the label's identifier. */
+static void fold_name(const WrGui *gui, const char *label, char (&name)[160])
+{
+    const char *area = gui->scope + strspn(gui->scope, "#"), *id = strstr(label, "##");
+    const int length = (int)strcspn(area, "#0123456789");
+    snprintf(name, sizeof name, "%.*s/%s", length, area, id ? id + strspn(id, "#") : label);
+}
+
+/* The heading: a chevron and the label in small letters. True if it was clicked. */
+static bool fold_heading(const char *label, bool open)
+{
     char said[320];
-    if (wr_gui_reports_all) ImGui::SetNextItemOpen(true);
-    bool shown = ImGui::CollapsingHeader(wr_gui_labelled(label, said),
-                                         open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    const char *shown = wr_gui_labelled(label, said),
+               *icon = open ? WR_ICON_OPENED : WR_ICON_CLOSED;
+    const float tall = px(22), wide = ImGui::GetContentRegionAvail().x, out = px(6);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const bool clicked = ImGui::InvisibleButton(shown, ImVec2(wide, tall));
     wr_gui_stop(WR_STOP_PRESS, false);
-    ImGui::PopFont();
-    ImGui::PopStyleColor(4);
-    return shown;
+    const bool hovered = ImGui::IsItemHovered();
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    if (hovered)
+        list->AddRectFilled(ImVec2(at.x - out, at.y), ImVec2(at.x + wide + out, at.y + tall),
+                            wr_gui_colour_u32(WR_COLOUR_BUTTON), px(3));
+    const ImU32 ink = wr_gui_colour_u32(hovered ? WR_COLOUR_STRONG : WR_COLOUR_LABEL);
+    ImFont *font = ImGui::GetFont(), *small = wr_gui_current()->fonts[WR_FONT_SMALL];
+    const float size = wr_gui_size_of(small), middle = at.y + floorf((tall - size) / 2);
+    list->AddText(font, size, ImVec2(at.x - px(3), middle), ink, wr_gui_icon(icon));
+    const char *end = strstr(shown, "##");
+    list->AddText(small, size, ImVec2(at.x + px(14), middle), ink, shown, end);
+    wr_gui_fits(label, small->CalcTextSizeA(size, FLT_MAX, 0, shown, end).x, wide - px(14));
+    return clicked;
+}
+
+/* The fold was clicked, or another one of its area with Ctrl or Alt. */
+static bool fold_changed(WrGui *gui, bool clicked, bool *open)
+{
+    const ImGuiIO &io = ImGui::GetIO();
+    const int frame = ImGui::GetFrameCount();
+    const bool was = *open;
+    if (clicked) *open = !*open;
+    if (clicked && (io.KeyCtrl || io.KeyAlt)) {
+        snprintf(gui->fold_scope, sizeof gui->fold_scope, "%s", gui->scope);
+        gui->fold_frame = frame + 1;
+        gui->fold_open = *open;
+    }
+    if (gui->fold_frame == frame && strcmp(gui->fold_scope, gui->scope) == 0)
+        *open = gui->fold_open;
+    return *open != was;
+}
+
+bool wr_gui_folds_open;
+
+extern "C" bool wr_gui_fold(const char *label, bool open_at_first)
+try {
+    WrGui *gui = wr_gui_current();
+    char name[160];
+    if (ImGui::GetCurrentWindow()->SkipItems) return false;
+    fold_name(gui, label, name);
+    ImGuiStorage *own = ImGui::GetStateStorage();
+    const ImGuiID id = ImGui::GetID(name);
+    bool open = gui->folds ? wr_folds_is_open(gui->folds, name, open_at_first)
+                           : own->GetBool(id, open_at_first);
+    const bool all = wr_gui_reports_all || wr_gui_folds_open;
+    const bool clicked = fold_heading(label, open || all);
+    if (!fold_changed(gui, clicked, &open)) return open || all;
+    if (gui->folds) wr_folds_set(gui->folds, name, open_at_first, open);
+    else own->SetBool(id, open);
+    return open || all;
 }
 WR_CAUGHT(false)
 

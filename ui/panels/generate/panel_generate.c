@@ -244,8 +244,7 @@ static bool joining(WrGenerateState *hand)
                         .decimals = 3,
                         .tip = "Added to its heights first" };
     for (int i = 0; i < WR_BLEND_COUNT; i++) labels[i] = wr_blends[i].label;
-    wr_gui_space(4);
-    wr_gui_heading("HOW IT JOINS THE LAYER");
+    if (!wr_gui_fold("HOW IT JOINS THE LAYER", true)) return false;
     wr_gui_label("Blend");
     changed |= wr_gui_choice("blend", 0, labels, WR_BLEND_COUNT, &hand->blend);
     wr_gui_tip(wr_blends[hand->blend].help);
