@@ -220,6 +220,9 @@ bool wr_gui_choice(const char *id, double width, const char *const *items, int c
 /* Alternatives as buttons in a row; colours[i] (may be NULL) is shown while i is chosen. */
 bool wr_gui_segments(const char *id, const char *const *items, const WrColour *colours, int count,
                      int *index);
+/* The same, centred in the menu bar; and its width in pixels. */
+bool wr_gui_bar_segments(const char *id, const char *const *items, int count, int *index);
+double wr_gui_bar_segments_width(const char *const *items, int count);
 /* Tabs across the area, in a smaller font without room, then in as many rows of 32 units as keep them apart. */
 bool wr_gui_tabs(const char *id, const char *const *items, int count, int *index);
 /* Number of rows of such tabs. */

@@ -307,6 +307,39 @@ try {
 }
 WR_CAUGHT(false)
 
+#define BAR_PAD 9 /* beside each text of segments in the menu bar, units */
+
+extern "C" double wr_gui_bar_segments_width(const char *const *items, int count)
+try {
+    float wide = 2 * px(BAR_PAD) * (float)count;
+    for (int i = 0; i < count; i++) wide += ImGui::CalcTextSize(wr_gui_said(items[i])).x;
+    return (double)wide;
+}
+WR_CAUGHT(0.0)
+
+extern "C" bool wr_gui_bar_segments(const char *id, const char *const *items, int count, int *index)
+try {
+    bool changed = false;
+    ImGui::PushID(id);
+    const float bar = ImGui::GetWindowHeight(), h = roundf(ImGui::GetTextLineHeight() + px(8));
+    ImGui::SetCursorPosY(roundf((bar - h) / 2));
+    ImVec2 start = ImGui::GetCursorScreenPos(), end = start;
+    for (int i = 0; i < count; i++) {
+        const char *said = wr_gui_said(items[i]);
+        const float w = ImGui::CalcTextSize(said).x + 2 * px(BAR_PAD);
+        if (i) ImGui::SetCursorScreenPos(ImVec2(end.x, start.y));
+        if (segment(items[i], said, ImVec2(w, h), WR_COLOUR_SELECTED, i == *index)) {
+            changed = i != *index;
+            *index = i;
+        }
+        end = ImVec2(end.x + w, start.y + h);
+    }
+    wr_gui_edge(ImGui::GetWindowDrawList(), start, end);
+    ImGui::PopID();
+    return changed;
+}
+WR_CAUGHT(false)
+
 #define TAB_GAP 14 /* least distance of two labels, units */
 
 /* Tabs from `first` that fit into a row, at least one; their widths in *wide. */

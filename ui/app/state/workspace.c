@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 
+#include <stdio.h>
 #include <string.h>
 
 WR_ROWS(wr_workspaces);
@@ -15,14 +16,21 @@ const WrWorkspace wr_workspaces[WR_WORKSPACES] = {
     [WR_ROW(WR_WORKSPACE_GENERATE)] = { "generate", "Generate", "Generate", "lower 0.35" },
     [WR_ROW(WR_WORKSPACE_LIGHT)] = { "light", "Light", "Scene",
                                      "divider 0.3\tlower 0\thide_options 1\tfold -Scene/OBJECTS\t"
-                                     "fold -Scene/SURFACE\tfold -Scene/BUMP\tfold +Scene/CAMERA\t"
+                                     "fold -Scene/SURFACE\tfold -Scene/BUMP\tfold "
+                                     "-Scene/MATERIAL\tfold +Scene/CAMERA\t"
                                      "fold +Scene/BACKGROUND\tfold +Scene/EXPOSURE" },
     [WR_ROW(WR_WORKSPACE_EXPORT)] = { "export", "Export", "Export",
                                       "lower 0.35\thide_strip 1\thide_options 1" },
     [WR_ROW(WR_WORKSPACE_STUDY)] = { "study", "Study", "Accuracy",
-                                     "inspector 1\tmeters 1\thide_options 1" },
+                                     "inspector 1\tmeters 1\thide_options 1\tside_width 340" },
 };
 WR_ROWS_END(wr_workspaces, WR_WORKSPACES);
+
+const char *wr_workspace_action(WrWorkspaceKind kind, char buffer[48])
+{
+    snprintf(buffer, 48, "workspace_%s", wr_workspaces[kind].name);
+    return buffer;
+}
 
 /* The entry "NAME PLACE" of a workspace in the list of changed ones; without one, the place of a new entry. */
 static int entry_of(char *const *list, const char *name)

@@ -19,6 +19,8 @@ typedef struct WrWorkspace {
 
 extern const WrWorkspace wr_workspaces[WR_WORKSPACES];
 
+/* Name of the action that chooses it: "workspace_NAME". Returns buffer. */
+const char *wr_workspace_action(WrWorkspaceKind kind, char buffer[48]);
 /* Store the present workspace's places, and apply those of another one. */
 void wr_workspace_choose(WrApp *app, WrWorkspaceKind kind);
 /* Undo all changes of the present workspace. */
