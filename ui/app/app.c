@@ -100,6 +100,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
     app->gui = wr_gui_new(app->renderer, app->drawn_scale, err);
     if (!app->gui) return false;
     wr_gui_use_folds(app->gui, app->settings->folds);
+    wr_gui_use_pins(app->gui, app->settings->pins, WR_PINS_MAX);
     app->ready_event = SDL_RegisterEvents(4);
     app->file_event = app->ready_event + 1;
     app->job_event = app->ready_event + 2;

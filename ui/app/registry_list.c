@@ -73,11 +73,12 @@ static const WrDialogRow dialogs[] = {
 WR_ROWS_END(dialogs, WR_DIALOG_COUNT);
 
 static const WrTab tabs[] = {
-    { "Brushes", .fill = wr_panel_brushes },
+    { "Brushes", .fill = wr_panel_brushes, .rows_area = "brush_values", .rows = wr_panel_brush },
     { "Scene", .draw = wr_panel_scene, .second = wr_panel_scene_second, .edits = true },
     { "Plan", .draw = wr_panel_plan },
     { "History", .draw = wr_panel_history },
-    { "Generate", .fill = wr_panel_generate, .is_long = true },
+    { "Generate", .fill = wr_panel_generate, .is_long = true, .rows_area = "generate_values",
+      .rows = wr_panel_generate_values },
     { "Accuracy", .draw = wr_panel_accuracy, .is_long = true },
     { "Export", .draw = wr_panel_export },
     { "Layers", .fill = wr_panel_layers, .below = true },

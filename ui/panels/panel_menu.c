@@ -555,7 +555,7 @@ static bool is_tight(const WrApp *app)
 {
     static const char *const titles[] = { "File",   "Edit",  "Brush",    "Tools", "Layer",
                                           "Select", "Table", "Generate", "View",  "Help" };
-    double wide = find_width(app) + workspaces_width() + wr_gui_px(260);
+    double wide = find_width(app) + workspaces_width() + wr_gui_px(320);
     for (int i = 0; i < WR_LENGTH(titles); i++)
         wide += wr_gui_text_width(WR_FONT_TEXT, titles[i]) + wr_gui_px(14);
     return wide > app->width;

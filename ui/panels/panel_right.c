@@ -95,11 +95,13 @@ static void column(WrApp *app, const WrTab *tab, const char *name, SDL_Rect room
                    void (*draw)(WrApp *), void (*more)(WrApp *))
 {
     wr_gui_area_begin(name, WR_AREA_PANEL, room, WR_COLOUR_PANEL);
+    wr_gui_pinnable(true);
     if (tab->edits) wr_busy_hold(app);
     draw(app);
     if (more) more(app);
     if (tab->edits) wr_busy_hold_end();
     wr_gui_area_end();
+    wr_gui_pinnable(false);
 }
 
 static void content(WrApp *app, int index, SDL_Rect room)
@@ -120,6 +122,47 @@ static void content(WrApp *app, int index, SDL_Rect room)
     half = (SDL_Rect){ room.x + half.w, room.y, room.w - half.w, room.h };
     snprintf(name, sizeof name, "%s##2", tab->label);
     column(app, tab, name, half, tab->second, NULL);
+}
+
+/* ---- pinned rows ---- */
+
+static bool has_pins(const WrApp *app)
+{
+    return app->settings->pins[0] != NULL;
+}
+
+static void pinned_of(WrApp *app, const WrTab *tab)
+{
+    const char *area = tab->draw ? tab->label : tab->rows_area;
+    if (!area || !wr_gui_has_pins(area)) return;
+    wr_gui_pins_begin(area);
+    if (tab->edits) wr_busy_hold(app);
+    if (tab->draw) tab->draw(app);
+    else tab->rows(app);
+    if (tab->second) tab->second(app);
+    if (tab->edits) wr_busy_hold_end();
+    wr_gui_pins_end();
+}
+
+/* Above the tabs, as tall as its rows in the last frame, but at most a third of the panel. */
+static void pinned(WrApp *app, SDL_Rect *room)
+{
+    SDL_Rect area = *room;
+    if (!has_pins(app)) return;
+    const double most = room->h / 3.0;
+    area.h = (int)(app->pins_height < most ? app->pins_height : most);
+    if (area.h < wr_gui_px(46)) area.h = wr_gui_px(46);
+    room->y += area.h;
+    room->h -= area.h;
+    wr_gui_area_begin("Pinned", WR_AREA_PANEL, area, WR_COLOUR_PANEL);
+    wr_gui_pinnable(true);
+    if (wr_gui_fold("PINNED", true))
+        for (int i = 0; i < app->registry->tab_count; i++) pinned_of(app, &app->registry->tabs[i]);
+    wr_gui_pinnable(false);
+    const double height = wr_gui_content_height();
+    if (height != app->pins_height) wr_app_redraw(app);
+    app->pins_height = height;
+    wr_gui_area_end();
 }
 
 /* ---- bars of tabs ---- */
@@ -206,6 +249,7 @@ static void upper(WrApp *app)
     const bool is_long = tab && tab->is_long && !inspects && room.h < wr_gui_px(LONG_UNITS);
     const bool covers = split && (is_long || low.count == 0);
     if (covers) room.h = below.y + below.h - room.y;
+    pinned(app, &room);
     if (bar.count == 0) { /* all of them float */
         wr_gui_area_begin("##no_tabs", WR_AREA_BAR, room, WR_COLOUR_PANEL);
         wr_gui_area_end();

@@ -257,6 +257,15 @@ bool wr_gui_hint_field(const char *id, const char *hint, double width, char *tex
 /* A foldable heading of a section of a panel; true while its content is shown. Its state is remembered by the name of
    the area and its label. Ctrl or Alt and a click fold or unfold all sections of the area. */
 bool wr_gui_fold(const char *label, bool open_at_first);
+/* ---- pinned rows ---- Rows of pinnable areas (a label with its widgets, or a check) have a menu with Pin. Their names,
+   "AREA/SECTION/LABEL", are in a list owned by the caller, NULL-terminated. */
+void wr_gui_use_pins(WrGui *gui, char **pins, int most);
+void wr_gui_pinnable(bool on); /* rows of the following areas */
+bool wr_gui_has_pins(const char *area);
+/* Between begin and end, all rows of that area's panel but the pinned ones are skipped. */
+void wr_gui_pins_begin(const char *area);
+void wr_gui_pins_end(void);
+double wr_gui_content_height(void); /* of the area so far, pixels, with its padding */
 /* A square picture button, `side` pixels: 0 nothing, 1 clicked, 2 pressed with the right button. marked: with a small
  * star. texture may be NULL. */
 int wr_gui_tile(const char *id, SDL_Texture *texture, double side, bool selected, bool marked);

@@ -183,6 +183,7 @@ extern "C" bool wr_gui_field_left(void)
 
 extern "C" bool wr_gui_text_field(const char *id, double width, char *text, size_t size, bool focus)
 try {
+    wr_gui_pin_step();
     ImGui::SetNextItemWidth(width > 0 ? (float)width : -1.0f);
     if (focus || wr_gui_focus_pressed(ImGui::GetID(id))) ImGui::SetKeyboardFocusHere();
     bool done = ImGui::InputText(
@@ -203,6 +204,7 @@ static int select_all(ImGuiInputTextCallbackData *data)
 
 extern "C" bool wr_gui_text_area(const char *id, int lines, char *text, size_t size, bool focus)
 try {
+    wr_gui_pin_step();
     WrGui *gui = wr_gui_current();
     float tall = ImGui::GetTextLineHeight() * (float)lines + 2 * ImGui::GetStyle().FramePadding.y;
     if (focus || wr_gui_focus_pressed(ImGui::GetID(id))) {
@@ -222,6 +224,7 @@ WR_CAUGHT(false)
 
 extern "C" int wr_gui_list_row(const char *icon, const char *label, bool selected)
 try {
+    wr_gui_pin_step();
     char text[1100];
     char said[320];
     snprintf(text, sizeof text, "%s%s%s", icon ? wr_gui_icon(icon) : "", icon ? "  " : "",
@@ -238,6 +241,7 @@ WR_CAUGHT(0)
 
 extern "C" void wr_gui_list_begin(const char *id, double height)
 try {
+    wr_gui_pin_step();
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(8), px(8)));
     ImGui::BeginChild(id, ImVec2(0, (float)height), true);
     ImGui::PopStyleVar();
@@ -279,6 +283,7 @@ static bool segment(const char *id, const char *said, ImVec2 size, WrColour grou
 extern "C" bool wr_gui_segments(const char *id, const char *const *items, const WrColour *colours,
                                 int count, int *index)
 try {
+    wr_gui_pin_step();
     bool changed = false;
     ImGui::PushID(id);
     float h = ImGui::GetFrameHeight(), pad = px(10), width = 0;

@@ -27,6 +27,9 @@ typedef struct WrTab {
     /* all of it changes the document: disabled while a command runs in the background */
     bool edits;
     bool below; /* in the lower part of the panel */
+    /* of tabs with fill: an area of theirs, and the function that draws its rows, which can be pinned */
+    const char *rows_area;
+    void (*rows)(WrApp *app);
 } WrTab;
 
 /* A component with background work. Each function may be NULL. */

@@ -328,7 +328,7 @@ static bool parameters(WrApp *app)
     return changed;
 }
 
-static void panel_generate_values(WrApp *app)
+void wr_panel_generate_values(WrApp *app)
 {
     WrGenerateState *hand = app->generate;
     bool changed = parameters(app);
@@ -611,7 +611,9 @@ void wr_panel_generate(WrApp *app, SDL_Rect room)
         char name[40]; /* each generator has its own scroll position */
         snprintf(name, sizeof name, "##generate_values%d", hand->opened % 64);
         wr_gui_area_begin(name, WR_AREA_PANEL, room, WR_COLOUR_LIST);
-        panel_generate_values(app);
+        wr_gui_pinnable(true);
+        wr_panel_generate_values(app);
+        wr_gui_pinnable(false);
         wr_gui_area_end();
     }
     wr_gui_area_begin("##generate_foot", WR_AREA_BAR, low, WR_COLOUR_BAR);
