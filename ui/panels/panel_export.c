@@ -13,7 +13,7 @@ static void row(WrApp *app, const char *name)
 {
     const WrAction *action = wr_action_find(app, name);
     wr_gui_disable(!wr_action_can(app, action));
-    if (wr_gui_button(action->label, false)) wr_action_run(app, name);
+    if (wr_gui_chip(NULL, action->label)) wr_action_run(app, name);
     wr_gui_disable_end();
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_action_help(app, action));
     wr_gui_space(4);
@@ -30,7 +30,7 @@ void wr_panel_export(WrApp *app)
     static const char *const maps[] = { WR_ACT(maps), WR_ACT(export) },
                              *const pictures[] = { WR_ACT(render), WR_ACT(film) },
                              *const more[] = { WR_ACT(bake), WR_ACT(save_history) };
-    rows(app, "MAPS FOR OTHER PROGRAMS", maps, WR_LENGTH(maps));
+    rows(app, "MAPS", maps, WR_LENGTH(maps));
     rows(app, "PICTURES AND FILMS", pictures, WR_LENGTH(pictures));
     rows(app, "MORE", more, WR_LENGTH(more));
     wr_panel_cell(app);

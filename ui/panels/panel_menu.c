@@ -26,8 +26,8 @@
 
 #define FIND_UNITS 190 /* width of the search button */
 
-/* Names of actions; "-" is a separator, ">LABEL" a menu of submenus[]; "recent", "scale", "operations", "filters" and
-   "workspaces" are generated below. No menu is longer than about 14 rows. */
+/* Names of actions; "-" is a separator, ">LABEL" a menu of submenus[]; "recent", "scale", "operations" and "filters" are
+   generated below. No menu is longer than about 14 rows. */
 static const char *const file_menu[] = { WR_ACT(new),
                                          WR_ACT(open),
                                          "recent",
@@ -187,7 +187,7 @@ static const char *const view_menu[] = { ">Table shows",
                                          ">Accuracy",
                                          "-",
                                          ">Panels",
-                                         "workspaces",
+                                         ">Workspace",
                                          ">Theme",
                                          "scale",
                                          WR_ACT(fullscreen),
@@ -280,6 +280,10 @@ static const char *const view_panels[] = { WR_ACT(view_both),
                                            WR_ACT(part_back),
                                            WR_ACT(menus),
                                            NULL };
+static const char *const view_workspaces[] = { WR_ACT(workspace_paint), WR_ACT(workspace_generate),
+                                               WR_ACT(workspace_light), WR_ACT(workspace_export),
+                                               WR_ACT(workspace_study), "-",
+                                               WR_ACT(workspace_reset), NULL };
 static const char *const view_theme[] = { WR_ACT(theme_dark), WR_ACT(theme_light),
                                           WR_ACT(theme_contrast), NULL };
 static const char *const help_menu[] = { WR_ACT(help), WR_ACT(tablet), WR_ACT(about), NULL };
@@ -427,18 +431,6 @@ static void generators(WrApp *app)
 
 static void menu(WrApp *app, const char *label, const char *const *names);
 
-static void workspaces(WrApp *app)
-{
-    if (!wr_gui_menu_begin("Workspace")) return;
-    for (int i = 0; i < WR_WORKSPACES; i++) {
-        char action[48];
-        wr_menu_item(app, wr_workspace_action((WrWorkspaceKind)i, action));
-    }
-    wr_gui_menu_separator();
-    wr_menu_item(app, WR_ACT(workspace_reset));
-    wr_gui_menu_end();
-}
-
 /* Menus within menus. */
 static const struct {
     const char *label;
@@ -466,6 +458,7 @@ static const struct {
                  { "Orbit", view_orbit },
                  { "Accuracy", view_accuracy },
                  { "Panels", view_panels },
+                 { "Workspace", view_workspaces },
                  { "Theme", view_theme } };
 
 static void submenu(WrApp *app, const char *label)
@@ -485,7 +478,6 @@ static void menu(WrApp *app, const char *label, const char *const *names)
         if (strcmp(*names, "-") == 0) wr_gui_menu_separator();
         else if (strcmp(*names, "recent") == 0) recent(app);
         else if (strcmp(*names, "scale") == 0) scale(app);
-        else if (strcmp(*names, "workspaces") == 0) workspaces(app);
         else if (strcmp(*names, "operations") == 0) list_operations(app, false);
         else if (strcmp(*names, "filters") == 0) filters(app);
         else if (**names == '>') submenu(app, *names + 1);

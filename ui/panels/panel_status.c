@@ -2,6 +2,7 @@
 #include "ui/panels/panel_status.h"
 #include "ui/canvas/outline.h"
 #include "ui/canvas/view.h"
+#include "ui/app/state/action.h"
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/background_command.h"
 #include "ui/app/state/pointer_state.h"
@@ -343,7 +344,7 @@ static void make_end(const WrApp *app, RightEnd *end)
 /* One sentence about the tool in the middle of the line, if all of it fits before `to`. */
 static void tool_hint(WrApp *app, double to)
 {
-    const char *hint = wr_tool_now(app)->help;
+    const char *hint = wr_action_help(app, wr_action_find(app, wr_tool_now(app)->action));
     const double from = left_width(app) + wr_gui_px(18);
     if (app->settings->meters || from + wr_gui_text_width(WR_FONT_TEXT, hint) > to) return;
     wr_gui_move_to(from);

@@ -130,7 +130,7 @@ double wr_layout_divider_at(const WrLayout *layout, int x, int y)
 double wr_layout_side_at(const WrLayout *layout, int width, double scale, int x)
 {
     const SDL_Rect *d = &layout->side;
-    const bool left = d->x + d->w / 2.0 < width / 2.0;
+    const bool left = layout->panel.w > 0 ? layout->panel.x == 0 : d->x == 0;
     const double wide = ((left ? x : width - x) - d->w / 2.0) / scale;
     return wide < SIDE_MIN_UNITS / 2.0 ? -1.0 : wide;
 }
