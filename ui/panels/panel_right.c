@@ -113,12 +113,13 @@ static void content(WrApp *app, int index, SDL_Rect room)
         tab->fill(app, room);
         return;
     }
+    snprintf(name, sizeof name, "%s##tab", tab->label); /* a dialog may have the same name */
     if (!tab->second || room.w < wr_gui_px(WIDE_UNITS)) {
-        column(app, tab, tab->label, room, tab->draw, tab->second);
+        column(app, tab, name, room, tab->draw, tab->second);
         return;
     }
     SDL_Rect half = { room.x, room.y, room.w / 2, room.h };
-    column(app, tab, tab->label, half, tab->draw, NULL);
+    column(app, tab, name, half, tab->draw, NULL);
     half = (SDL_Rect){ room.x + half.w, room.y, room.w - half.w, room.h };
     snprintf(name, sizeof name, "%s##2", tab->label);
     column(app, tab, name, half, tab->second, NULL);

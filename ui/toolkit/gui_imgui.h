@@ -148,8 +148,10 @@ struct WrGui {
     char pin_asked[WR_GUI_PIN]; /* the row with the open menu */
     bool pin_opens;
     int tab_torn, tab_menu; /* of the previous tabs; -1: none */
-    bool floating;          /* areas are parts of a floating panel */
-    ImGuiID float_held;     /* the floating panel that is dragged or resized, */
+    ImGuiID float_id;       /* the floating panel being drawn, */
+    SDL_Rect float_rect;
+    bool floating;      /* areas are parts of a floating panel */
+    ImGuiID float_held; /* the floating panel that is dragged or resized, */
     bool float_resized;
     ImVec2 float_from; /* the pointer relative to the panel's corner at the press */
     WrFocus focus;

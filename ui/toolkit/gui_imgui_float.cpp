@@ -52,19 +52,24 @@ static void hold(WrGui *gui, ImGuiID id, const SDL_Rect *rect, bool resized)
                              at.y - (float)(rect->y + (resized ? rect->h : 0)));
 }
 
-/* Three lines in the corner, which resizes the panel. */
-static void corner(WrGui *gui, ImGuiID id, const SDL_Rect *rect)
+/* The corner that resizes the panel, above its content. */
+static void corner(WrGui *gui)
 {
+    const SDL_Rect *rect = &gui->float_rect;
     const float side = px(CORNER_UNITS);
     const ImVec2 end((float)(rect->x + rect->w), (float)(rect->y + rect->h));
     ImGui::SetCursorScreenPos(ImVec2(end.x - side, end.y - side));
-    ImGui::InvisibleButton("##corner", ImVec2(side, side));
+    ImGui::PushStyleColor(ImGuiCol_ChildBg, 0);
+    ImGui::BeginChild("##corner", ImVec2(side, side));
+    ImGui::PopStyleColor();
+    ImGui::InvisibleButton("##resize", ImVec2(side, side));
     const bool hot = ImGui::IsItemHovered() || ImGui::IsItemActive();
-    if (ImGui::IsItemActivated()) hold(gui, id, rect, true);
-    ImGui::GetForegroundDrawList()->AddTriangleFilled(
+    if (ImGui::IsItemActivated()) hold(gui, gui->float_id, rect, true);
+    ImGui::GetWindowDrawList()->AddTriangleFilled(
         ImVec2(end.x - px(2), end.y - px(9)), ImVec2(end.x - px(2), end.y - px(2)),
         ImVec2(end.x - px(9), end.y - px(2)),
         wr_gui_colour_u32(hot ? WR_COLOUR_ACCENT : WR_COLOUR_FAINT));
+    ImGui::EndChild();
 }
 
 extern "C" WrFloat wr_gui_float_begin(const char *label, SDL_Rect *rect, SDL_Rect bounds, bool grab)
@@ -106,7 +111,8 @@ try {
         ImVec2(at.x + (float)rect->w - icon - px(6), at.y + (head - icon) / 2));
     out.docks = wr_gui_glyph("##dock", WR_ICON_CLOSE, 22, WR_COLOUR_LABEL);
     wr_gui_tip("Puts it back among the tabs");
-    corner(gui, id, rect);
+    gui->float_id = id;
+    gui->float_rect = *rect;
     out.moving = gui->float_held == id && !gui->float_resized;
     out.room = SDL_Rect{ rect->x + 1, rect->y + (int)head, rect->w - 2, rect->h - (int)head - 1 };
     out.x = (int)io.MousePos.x, out.y = (int)io.MousePos.y;
@@ -118,6 +124,7 @@ WR_CAUGHT(WrFloat{})
 extern "C" void wr_gui_float_end(void)
 try {
     wr_gui_current()->floating = false;
+    corner(wr_gui_current());
     ImGui::End();
 }
 WR_CAUGHT()
