@@ -448,7 +448,7 @@ const WrAction wr_actions[] = {
     ROW(workspace_paint, "Workspace Paint", wr_act_workspace_paint, NULL, wr_is_workspace_paint),
     ROW(workspace_generate, "Workspace Generate", wr_act_workspace_generate, NULL,
         wr_is_workspace_generate),
-    ROW(workspace_light, "Workspace Light", wr_act_workspace_light, NULL, wr_is_workspace_light),
+    ROW(workspace_light, "Workspace Lighting", wr_act_workspace_light, NULL, wr_is_workspace_light),
     ROW(workspace_export, "Workspace Export", wr_act_workspace_export, NULL,
         wr_is_workspace_export),
     ROW(workspace_study, "Workspace Study", wr_act_workspace_study, NULL, wr_is_workspace_study),

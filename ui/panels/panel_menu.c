@@ -569,7 +569,7 @@ void wr_panel_menu(WrApp *app)
     const double find = find_width(app), from = wr_gui_place() + wr_gui_px(16);
     const double end = app->width - wr_gui_px(find > 0.0 ? 28 : 12) - find;
     double choice = workspaces_width() + wr_gui_px(16);
-    if (!app->settings->panels || choice + wr_gui_px(60) > end - from) choice = 0.0;
+    if (!app->settings->panels || choice > end - from) choice = 0.0;
     title(app, from, end - choice);
     if (choice > 0.0) workspace_choice(app, end - choice + wr_gui_px(16));
     find_field(app, find);

@@ -14,7 +14,7 @@ WR_ROWS(wr_workspaces);
 const WrWorkspace wr_workspaces[WR_WORKSPACES] = {
     [WR_ROW(WR_WORKSPACE_PAINT)] = { "paint", "Paint", "Brushes", "" },
     [WR_ROW(WR_WORKSPACE_GENERATE)] = { "generate", "Generate", "Generate", "lower 0.35" },
-    [WR_ROW(WR_WORKSPACE_LIGHT)] = { "light", "Light", "Scene",
+    [WR_ROW(WR_WORKSPACE_LIGHT)] = { "light", "Lighting", "Scene",
                                      "divider 0.3\tlower 0\thide_options 1\tfold -Scene/OBJECTS\t"
                                      "fold -Scene/SURFACE\tfold -Scene/BUMP\tfold "
                                      "-Scene/MATERIAL\tfold +Scene/CAMERA\t"
