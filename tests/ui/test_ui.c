@@ -290,9 +290,9 @@ static void check_layout(const WrLayoutInput *in)
 {
     WrLayout l = wr_layout_make(in);
     const SDL_Rect *r[] = { &l.options, &l.strip,  &l.canvas,        &l.divider, &l.patch,
-                            &l.panel,   &l.status, &l.panel_divider, &l.lower };
+                            &l.panel,   &l.status, &l.panel_divider, &l.lower,   &l.side };
     long area = 0;
-    for (int i = 0; i < 9; i++) {
+    for (int i = 0; i < 10; i++) {
         area += (long)r[i]->w * r[i]->h;
         assert_true(r[i]->x >= 0 && r[i]->y >= 0 && r[i]->w >= 0 && r[i]->h >= 0);
         assert_true(r[i]->x + r[i]->w <= in->width && r[i]->y + r[i]->h <= in->height);
@@ -300,45 +300,102 @@ static void check_layout(const WrLayoutInput *in)
     }
     /* no gaps: the areas add up to the window below the menu */
     assert_int_equal(area, (long)in->width * (in->height - in->menu_height));
+    if (!in->panels) return;
+    assert_true(l.panel.w <= in->width / 2);
+    assert_int_equal(l.panel.w == 0, in->side_width < 0);
+    /* something to drag remains at each closed area */
+    assert_true(l.side.w >= 4 * in->scale);
+    if (in->views == WR_VIEWS_BOTH)
+        assert_true((l.stacked ? l.divider.h : l.divider.w) >= 4 * in->scale);
+}
+
+static WrLayoutInput layout_of(int width, int height)
+{
+    return (WrLayoutInput){ .width = width,
+                            .height = height,
+                            .menu_height = 29,
+                            .scale = 1,
+                            .divider = 0.5,
+                            .panels = true,
+                            .lower = 0.4,
+                            .tools = 17 };
+}
+
+static double random_part(void)
+{
+    static uint32_t seed = 20261130;
+    seed = seed * 1664525u + 1013904223u;
+    return (seed >> 8) / 16777216.0;
+}
+
+/* A third of the values are the ends, which close something. */
+static double random_share(void)
+{
+    const double x = random_part();
+    return x < 1 / 6.0 ? 0.0 : x > 5 / 6.0 ? 1.0 : random_part();
 }
 
 static void parts_of_the_window_cover_it_without_overlap(void **state)
 {
     (void)state;
-    static const int sizes[][2] = { { 1440, 900 }, { 900, 600 }, { 3840, 2160 }, { 800, 1200 } };
-    static const double scales[] = { 0.75, 1, 2, 3 };
-    for (int i = 0; i < 4; i++) {
-        for (int s = 0; s < 4; s++) {
-            if (scales[s] > 1.5 && sizes[i][0] < 1400) continue;
-            for (int views = 0; views < 3; views++) {
-                for (int d = 0; d <= 4; d++) {
-                    WrLayoutInput in = { sizes[i][0], sizes[i][1], (int)(29 * scales[s]),
-                                         scales[s],   d / 4.0,     (WrShownViews)views,
-                                         d % 2 == 0,  0.2 * d,     17 };
-                    check_layout(&in);
-                }
-            }
-        }
+    for (int i = 0; i < 20000; i++) {
+        const double scale = 0.75 + 2.25 * random_part();
+        WrLayoutInput in = layout_of((int)((640 + 3300 * random_part()) * fmin(scale, 1.2)),
+                                     (int)((420 + 1800 * random_part()) * fmin(scale, 1.2)));
+        in.scale = scale;
+        if (in.width < 560 * scale || in.height < 360 * scale) continue;
+        in.menu_height = (int)(29 * scale);
+        in.divider = random_share();
+        in.lower = fmin(random_share(), 0.95);
+        in.views = (WrShownViews)(i % 3);
+        in.panels = i % 7 != 0;
+        in.side_width = i % 5 == 0 ? -1 : i % 5 == 1 ? 0 : 2000 * random_part() + 1;
+        in.side_left = random_part() < 0.5;
+        in.hide_strip = random_part() < 0.3;
+        in.hide_options = random_part() < 0.3;
+        check_layout(&in);
     }
 }
 
-static void both_views_stay_usable_wherever_the_divider_is_dragged(void **state)
+static void a_view_is_usable_or_closed_wherever_the_divider_is_dragged(void **state)
 {
     (void)state;
-    WrLayoutInput in = { 900, 600, 29, 1, 0.5, WR_VIEWS_BOTH, true, 0.4, 17 };
+    WrLayoutInput in = layout_of(900, 600);
+    bool closed[2] = { false };
     for (int x = -100; x < 1000; x += 7) {
         WrLayout l = wr_layout_make(&in);
         in.divider = wr_layout_divider_at(&l, x, 300);
         l = wr_layout_make(&in);
-        assert_true(l.canvas.w >= 120 && l.patch.w >= 120);
+        assert_true((l.canvas.w >= 120 || l.canvas.w == 0) && (l.patch.w >= 120 || l.patch.w == 0));
+        closed[0] |= l.canvas.w == 0, closed[1] |= l.patch.w == 0;
         if (x > 210 && x < 520) assert_near(l.divider.x + l.divider.w / 2.0, x, 2);
+    }
+    assert_true(closed[0] && closed[1]);
+}
+
+static void the_side_panel_follows_its_divider_on_both_sides(void **state)
+{
+    (void)state;
+    for (int left = 0; left < 2; left++) {
+        WrLayoutInput in = layout_of(1440, 900);
+        in.side_left = left;
+        for (int wide = 0; wide < 1000; wide += 13) {
+            WrLayout l = wr_layout_make(&in);
+            in.side_width = wr_layout_side_at(&l, in.width, 1, left ? wide : in.width - wide);
+            l = wr_layout_make(&in);
+            assert_int_equal(l.panel.w == 0, wide < 108);
+            if (wide > 220 && wide < 720) assert_near(l.panel.w, wide, 4);
+            if (wide > 740) assert_int_equal(l.panel.w, 720);
+            assert_int_equal(l.panel.w == 0 || (l.panel.x == 0) == left, true);
+            assert_int_equal(l.strip.x == 0, !left);
+        }
     }
 }
 
 static void views_are_stacked_in_a_tall_window(void **state)
 {
     (void)state;
-    WrLayoutInput in = { 800, 1200, 29, 1, 0.5, WR_VIEWS_BOTH, true, 0.4, 17 };
+    WrLayoutInput in = layout_of(800, 1200);
     WrLayout l = wr_layout_make(&in);
     assert_true(l.stacked);
     assert_true(l.patch.y > l.canvas.y);
@@ -695,7 +752,8 @@ int main(void)
         cmocka_unit_test(places_of_lights_are_taken_back_to_their_directions),
         cmocka_unit_test(a_light_from_the_upper_left_stands_at_the_upper_left),
         cmocka_unit_test(parts_of_the_window_cover_it_without_overlap),
-        cmocka_unit_test(both_views_stay_usable_wherever_the_divider_is_dragged),
+        cmocka_unit_test(a_view_is_usable_or_closed_wherever_the_divider_is_dragged),
+        cmocka_unit_test(the_side_panel_follows_its_divider_on_both_sides),
         cmocka_unit_test(views_are_stacked_in_a_tall_window),
         cmocka_unit_test(keys_find_their_actions),
         cmocka_unit_test(brackets_count_by_place_where_a_layout_has_none),

@@ -97,14 +97,14 @@ static inline void walk_open(Walk *walk, const char *language)
     walk->app->options = &walk->options;
     walk->app->session = walk->session;
     if (!wr_app_begin(walk->app, &err)) fail_msg("%s", err.text);
-    wr_gui_reports_all = true;
+    wr_gui_reports_all = wr_gui_folds_open = true;
     walk->app->hints = walk->app->file->starter = true; /* as at the first start */
     walk->app->hand->on_canvas = true;
 }
 
 static inline void walk_close(Walk *walk)
 {
-    wr_gui_reports_all = false;
+    wr_gui_reports_all = wr_gui_folds_open = false;
     wr_app_end(walk->app);
     wr_free(walk->app);
     wr_session_free(walk->session);
@@ -150,12 +150,10 @@ static inline bool walk_name(Walk *walk, const char *format, const char *what)
 static inline bool walk_open_tab(Walk *walk, int which)
 {
     WrApp *app = walk->app;
-    if (which > app->registry->tab_count) return false;
+    if (which >= app->registry->tab_count) return false;
     app->settings->tab = which;
-    app->accuracy->inspector.shown = which % 2 == 1;
-    return walk_name(walk, "tab %s",
-                     which < app->registry->tab_count ? app->registry->tabs[which].label
-                                                      : "Layers");
+    app->settings->inspector = which % 2 == 1;
+    return walk_name(walk, "tab %s", app->registry->tabs[which].label);
 }
 
 static inline void walk_tabs(Walk *walk)

@@ -2,6 +2,7 @@
 #include "ui/app/actions.h"
 #include "ui/app/actions_display.h"
 #include "ui/panels/panel_history.h"
+#include "ui/app/actions_panels.h"
 #include "ui/panels/accuracy/accuracy.h"
 #include "ui/app/registry_list.h"
 #include "ui/canvas/canvas.h"
@@ -439,6 +440,20 @@ const WrAction wr_actions[] = {
     ROW(pan_up, "Look up", pan_up, NULL, NULL),
     ROW(pan_down, "Look down", pan_down, NULL, NULL),
     ROW(panels, "Panels", panels, NULL, panels_shown),
+    ROW(side_left, "Panels on the left", wr_act_side_left, NULL, wr_is_side_left),
+    ROW(hide_strip, "Hide the tool strip", wr_act_hide_strip, NULL, wr_is_hide_strip),
+    ROW(hide_options, "Hide the option row", wr_act_hide_options, NULL, wr_is_hide_options),
+    ROW(meters, "Times and memory in the status line", wr_act_meters, NULL, wr_is_meters),
+    ROW(tab_float, "Float the tab", wr_act_tab_float, NULL, NULL),
+    ROW(dock_all, "Dock all tabs", wr_act_dock_all, NULL, NULL),
+    ROW(workspace_paint, "Workspace Paint", wr_act_workspace_paint, NULL, wr_is_workspace_paint),
+    ROW(workspace_generate, "Workspace Generate", wr_act_workspace_generate, NULL,
+        wr_is_workspace_generate),
+    ROW(workspace_light, "Workspace Lighting", wr_act_workspace_light, NULL, wr_is_workspace_light),
+    ROW(workspace_export, "Workspace Export", wr_act_workspace_export, NULL,
+        wr_is_workspace_export),
+    ROW(workspace_study, "Workspace Study", wr_act_workspace_study, NULL, wr_is_workspace_study),
+    ROW(workspace_reset, "Reset the workspace", wr_act_workspace_reset, NULL, NULL),
     ROW(part_next, "Keys to the next part of the window", wr_act_part_next, NULL, NULL),
     ROW(part_back, "Keys to the part before", wr_act_part_back, NULL, NULL),
     ROW(menus, "Keys to the menus", wr_act_menus, NULL, NULL),

@@ -21,25 +21,24 @@ bool wr_is_accuracy(const WrApp *app)
     return app->settings->panels && app->settings->tab == wr_tab_find(app, "Accuracy");
 }
 
-/* Without room below, the inspector is at the end of the Accuracy tab. */
+/* Without room below, the inspector is a tab among the others. */
 void wr_act_inspector(WrApp *app)
 {
-    WrInspector *in = &app->accuracy->inspector;
-    in->shown = !in->shown;
-    if (!in->shown) return;
+    app->settings->inspector = !app->settings->inspector;
+    if (!app->settings->inspector) return;
     app->settings->panels = true;
-    if (app->layout->lower.w <= 0) wr_act_accuracy(app);
+    if (app->layout->lower.w <= 0) wr_tab_show(app, "Inspector");
 }
 
 bool wr_is_inspector(const WrApp *app)
 {
-    return app->accuracy->inspector.shown;
+    return app->settings->inspector;
 }
 
 void wr_act_inspector_pin(WrApp *app)
 {
     WrInspector *in = &app->accuracy->inspector;
-    if (!in->shown) wr_act_inspector(app);
+    if (!app->settings->inspector) wr_act_inspector(app);
     in->pinned = !in->pinned;
 }
 

@@ -221,6 +221,8 @@ TILING(brick, WR_TILING_BRICK)
 
 void wr_act_view_both(WrApp *app)
 {
+    const double d = app->settings->divider;
+    if (d <= 0.0 || d >= 1.0) app->settings->divider = 0.5; /* one of them was closed */
     app->settings->views = WR_VIEWS_BOTH;
 }
 

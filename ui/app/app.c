@@ -100,6 +100,8 @@ bool wr_app_begin(WrApp *app, WrError *err)
     app->drawn_scale = wr_app_wanted_scale(app);
     app->gui = wr_gui_new(app->renderer, app->drawn_scale, err);
     if (!app->gui) return false;
+    wr_gui_use_folds(app->gui, app->settings->folds);
+    wr_gui_use_pins(app->gui, app->settings->pins, WR_PINS_MAX);
     app->ready_event = SDL_RegisterEvents(4);
     app->file_event = app->ready_event + 1;
     app->job_event = app->ready_event + 2;
@@ -268,17 +270,17 @@ static void handle(WrApp *app, const SDL_Event *event)
 static SDL_SystemCursor cursor_for(const WrApp *app)
 {
     const WrInputRouter *hand = app->hand;
-    if (hand->grab == WR_GRAB_DIVIDER ||
-        (hand->grab == WR_GRAB_NONE &&
-         wr_layout_inside(&app->layout->divider, (int)hand->at.x, (int)hand->at.y)))
+    const WrGrab divider =
+        hand->grab == WR_GRAB_NONE && !wr_gui_owns_point(app->gui, (int)hand->at.x, (int)hand->at.y)
+            ? wr_divider_under(app, &hand->at)
+            : hand->grab;
+    if (divider == WR_GRAB_DIVIDER)
         return app->layout->stacked ? SDL_SYSTEM_CURSOR_SIZENS : SDL_SYSTEM_CURSOR_SIZEWE;
+    if (divider == WR_GRAB_PANELS) return SDL_SYSTEM_CURSOR_SIZENS;
+    if (divider == WR_GRAB_SIDE) return SDL_SYSTEM_CURSOR_SIZEWE;
     if (hand->grab == WR_GRAB_SPLIT || (hand->grab == WR_GRAB_NONE && hand->on_patch &&
                                         wr_accuracy_on_line(app, hand->at.x, hand->at.y)))
         return SDL_SYSTEM_CURSOR_SIZEWE;
-    if (hand->grab == WR_GRAB_PANELS ||
-        (hand->grab == WR_GRAB_NONE &&
-         wr_layout_inside(&app->layout->panel_divider, (int)hand->at.x, (int)hand->at.y)))
-        return SDL_SYSTEM_CURSOR_SIZENS;
     if (hand->on_canvas && (hand->grab == WR_GRAB_PAN || hand->space))
         return SDL_SYSTEM_CURSOR_SIZEALL;
     if (hand->on_canvas) return SDL_SYSTEM_CURSOR_CROSSHAIR;
@@ -299,10 +301,16 @@ static void set_cursor(WrApp *app)
     app->cursor = wanted;
 }
 
+/* A divider with three dots as its grip. */
 static void draw_divider(const SDL_Rect *d, bool hot)
 {
+    const double dot = wr_gui_px(1.5), gap = wr_gui_px(6);
+    const bool tall = d->h > d->w;
     if (d->w <= 0) return;
     wr_gui_draw_fill(d->x, d->y, d->w, d->h, hot ? WR_COLOUR_SELECTED : WR_COLOUR_LINE, 0);
+    for (int i = -1; i <= 1; i++)
+        wr_gui_draw_disc(d->x + d->w / 2.0 + (tall ? 0 : i * gap),
+                         d->y + d->h / 2.0 + (tall ? i * gap : 0), dot, WR_COLOUR_FAINT);
 }
 
 static void draw_views(WrApp *app)
@@ -311,6 +319,7 @@ static void draw_views(WrApp *app)
         if ((*p)->draw) (*p)->draw(app);
     draw_divider(&app->layout->divider, app->hand->grab == WR_GRAB_DIVIDER);
     draw_divider(&app->layout->panel_divider, app->hand->grab == WR_GRAB_PANELS);
+    draw_divider(&app->layout->side, app->hand->grab == WR_GRAB_SIDE);
 }
 
 void wr_app_draw_parts(WrApp *app, bool views)

@@ -42,6 +42,7 @@
 
 #define MOUSE (-1) /* in place of a pen's device */
 #define WHEEL_DEG 5.0
+#define DOUBLE_SECONDS 0.4 /* between the presses of a double click */
 
 static WrPointer pointer_at(const WrApp *app, double x, double y, int button)
 {
@@ -132,6 +133,30 @@ static void press_patch(WrApp *app, const WrPointer *at)
     }
 }
 
+WrGrab wr_divider_under(const WrApp *app, const WrPointer *at)
+{
+    const int x = (int)at->x, y = (int)at->y;
+    if (wr_layout_inside(&app->layout->divider, x, y)) return WR_GRAB_DIVIDER;
+    if (wr_layout_inside(&app->layout->panel_divider, x, y)) return WR_GRAB_PANELS;
+    return wr_layout_inside(&app->layout->side, x, y) ? WR_GRAB_SIDE : WR_GRAB_NONE;
+}
+
+/* A drag moves the divider, a double click resets it. */
+static void press_divider(WrApp *app, WrGrab divider)
+{
+    WrInputRouter *hand = app->hand;
+    const double now = wr_clock_seconds();
+    const bool twice = divider == hand->last_divider && now - hand->divider_at < DOUBLE_SECONDS;
+    const WrSettings plain = wr_settings_default();
+    hand->last_divider = twice ? WR_GRAB_NONE : divider;
+    hand->divider_at = now;
+    if (!twice) hand->grab = divider;
+    else if (divider == WR_GRAB_DIVIDER) app->settings->divider = plain.divider;
+    else if (divider == WR_GRAB_PANELS) app->settings->lower = plain.lower;
+    else app->settings->side_width = plain.side_width;
+    wr_app_redraw(app);
+}
+
 /* Handle a press outside the widgets. */
 static void press(WrApp *app, const WrPointer *at, int device)
 {
@@ -142,10 +167,9 @@ static void press(WrApp *app, const WrPointer *at, int device)
     hand->at = hand->start = *at;
     hand->button = at->button;
     hand->device = device;
-    if (wr_layout_inside(&app->layout->divider, x, y)) {
-        if (at->button == SDL_BUTTON_LEFT) hand->grab = WR_GRAB_DIVIDER;
-    } else if (wr_layout_inside(&app->layout->panel_divider, x, y)) {
-        if (at->button == SDL_BUTTON_LEFT) hand->grab = WR_GRAB_PANELS;
+    const WrGrab divider = wr_divider_under(app, at);
+    if (divider != WR_GRAB_NONE) {
+        if (at->button == SDL_BUTTON_LEFT) press_divider(app, divider);
     } else if (wr_layout_inside(&app->layout->canvas, x, y)) {
         press_canvas(app, at);
     } else if (!blocked(app) && wr_layout_inside(&app->layout->patch, x, y)) {
@@ -248,6 +272,10 @@ static void drag(WrApp *app, const WrPointer *at)
         break;
     case WR_GRAB_SPLIT: wr_accuracy_drag_line(app, at->x); break;
     case WR_GRAB_PANELS: app->settings->lower = wr_layout_lower_at(app->layout, (int)at->y); break;
+    case WR_GRAB_SIDE:
+        app->settings->side_width =
+            wr_layout_side_at(app->layout, app->width, wr_gui_scale(), (int)at->x);
+        break;
     case WR_GRAB_ORBIT:
     case WR_GRAB_LIGHT:
     case WR_GRAB_SURROUND:

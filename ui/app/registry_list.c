@@ -75,12 +75,18 @@ static const WrDialogRow dialogs[] = {
 };
 WR_ROWS_END(dialogs, WR_DIALOG_COUNT);
 
-static const WrTab tabs[] = { { "Brushes", NULL, wr_panel_brushes, false, false },
-                              { "Scene", wr_panel_scene, NULL, false, true },
-                              { "Plan", wr_panel_plan, NULL, false, false },
-                              { "History", wr_panel_history, NULL, false, false },
-                              { "Generate", NULL, wr_panel_generate, true, false },
-                              { "Accuracy", wr_panel_accuracy, NULL, true, false } };
+static const WrTab tabs[] = {
+    { "Brushes", .fill = wr_panel_brushes, .rows_area = "brush_values", .rows = wr_panel_brush },
+    { "Scene", .draw = wr_panel_scene, .second = wr_panel_scene_second, .edits = true },
+    { "Plan", .draw = wr_panel_plan },
+    { "History", .draw = wr_panel_history },
+    { "Generate", .fill = wr_panel_generate, .is_long = true, .rows_area = "generate_values",
+      .rows = wr_panel_generate_values },
+    { "Accuracy", .draw = wr_panel_accuracy, .is_long = true },
+    { "Export", .draw = wr_panel_export },
+    { "Layers", .fill = wr_panel_layers, .below = true },
+    { "Inspector", .draw = wr_panel_inspector, .below = true },
+};
 
 /* In the order of update and drawing. */
 static const WrPart *const parts[] = {

@@ -225,8 +225,7 @@ static void setting(WrApp *app, int index)
 static void preset_settings(WrApp *app)
 {
     int changed = wr_tuning_count(app->brush_files->set), all = wr_preset_setting_count();
-    wr_gui_space(6);
-    wr_gui_heading("THE PRESET'S OWN SETTINGS");
+    if (!wr_gui_fold("THE PRESET'S OWN SETTINGS", true)) return;
     if (changed > 0) {
         char text[64];
         snprintf(text, sizeof text,

@@ -269,6 +269,8 @@ void wr_panel_brushes(WrApp *app, SDL_Rect room)
     }
     if (!both && part == 0) return;
     wr_gui_area_begin("##brush_values", WR_AREA_PANEL, room, WR_COLOUR_PANEL);
+    wr_gui_pinnable(true);
     wr_panel_brush(app);
+    wr_gui_pinnable(false);
     wr_gui_area_end();
 }

@@ -70,8 +70,7 @@ static void placed(WrApp *app)
     static const char *const kinds[] = { "Perspective", "Orthographic" };
     const WrCamera *c = &wr_app_scene(app)->camera;
     int kind = c->orthographic;
-    wr_gui_space(8);
-    wr_gui_heading("CAMERA");
+    if (!wr_gui_fold("CAMERA", false)) return;
     wr_gui_label("Kind");
     if (wr_gui_choice("camera", 0, kinds, 2, &kind)) {
         WrText line = { 0 };
@@ -149,8 +148,7 @@ static void background(WrApp *app)
     };
     WR_ROWS_END(kinds, WR_BACKGROUND_KINDS);
     int kind = (int)wr_app_scene(app)->background.kind;
-    wr_gui_space(8);
-    wr_gui_heading("BACKGROUND");
+    if (!wr_gui_fold("BACKGROUND", false)) return;
     wr_gui_label("Kind");
     if (wr_gui_choice("background", 0, kinds, WR_BACKGROUND_KINDS, &kind)) {
         WrText line = { 0 };
@@ -175,8 +173,7 @@ static void tone(WrApp *app)
     };
     WR_ROWS_END(kinds, WR_TONE_KINDS);
     WrText line = { 0 };
-    wr_gui_space(8);
-    wr_gui_heading("EXPOSURE");
+    if (!wr_gui_fold("EXPOSURE", false)) return;
     wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_EXPOSURE]);
     const WrTone *tone = &wr_app_scene(app)->tone; /* of the scene that the row may have made */
     int kind = (int)tone->kind;

@@ -59,7 +59,7 @@ void wr_panel_layer_plan(WrApp *app)
 {
     const WrDocument *document = wr_app_document(app);
     const WrLayerPlan *plan = plan_of(app);
-    wr_gui_heading("LAYERS, AT THE LAST EDIT");
+    if (!wr_gui_fold("LAYERS, AT THE LAST EDIT", true)) return;
     wr_gui_space(2);
     for (int i = document->layer_count - 1; i >= 0; i--) row(&document->layers[i], &plan[i]);
     wr_gui_space(8);

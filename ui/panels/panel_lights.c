@@ -101,8 +101,7 @@ static void lights(WrApp *app)
 {
     static const char *const presets[] = { "choose \xe2\x80\xa6", PRESET_LIST(WR_WORD) };
     int chosen = 0;
-    wr_gui_space(8);
-    wr_gui_heading("LIGHT");
+    if (!wr_gui_fold("LIGHT", true)) return;
     for (int i = 0; i < wr_app_scene(app)->light_count; i++) {
         wr_gui_push_id(i);
         bool changed = one_light(app, i);
@@ -142,8 +141,7 @@ static void surroundings(WrApp *app)
 {
     const WrEnvironment *now = &wr_app_scene(app)->environment;
     int kind = (int)now->kind;
-    wr_gui_space(8);
-    wr_gui_heading("SURROUNDINGS");
+    if (!wr_gui_fold("SURROUNDINGS", true)) return;
     wr_gui_label("Kind");
     if (wr_gui_choice("surroundings", 0, wr_environment_map_labels, WR_ENVIRONMENT_MAP_KINDS,
                       &kind)) {

@@ -247,8 +247,7 @@ static void facet_rows(WrApp *app)
 
 void wr_panel_maps(WrApp *app)
 {
-    wr_gui_space(8);
-    wr_gui_heading("PICTURES");
+    if (!wr_gui_fold("PICTURES", false)) return;
     wr_gui_push_id(1);
     const bool ramp = wr_app_scene(app)->colouring.count > 0;
     if (!ramp) file_row(app, &colour, wr_app_scene(app)->colour, &wr_app_scene(app)->colour_laid);

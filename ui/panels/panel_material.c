@@ -26,8 +26,7 @@ static void bump(WrApp *app)
     int mode = (int)scene->bump, scheme = (int)scene->scheme;
     for (int i = 0; i < WR_BUMP_COUNT; i++) modes[i] = wr_bumps[i].title;
     for (int i = 0; i < WR_SCHEME_COUNT; i++) schemes[i] = wr_schemes[i].title;
-    wr_gui_space(8);
-    wr_gui_heading("BUMP");
+    if (!wr_gui_fold("BUMP", true)) return;
     wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_HEIGHT]);
     WrText line = { 0 };
     wr_gui_label("Normal");
@@ -84,8 +83,7 @@ static void reflection(WrApp *app)
 static void material(WrApp *app)
 {
     const WrSceneParam *param;
-    wr_gui_space(8);
-    wr_gui_heading("MATERIAL");
+    if (!wr_gui_fold("MATERIAL", true)) return;
     wr_panel_presets(app);
     wr_gui_label("From a file");
     if (wr_gui_chip(WR_ICON_FOLDER, "glTF...")) wr_action_run(app, WR_ACT(gltf));

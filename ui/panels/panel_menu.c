@@ -6,6 +6,7 @@
 #include "ui/app/state/keys.h"
 #include "ui/app/state/session_view.h"
 #include "ui/app/state/settings.h"
+#include "ui/app/state/workspace.h"
 #include "ui/panels/generate/generate_state.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
@@ -25,8 +26,8 @@
 
 #define FIND_UNITS 190 /* width of the search button */
 
-/* Names of actions; "-" is a separator; "recent", "scale", "theme", "tiling", "operations" and "filters" are
-   generated below. */
+/* Names of actions; "-" is a separator, ">LABEL" a menu of submenus[]; "recent", "scale", "operations" and "filters" are
+   generated below. No menu is longer than about 14 rows. */
 static const char *const file_menu[] = { WR_ACT(new),
                                          WR_ACT(open),
                                          "recent",
@@ -53,108 +54,108 @@ static const char *const edit_menu[] = {
 };
 static const char *const brush_menu[] = { WR_ACT(brushes),
                                           WR_ACT(round_brush),
-                                          WR_ACT(preset_last),
-                                          WR_ACT(preset_next),
-                                          WR_ACT(preset_previous),
-                                          WR_ACT(favourite),
-                                          WR_ACT(brush_curves),
-                                          WR_ACT(preset_save),
-                                          WR_ACT(lock_size),
+                                          ">Presets",
                                           "-",
-                                          WR_ACT(size_up),
-                                          WR_ACT(size_down),
-                                          WR_ACT(hardness_up),
-                                          WR_ACT(hardness_down),
-                                          WR_ACT(strength_up),
-                                          WR_ACT(strength_down),
-                                          WR_ACT(swap_mode),
-                                          WR_ACT(erase_mode),
-                                          WR_ACT(level_mode),
-                                          WR_ACT(height_up),
-                                          WR_ACT(height_down),
-                                          WR_ACT(reset_values),
+                                          ">Size and strength",
+                                          ">Mode and height",
                                           "-",
-                                          WR_ACT(steady_off),
-                                          WR_ACT(steady_smooth),
-                                          WR_ACT(steady_string),
-                                          WR_ACT(steady_catch_up),
-                                          "-",
-                                          WR_ACT(pressure_up),
-                                          WR_ACT(pressure_down),
-                                          WR_ACT(pressure_speed),
+                                          ">Stabilizer",
+                                          ">Pen pressure",
                                           "-",
                                           WR_ACT(symmetry),
                                           WR_ACT(symmetry_on),
                                           NULL };
-static const char *const tool_menu[] = { WR_ACT(brush),
-                                         WR_ACT(smooth),
-                                         WR_ACT(smear),
-                                         WR_ACT(clone),
-                                         WR_ACT(straight_line),
-                                         WR_ACT(paint_patch),
-                                         WR_ACT(paint_round),
-                                         WR_ACT(projection_handle),
-                                         "-",
-                                         WR_ACT(flood),
-                                         WR_ACT(ramp),
-                                         WR_ACT(shape_rect),
-                                         WR_ACT(shape_ellipse),
-                                         WR_ACT(shape_polygon),
-                                         WR_ACT(shape_path),
-                                         "-",
-                                         WR_ACT(stamp),
-                                         WR_ACT(stamp_open),
-                                         "-",
-                                         WR_ACT(select_rect),
-                                         WR_ACT(select_ellipse),
-                                         WR_ACT(select_lasso),
-                                         WR_ACT(transform),
-                                         WR_ACT(pick),
-                                         WR_ACT(pan),
-                                         WR_ACT(zoom),
+static const char *const brush_presets[] = { WR_ACT(preset_last),
+                                             WR_ACT(preset_next),
+                                             WR_ACT(preset_previous),
+                                             WR_ACT(favourite),
+                                             "-",
+                                             WR_ACT(brush_curves),
+                                             WR_ACT(preset_save),
+                                             NULL };
+static const char *const brush_values[] = { WR_ACT(size_up),
+                                            WR_ACT(size_down),
+                                            WR_ACT(lock_size),
+                                            "-",
+                                            WR_ACT(hardness_up),
+                                            WR_ACT(hardness_down),
+                                            "-",
+                                            WR_ACT(strength_up),
+                                            WR_ACT(strength_down),
+                                            "-",
+                                            WR_ACT(reset_values),
+                                            NULL };
+static const char *const brush_modes[] = { WR_ACT(swap_mode),
+                                           WR_ACT(erase_mode),
+                                           WR_ACT(level_mode),
+                                           "-",
+                                           WR_ACT(height_up),
+                                           WR_ACT(height_down),
+                                           NULL };
+static const char *const brush_steady[] = { WR_ACT(steady_off), WR_ACT(steady_smooth),
+                                            WR_ACT(steady_string), WR_ACT(steady_catch_up), NULL };
+static const char *const brush_pressure[] = { WR_ACT(pressure_up), WR_ACT(pressure_down),
+                                              WR_ACT(pressure_speed), NULL };
+static const char *const tool_menu[] = { WR_ACT(brush), WR_ACT(smooth),        WR_ACT(smear),
+                                         WR_ACT(clone), WR_ACT(straight_line), ">On the patch",
+                                         "-",           WR_ACT(flood),         WR_ACT(ramp),
+                                         ">Shapes",     WR_ACT(stamp),         WR_ACT(stamp_open),
+                                         "-",           ">Selection",          WR_ACT(transform),
+                                         WR_ACT(pick),  WR_ACT(pan),           WR_ACT(zoom),
                                          NULL };
+static const char *const tool_patch[] = { WR_ACT(paint_patch), WR_ACT(paint_round),
+                                          WR_ACT(projection_handle), NULL };
+static const char *const tool_shapes[] = { WR_ACT(shape_rect), WR_ACT(shape_ellipse),
+                                           WR_ACT(shape_polygon), WR_ACT(shape_path), NULL };
+static const char *const tool_selection[] = { WR_ACT(select_rect), WR_ACT(select_ellipse),
+                                              WR_ACT(select_lasso), NULL };
 static const char *const layer_menu[] = { WR_ACT(layer_add),
                                           "filters",
                                           WR_ACT(layer_duplicate),
                                           WR_ACT(layer_link),
                                           WR_ACT(layer_delete),
+                                          "-",
                                           WR_ACT(layer_rename),
                                           WR_ACT(filter_edit),
                                           WR_ACT(layer_rasterize),
-                                          WR_ACT(layer_group),
-                                          WR_ACT(layer_ungroup),
                                           "-",
-                                          WR_ACT(layer_raise),
-                                          WR_ACT(layer_lower),
-                                          WR_ACT(layer_above),
-                                          WR_ACT(layer_below),
-                                          WR_ACT(layer_choose_all),
-                                          "-",
-                                          WR_ACT(layer_show),
-                                          WR_ACT(layer_lock),
-                                          WR_ACT(layer_solo),
-                                          "-",
-                                          WR_ACT(variant_add),
-                                          WR_ACT(variant_set),
-                                          WR_ACT(variant_rename),
-                                          WR_ACT(variant_delete),
-                                          "-",
-                                          WR_ACT(mask_selection),
+                                          ">Order and groups",
+                                          ">Visibility",
+                                          ">Mask",
+                                          ">Variants",
+                                          ">Merge",
+                                          NULL };
+static const char *const layer_order[] = { WR_ACT(layer_raise),
+                                           WR_ACT(layer_lower),
+                                           "-",
+                                           WR_ACT(layer_above),
+                                           WR_ACT(layer_below),
+                                           WR_ACT(layer_choose_all),
+                                           "-",
+                                           WR_ACT(layer_group),
+                                           WR_ACT(layer_ungroup),
+                                           NULL };
+static const char *const layer_visibility[] = { WR_ACT(layer_show), WR_ACT(layer_lock),
+                                                WR_ACT(layer_solo), NULL };
+static const char *const layer_variants[] = { WR_ACT(variant_add), WR_ACT(variant_set),
+                                              WR_ACT(variant_rename), WR_ACT(variant_delete),
+                                              NULL };
+static const char *const layer_mask[] = { WR_ACT(mask_selection),
                                           WR_ACT(mask_white),
                                           WR_ACT(mask_black),
                                           WR_ACT(mask_height),
                                           WR_ACT(mask_slope),
                                           WR_ACT(mask_live),
+                                          "-",
                                           WR_ACT(mask_invert),
                                           WR_ACT(mask_none),
+                                          "-",
                                           WR_ACT(mask_edit),
                                           WR_ACT(mask_alone),
-                                          "-",
-                                          WR_ACT(layer_merge),
-                                          WR_ACT(layer_project),
-                                          WR_ACT(layer_flatten),
-                                          WR_ACT(layer_clear),
                                           NULL };
+static const char *const layer_merging[] = { WR_ACT(layer_merge),   WR_ACT(layer_project),
+                                             WR_ACT(layer_flatten), "-",
+                                             WR_ACT(layer_clear),   NULL };
 static const char *const select_menu[] = { WR_ACT(select_all),
                                            WR_ACT(select_none),
                                            WR_ACT(select_invert),
@@ -167,71 +168,124 @@ static const char *const select_menu[] = { WR_ACT(select_all),
                                            WR_ACT(select_slope),
                                            WR_ACT(select_mask),
                                            "-",
-                                           WR_ACT(select_rect),
-                                           WR_ACT(select_ellipse),
-                                           WR_ACT(select_lasso),
+                                           ">Selection",
                                            WR_ACT(ants),
                                            NULL };
 static const char *const table_menu[] = { WR_ACT(table_size), WR_ACT(fill), WR_ACT(grid),
                                           WR_ACT(import),     "-",          WR_ACT(offset_half),
                                           "operations",       NULL };
-static const char *const view_menu[] = { WR_ACT(look_grey),
-                                         WR_ACT(look_signed),
-                                         WR_ACT(look_relief),
-                                         WR_ACT(look_contours),
-                                         WR_ACT(look_slope),
-                                         WR_ACT(look_normals),
-                                         WR_ACT(look_occlusion),
-                                         WR_ACT(look_curvature),
-                                         WR_ACT(look_cavity),
-                                         WR_ACT(look_roughness),
+static const char *const view_menu[] = { ">Table shows",
+                                         ">Zoom and turn",
+                                         ">Copies beside it",
+                                         ">Grid",
                                          "-",
-                                         WR_ACT(range_auto),
-                                         WR_ACT(range_unit),
-                                         WR_ACT(range_marks),
-                                         "-",
-                                         WR_ACT(zoom_in),
-                                         WR_ACT(zoom_out),
-                                         WR_ACT(zoom_100),
-                                         WR_ACT(pan_left),
-                                         WR_ACT(pan_right),
-                                         WR_ACT(pan_up),
-                                         WR_ACT(pan_down),
-                                         WR_ACT(fit),
-                                         WR_ACT(mirror_view),
-                                         WR_ACT(turn_left),
-                                         WR_ACT(turn_right),
-                                         WR_ACT(turn_none),
-                                         "tiling",
-                                         WR_ACT(view_grid),
-                                         WR_ACT(grid_finer),
-                                         WR_ACT(grid_coarser),
-                                         "-",
+                                         ">Patch shows",
+                                         ">Camera",
                                          WR_ACT(turn),
                                          WR_ACT(ground),
-                                         WR_ACT(view_back),
-                                         WR_ACT(view_forward),
-                                         "camera",
                                          "-",
-                                         WR_ACT(accuracy),
-                                         WR_ACT(accuracy_measure),
-                                         "compare",
-                                         WR_ACT(inspector),
-                                         WR_ACT(inspector_pin),
-                                         WR_ACT(inspector_copy),
-                                         WR_ACT(hard_cases),
+                                         ">Accuracy",
                                          "-",
-                                         WR_ACT(view_both),
-                                         WR_ACT(view_canvas),
-                                         WR_ACT(view_patch),
-                                         WR_ACT(panels),
-                                         WR_ACT(part_next),
-                                         WR_ACT(part_back),
-                                         WR_ACT(menus),
-                                         WR_ACT(fullscreen),
-                                         "theme",
+                                         ">Panels",
+                                         ">Workspace",
+                                         ">Theme",
                                          "scale",
+                                         WR_ACT(fullscreen),
                                          NULL };
+static const char *const view_table[] = { WR_ACT(look_grey),
+                                          WR_ACT(look_signed),
+                                          WR_ACT(look_relief),
+                                          WR_ACT(look_contours),
+                                          WR_ACT(look_slope),
+                                          WR_ACT(look_normals),
+                                          WR_ACT(look_occlusion),
+                                          WR_ACT(look_curvature),
+                                          WR_ACT(look_cavity),
+                                          WR_ACT(look_roughness),
+                                          "-",
+                                          WR_ACT(range_auto),
+                                          WR_ACT(range_unit),
+                                          WR_ACT(range_marks),
+                                          NULL };
+static const char *const view_zoom[] = {
+    WR_ACT(zoom_in),     WR_ACT(zoom_out),  WR_ACT(zoom_100),   WR_ACT(fit),       "-",
+    WR_ACT(pan_left),    WR_ACT(pan_right), WR_ACT(pan_up),     WR_ACT(pan_down),  "-",
+    WR_ACT(mirror_view), WR_ACT(turn_left), WR_ACT(turn_right), WR_ACT(turn_none), NULL
+};
+static const char *const view_copies[] = { WR_ACT(tiling_straight), WR_ACT(tiling_half_drop),
+                                           WR_ACT(tiling_brick), NULL };
+static const char *const view_grids[] = { WR_ACT(view_grid), WR_ACT(grid_finer),
+                                          WR_ACT(grid_coarser), NULL };
+static const char *const view_patch[] = { WR_ACT(look_plain),
+                                          WR_ACT(look_split),
+                                          WR_ACT(look_flicker),
+                                          WR_ACT(compare_hold),
+                                          WR_ACT(compare_take),
+                                          WR_ACT(compare_swap),
+                                          "-",
+                                          WR_ACT(look_height),
+                                          WR_ACT(look_tilt),
+                                          WR_ACT(look_normal),
+                                          "-",
+                                          WR_ACT(look_error),
+                                          WR_ACT(look_dropped),
+                                          WR_ACT(look_level),
+                                          WR_ACT(look_ran),
+                                          NULL };
+static const char *const view_camera[] = { WR_ACT(camera_fill),
+                                           WR_ACT(camera_kind),
+                                           "-",
+                                           ">From",
+                                           ">Orbit",
+                                           "-",
+                                           WR_ACT(view_keep),
+                                           WR_ACT(view_back),
+                                           WR_ACT(view_forward),
+                                           "-",
+                                           WR_ACT(pose_reset),
+                                           WR_ACT(camera_reset),
+                                           NULL };
+static const char *const view_from[] = { WR_ACT(from_front),
+                                         WR_ACT(from_back),
+                                         WR_ACT(from_left),
+                                         WR_ACT(from_right),
+                                         WR_ACT(from_top),
+                                         WR_ACT(from_bottom),
+                                         NULL };
+static const char *const view_orbit[] = { WR_ACT(orbit_left), WR_ACT(orbit_right), WR_ACT(orbit_up),
+                                          WR_ACT(orbit_down), NULL };
+static const char *const view_accuracy[] = { WR_ACT(accuracy),
+                                             WR_ACT(accuracy_measure),
+                                             "-",
+                                             WR_ACT(inspector),
+                                             WR_ACT(inspector_pin),
+                                             WR_ACT(inspector_copy),
+                                             "-",
+                                             WR_ACT(hard_cases),
+                                             NULL };
+static const char *const view_panels[] = { WR_ACT(view_both),
+                                           WR_ACT(view_canvas),
+                                           WR_ACT(view_patch),
+                                           WR_ACT(panels),
+                                           "-",
+                                           WR_ACT(hide_strip),
+                                           WR_ACT(hide_options),
+                                           WR_ACT(meters),
+                                           WR_ACT(side_left),
+                                           "-",
+                                           WR_ACT(tab_float),
+                                           WR_ACT(dock_all),
+                                           "-",
+                                           WR_ACT(part_next),
+                                           WR_ACT(part_back),
+                                           WR_ACT(menus),
+                                           NULL };
+static const char *const view_workspaces[] = { WR_ACT(workspace_paint), WR_ACT(workspace_generate),
+                                               WR_ACT(workspace_light), WR_ACT(workspace_export),
+                                               WR_ACT(workspace_study), "-",
+                                               WR_ACT(workspace_reset), NULL };
+static const char *const view_theme[] = { WR_ACT(theme_dark), WR_ACT(theme_light),
+                                          WR_ACT(theme_contrast), NULL };
 static const char *const help_menu[] = { WR_ACT(help), WR_ACT(tablet), WR_ACT(about), NULL };
 
 static void recent(WrApp *app)
@@ -294,18 +348,42 @@ void wr_menu_item(WrApp *app, const char *name)
     wr_gui_tip(wr_action_help(app, action));
 }
 
-/* Table operations in the order of their table: all, or those usable as filter layers. */
+/* Groups of the table operations: the first of each. */
+static const struct {
+    const char *label, *first;
+} operation_groups[] = { { "Move and resize", "offset" },
+                         { "Heights", "levels" },
+                         { "Smooth and distort", "blur" } };
+
+static int group_of(const WrOpInfo *op, int group)
+{
+    while (group + 1 < WR_LENGTH(operation_groups) &&
+           strcmp(op->name, operation_groups[group + 1].first) == 0)
+        group++;
+    return group;
+}
+
+static void operation(WrApp *app, const WrOpInfo *op, bool filter)
+{
+    char name[64], label[80], keys[32];
+    snprintf(name, sizeof name, "%s_%.50s", filter ? "filter" : "adjust", op->name);
+    snprintf(label, sizeof label, "%.60s...", wr_words(op->label));
+    if (wr_gui_menu_item(label, wr_keys_label(app->keys, name, keys), false, !wr_busy_greys(app)))
+        wr_action_run(app, name);
+    wr_gui_tip(op->help);
+}
+
+/* Table operations in the order of their table, each group in a menu: all, or those usable as filter layers. */
 static void list_operations(WrApp *app, bool filters)
 {
-    for (const WrOpInfo *op = wr_ops; op->name; op++) {
-        char name[64], label[80], keys[32];
-        if (filters && op->reshapes) continue;
-        snprintf(name, sizeof name, "%s_%.50s", filters ? "filter" : "adjust", op->name);
-        snprintf(label, sizeof label, "%.60s...", wr_words(op->label));
-        if (wr_gui_menu_item(label, wr_keys_label(app->keys, name, keys), false,
-                             !wr_busy_greys(app)))
-            wr_action_run(app, name);
-        wr_gui_tip(op->help);
+    for (int group = 0; group < WR_LENGTH(operation_groups); group++) {
+        if (!wr_gui_menu_begin(operation_groups[group].label)) continue;
+        int at = 0;
+        for (const WrOpInfo *op = wr_ops; op->name; op++) {
+            at = group_of(op, at);
+            if (at == group && !(filters && op->reshapes)) operation(app, op, filters);
+        }
+        wr_gui_menu_end();
     }
 }
 
@@ -351,72 +429,46 @@ static void generators(WrApp *app)
     wr_gui_menu_end();
 }
 
-/* Overlays of the patch. */
-/* A menu within a menu. */
-static void submenu(WrApp *app, const char *title, const char *const *names, size_t count)
-{
-    if (!wr_gui_menu_begin(title)) return;
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(names[i], "-") == 0) wr_gui_menu_separator();
-        else wr_menu_item(app, names[i]);
-    wr_gui_menu_end();
-}
+static void menu(WrApp *app, const char *label, const char *const *names);
 
-static void compare(WrApp *app)
-{
-    static const char *const names[] = { WR_ACT(look_plain),
-                                         WR_ACT(look_split),
-                                         WR_ACT(look_flicker),
-                                         WR_ACT(compare_hold),
-                                         WR_ACT(compare_take),
-                                         WR_ACT(compare_swap),
-                                         "-",
-                                         WR_ACT(look_height),
-                                         WR_ACT(look_tilt),
-                                         WR_ACT(look_normal),
-                                         "-",
-                                         WR_ACT(look_error),
-                                         WR_ACT(look_dropped),
-                                         WR_ACT(look_level),
-                                         WR_ACT(look_ran) };
-    submenu(app, "Patch shows", names, WR_LENGTH(names));
-}
+/* Menus within menus. */
+static const struct {
+    const char *label;
+    const char *const *names;
+} submenus[] = { { "Presets", brush_presets },
+                 { "Size and strength", brush_values },
+                 { "Mode and height", brush_modes },
+                 { "Stabilizer", brush_steady },
+                 { "Pen pressure", brush_pressure },
+                 { "On the patch", tool_patch },
+                 { "Shapes", tool_shapes },
+                 { "Selection", tool_selection },
+                 { "Order and groups", layer_order },
+                 { "Visibility", layer_visibility },
+                 { "Mask", layer_mask },
+                 { "Variants", layer_variants },
+                 { "Merge", layer_merging },
+                 { "Table shows", view_table },
+                 { "Zoom and turn", view_zoom },
+                 { "Copies beside it", view_copies },
+                 { "Grid", view_grids },
+                 { "Patch shows", view_patch },
+                 { "Camera", view_camera },
+                 { "From", view_from },
+                 { "Orbit", view_orbit },
+                 { "Accuracy", view_accuracy },
+                 { "Panels", view_panels },
+                 { "Workspace", view_workspaces },
+                 { "Theme", view_theme } };
 
-static void tiling(WrApp *app)
+static void submenu(WrApp *app, const char *label)
 {
-    static const char *const names[] = { WR_ACT(tiling_straight), WR_ACT(tiling_half_drop),
-                                         WR_ACT(tiling_brick) };
-    submenu(app, "Copies beside it", names, WR_LENGTH(names));
-}
-
-static void camera(WrApp *app)
-{
-    static const char *const names[] = { WR_ACT(camera_fill),
-                                         WR_ACT(camera_kind),
-                                         "-",
-                                         WR_ACT(from_front),
-                                         WR_ACT(from_back),
-                                         WR_ACT(from_left),
-                                         WR_ACT(from_right),
-                                         WR_ACT(from_top),
-                                         WR_ACT(from_bottom),
-                                         "-",
-                                         WR_ACT(orbit_left),
-                                         WR_ACT(orbit_right),
-                                         WR_ACT(orbit_up),
-                                         WR_ACT(orbit_down),
-                                         "-",
-                                         WR_ACT(view_keep),
-                                         WR_ACT(pose_reset),
-                                         WR_ACT(camera_reset) };
-    submenu(app, "Camera", names, WR_LENGTH(names));
-}
-
-static void theme(WrApp *app)
-{
-    static const char *const names[] = { WR_ACT(theme_dark), WR_ACT(theme_light),
-                                         WR_ACT(theme_contrast) };
-    submenu(app, "Theme", names, WR_LENGTH(names));
+    for (int i = 0; i < WR_LENGTH(submenus); i++)
+        if (strcmp(submenus[i].label, label) == 0) {
+            menu(app, submenus[i].label, submenus[i].names);
+            return;
+        }
+    WR_ASSERT(false);
 }
 
 static void menu(WrApp *app, const char *label, const char *const *names)
@@ -426,12 +478,9 @@ static void menu(WrApp *app, const char *label, const char *const *names)
         if (strcmp(*names, "-") == 0) wr_gui_menu_separator();
         else if (strcmp(*names, "recent") == 0) recent(app);
         else if (strcmp(*names, "scale") == 0) scale(app);
-        else if (strcmp(*names, "theme") == 0) theme(app);
-        else if (strcmp(*names, "tiling") == 0) tiling(app);
         else if (strcmp(*names, "operations") == 0) list_operations(app, false);
         else if (strcmp(*names, "filters") == 0) filters(app);
-        else if (strcmp(*names, "compare") == 0) compare(app);
-        else if (strcmp(*names, "camera") == 0) camera(app);
+        else if (**names == '>') submenu(app, *names + 1);
         else wr_menu_item(app, *names);
     }
     wr_gui_menu_end();
@@ -457,6 +506,19 @@ static void find_field(WrApp *app, double wide)
         wr_action_run(app, WR_ACT(search));
 }
 
+/* The workspaces as a choice beside the search. */
+static void workspace_choice(WrApp *app, double from)
+{
+    const char *labels[WR_WORKSPACES];
+    for (int i = 0; i < WR_WORKSPACES; i++) labels[i] = wr_workspaces[i].label;
+    int now = app->settings->workspace;
+    wr_gui_move_to(from);
+    if (wr_gui_bar_segments("workspaces", labels, WR_WORKSPACES, &now)) {
+        char action[48];
+        wr_action_run(app, wr_workspace_action((WrWorkspaceKind)now, action));
+    }
+}
+
 /* The document's name, centred if there is room; it is also in the window's title. */
 static void title(const WrApp *app, double from, double to)
 {
@@ -473,12 +535,19 @@ static void title(const WrApp *app, double from, double to)
     wr_gui_as_it_is(false);
 }
 
+static double workspaces_width(void)
+{
+    const char *labels[WR_WORKSPACES];
+    for (int i = 0; i < WR_WORKSPACES; i++) labels[i] = wr_workspaces[i].label;
+    return wr_gui_bar_segments_width(labels, WR_WORKSPACES);
+}
+
 /* True if the menu titles leave no room beside them. */
 static bool is_tight(const WrApp *app)
 {
     static const char *const titles[] = { "File",   "Edit",  "Brush",    "Tools", "Layer",
                                           "Select", "Table", "Generate", "View",  "Help" };
-    double wide = find_width(app) + wr_gui_px(160);
+    double wide = find_width(app) + workspaces_width() + wr_gui_px(320);
     for (int i = 0; i < WR_LENGTH(titles); i++)
         wide += wr_gui_text_width(WR_FONT_TEXT, titles[i]) + wr_gui_px(14);
     return wide > app->width;
@@ -498,7 +567,11 @@ void wr_panel_menu(WrApp *app)
     menu(app, "View", view_menu);
     menu(app, "Help", help_menu);
     const double find = find_width(app), from = wr_gui_place() + wr_gui_px(16);
-    title(app, from, app->width - wr_gui_px(find > 0.0 ? 28 : 12) - find);
+    const double end = app->width - wr_gui_px(find > 0.0 ? 28 : 12) - find;
+    double choice = workspaces_width() + wr_gui_px(16);
+    if (!app->settings->panels || choice > end - from) choice = 0.0;
+    title(app, from, end - choice);
+    if (choice > 0.0) workspace_choice(app, end - choice + wr_gui_px(16));
     find_field(app, find);
     wr_gui_menu_bar_end();
 }

@@ -263,7 +263,7 @@ void wr_panel_objects(WrApp *app)
 {
     const WrScene *scene = wr_app_scene(app);
     const int count = wr_scene_object_count(scene);
-    wr_gui_heading("OBJECTS");
+    if (!wr_gui_fold("OBJECTS", true)) return;
     for (int i = 0; i < count; i++)
         if (row(app, i)) return;
     buttons(app);
@@ -271,5 +271,4 @@ void wr_panel_objects(WrApp *app)
     if (count > 1) place(app);
     sizes(app, count > 1);
     table(app);
-    wr_gui_space(8);
 }

@@ -81,12 +81,10 @@ void wr_panel_plan(WrApp *app)
     wr_picture_words(picture, words);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, words);
     for (int pass = 0; pass < 2; pass++) {
-        wr_gui_heading(pass == 0 ? "RUNS" : "LEFT OUT");
-        wr_gui_space(2);
+        if (!wr_gui_fold(pass == 0 ? "RUNS" : "LEFT OUT", pass == 0)) continue;
         for (int i = 0; i < WR_EFFECT_COUNT; i++)
             if (belongs(app, i, picture->plan.rows[i].run) == (pass == 0))
                 effect(app, i, &picture->plan.rows[i]);
-        wr_gui_space(8);
     }
     wr_panel_layer_plan(app);
 }

@@ -229,7 +229,9 @@ void wr_dialog_preferences(WrApp *app)
     map_row(app);
     if (app->display_word) wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, app->display_word);
     key_list(app);
-    if (wr_gui_button("Close", true) || (!waited && !app->dialog->fresh && wr_gui_escape_pressed()))
+    const bool key = !waited && !app->dialog->fresh;
+    if (wr_gui_button("Close", true) ||
+        (key && (wr_gui_escape_pressed() || wr_gui_return_pressed())))
         wr_dialog_close(app);
     wr_gui_dialog_end();
 }

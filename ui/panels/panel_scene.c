@@ -317,7 +317,7 @@ static void surface(WrApp *app)
     const char *labels[WR_SURFACE_COUNT];
     for (int i = 0; i < WR_SURFACE_COUNT; i++) labels[i] = wr_surfaces[i]->label;
     int kind = (int)wr_app_scene(app)->shape.kind;
-    wr_gui_heading("SURFACE");
+    if (!wr_gui_fold("SURFACE", true)) return;
     wr_gui_label("Patch");
     if (wr_gui_choice("patch", 0, labels, WR_SURFACE_COUNT, &kind)) {
         WrShape shape;
@@ -353,15 +353,28 @@ static void surface(WrApp *app)
     wr_scene_run(app, &line);
 }
 
-void wr_panel_scene(WrApp *app)
+typedef void Section(WrApp *app);
+
+/* first: number that separates fields of the same label */
+static void sections(WrApp *app, Section *const *draw, int count, int first)
 {
-    static void (*const sections[])(
-        WrApp * app) = { wr_panel_objects, surface,         wr_panel_material, wr_panel_maps,
-                         wr_panel_solid,   wr_panel_lights, wr_panel_camera,   wr_panel_cell };
-    for (int i = 0; i < WR_LENGTH(sections); i++) {
-        wr_gui_push_id(i); /* separate fields of the same label */
-        sections[i](app);
+    for (int i = 0; i < count; i++) {
+        wr_gui_push_id(first + i);
+        draw[i](app);
         wr_gui_pop_id();
     }
     wr_gui_space(8);
+}
+
+void wr_panel_scene(WrApp *app)
+{
+    static Section *const list[] = { wr_panel_objects, surface, wr_panel_material, wr_panel_maps };
+    sections(app, list, WR_LENGTH(list), 0);
+}
+
+void wr_panel_scene_second(WrApp *app)
+{
+    static Section *const list[] = { wr_panel_solid, wr_panel_lights, wr_panel_camera,
+                                     wr_panel_cell };
+    sections(app, list, WR_LENGTH(list), 100);
 }

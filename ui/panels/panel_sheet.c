@@ -693,7 +693,8 @@ static void buttons(WrApp *app, WrSheetState *sheet)
         wr_gui_progress(wr_gui_px(180), fraction);
     } else {
         wr_gui_disable(!good);
-        if (wr_gui_button("Write all", true)) sheet_write(app, true);
+        const bool enter = good && !app->dialog->fresh && wr_gui_return_pressed();
+        if (wr_gui_button("Write all", true) || enter) sheet_write(app, true);
         wr_gui_disable_end();
     }
     wr_gui_same_line(8);

@@ -29,8 +29,7 @@ static void flag(WrApp *app, WrSceneParamId id, const char *label, const char *t
 
 static void relief(WrApp *app)
 {
-    wr_gui_space(8);
-    wr_gui_heading("RELIEF");
+    if (!wr_gui_fold("RELIEF", true)) return;
     flag(app, WR_SCENE_PARAM_SHADOW, "Self-shadowing",
          "The relief throws shadows on itself, by its height about each texel; lamps only");
     flag(app, WR_SCENE_PARAM_OCCLUSION, "Ambient occlusion",
@@ -87,8 +86,7 @@ static void solid(WrApp *app)
     const WrSolidTextureInfo *info = &wr_grains[grain->kind];
     for (int i = 0; i < WR_SOLID_TEXTURE_KINDS; i++)
         titles[i] = wr_grains[i].title, words[i] = wr_grains[i].name;
-    wr_gui_space(8);
-    wr_gui_heading("SOLID TEXTURE");
+    if (!wr_gui_fold("SOLID TEXTURE", false)) return;
     wr_gui_label("Cut out of");
     choose(app, "grain", titles, WR_SOLID_TEXTURE_KINDS, (int)grain->kind, "grain ", words);
     wr_gui_tip("A pattern that goes through the object and stays where it is while that turns; its "

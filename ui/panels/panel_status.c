@@ -1,7 +1,8 @@
-/* Status line: values under the pointer, cost of the last picture, messages. */
+/* Status line: values under the pointer, the tool's hint, messages; times and memory if they are asked for. */
 #include "ui/panels/panel_status.h"
 #include "ui/canvas/outline.h"
 #include "ui/canvas/view.h"
+#include "ui/app/state/action.h"
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/background_command.h"
 #include "ui/app/state/pointer_state.h"
@@ -18,6 +19,7 @@
 #include "ui/panels/panel_sheet.h"
 #include "ui/patch/preview/preview.h"
 #include "ui/canvas/overlays/marks.h"
+#include "ui/canvas/tools/tool.h"
 #include "ui/app/jobs/edit_preview.h"
 
 #include "base/exactmath.h"
@@ -325,21 +327,36 @@ static void make_end(const WrApp *app, RightEnd *end)
     picture(app, true, end->picture, sizeof end->picture);
     snprintf(end->size, sizeof end->size, "%d \xc3\x97 %d", wr_field_width(field),
              wr_field_height(field));
-    end->text[PART_PICTURE] = end->picture;
+    const bool meters = app->settings->meters;
+    end->text[PART_PICTURE] = meters ? end->picture : NULL;
     end->text[PART_SIZE] = end->size;
-    end->text[PART_MEMORY] = "8888 MB"; /* widest text */
+    end->text[PART_MEMORY] = meters ? "8888 MB" : NULL; /* widest text */
     end->text[PART_SAVED] = saved_word(app);
     end->text[PART_LIVE] = app->sheet && app->sheet->live ? wr_words("live") : NULL;
-    end->text[PART_JOURNAL] = end->safe ? wr_words("journal safe") : wr_words("journal not safe");
+    end->text[PART_JOURNAL] = !end->safe ? wr_words("journal not safe")
+                              : meters   ? wr_words("journal safe")
+                                         : NULL;
     if (width_of(end) > room) picture(app, false, end->picture, sizeof end->picture);
     for (size_t i = 0; i < WR_LENGTH(least) && width_of(end) > room; i++)
         if (least[i] != PART_JOURNAL || end->safe) end->text[least[i]] = NULL;
+}
+
+/* One sentence about the tool in the middle of the line, if all of it fits before `to`. */
+static void tool_hint(WrApp *app, double to)
+{
+    const char *hint = wr_action_help(app, wr_action_find(app, wr_tool_now(app)->action));
+    const double from = left_width(app) + wr_gui_px(18);
+    if (app->settings->meters || from + wr_gui_text_width(WR_FONT_TEXT, hint) > to) return;
+    wr_gui_move_to(from);
+    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_FAINT, hint);
+    wr_gui_same_line(18);
 }
 
 static void right_side(WrApp *app)
 {
     RightEnd end;
     make_end(app, &end);
+    tool_hint(app, wr_gui_width() - width_of(&end) - wr_gui_px(18));
     wr_gui_move_to(wr_gui_width() - width_of(&end));
     for (int i = 0; i < PARTS; i++) {
         if (!end.text[i]) continue;

@@ -16,11 +16,16 @@ extern void (*wr_menu_listed)(const char *action);
 void wr_panel_options(WrApp *app);
 void wr_panel_tools(WrApp *app);
 void wr_panel_right(WrApp *app);
+/* Move a tab into a floating panel at (x, y) in pixels; and all of these back. */
+void wr_tab_tear_off(WrApp *app, int tab, int x, int y);
+void wr_tabs_dock_all(WrApp *app);
+void wr_panel_export(WrApp *app); /* the Export tab */
 void wr_panel_brushes(WrApp *app, SDL_Rect room);
 void wr_panel_brush(WrApp *app); /* parameters of the brush */
 void wr_panel_scene(WrApp *app);
-void wr_panel_objects(WrApp *app);  /* upper part of the scene panel */
-void wr_panel_material(WrApp *app); /* lower parts of the scene panel */
+void wr_panel_scene_second(WrApp *app); /* its second column */
+void wr_panel_objects(WrApp *app);      /* upper part of the scene panel */
+void wr_panel_material(WrApp *app);     /* lower parts of the scene panel */
 void wr_panel_maps(WrApp *app);
 void wr_panel_colouring(WrApp *app);                       /* part of the material section */
 void wr_map_take_colour(WrApp *app, const char *path);     /* handler of a chosen file */

@@ -22,6 +22,8 @@ typedef struct WrRetainedFrame WrRetainedFrame;
 /* scale: 0.75..4. The caller owns it; it must be freed before the renderer. */
 WrGui *wr_gui_new(SDL_Renderer *renderer, double scale, WrError *err);
 void wr_gui_free(WrGui *gui); /* NULL is allowed */
+/* States of the folds (folds.h), owned by the caller, who keeps them until wr_gui_free. NULL: none are remembered. */
+void wr_gui_use_folds(WrGui *gui, char **folds);
 /* Change the scale; fonts are rasterised again. Not between frame_begin and frame_end. */
 bool wr_gui_set_scale(WrGui *gui, double scale, WrError *err);
 
@@ -132,6 +134,22 @@ void wr_gui_area_end(void);
 void wr_gui_overlay_begin(const char *name, int x, int y, double anchor_x, double anchor_y);
 void wr_gui_overlay_end(void);
 
+/* ---- floating panels: over the views, moved by their heading, resized at their corner. Areas between begin and end
+   belong to it. ---- */
+typedef struct WrFloat {
+    SDL_Rect room; /* for the areas, pixels of the window */
+    bool moving;   /* being dragged */
+    bool dropped;  /* released at the pointer after a drag */
+    bool docks;    /* its button was pressed */
+    int x, y;      /* the pointer, pixels of the window */
+} WrFloat;
+/* rect: its place in pixels, which the user changes; it stays inside `bounds`. grab: begin as being dragged, because the
+   pointer has torn it off. */
+WrFloat wr_gui_float_begin(const char *label, SDL_Rect *rect, SDL_Rect bounds, bool grab);
+void wr_gui_float_end(void);
+/* A frame around a place into which a panel would be dropped, above everything. */
+void wr_gui_drop_place(SDL_Rect rect);
+
 /* ---- layout ---- */
 void wr_gui_same_line(double gap_units);
 void wr_gui_space(double units); /* downwards */
@@ -156,6 +174,8 @@ extern void (*wr_gui_cut)(const char *text, double width, double room);
 /* If set, menus, lists, popups and folds are open, tips are translated, and no picture is drawn: all texts of the
    panels appear within a frame or two. For tests. */
 extern bool wr_gui_reports_all;
+/* If set, all folds are open. For tests. */
+extern bool wr_gui_folds_open;
 /* If set, everything works except that frames are not drawn. For tests. */
 extern bool wr_gui_unseen;
 
@@ -200,10 +220,16 @@ bool wr_gui_choice(const char *id, double width, const char *const *items, int c
 /* Alternatives as buttons in a row; colours[i] (may be NULL) is shown while i is chosen. */
 bool wr_gui_segments(const char *id, const char *const *items, const WrColour *colours, int count,
                      int *index);
-/* Tabs across the area, each row 32 units high; without room in a smaller font, then in two rows. */
+/* The same, centred in the menu bar; and its width in pixels. */
+bool wr_gui_bar_segments(const char *id, const char *const *items, int count, int *index);
+double wr_gui_bar_segments_width(const char *const *items, int count);
+/* Tabs across the area, in a smaller font without room, then in as many rows of 32 units as keep them apart. */
 bool wr_gui_tabs(const char *id, const char *const *items, int count, int *index);
-/* Number of rows of such tabs, 1 or 2. */
+/* Number of rows of such tabs. */
 int wr_gui_tab_rows(const char *const *items, int count, double width);
+/* Indices of a tab of the previous tabs: dragged out of its bar in this frame, pressed with the right button; -1: none. */
+int wr_gui_tab_torn(void);
+int wr_gui_tab_menu(void);
 WrEdit wr_gui_colour(const char *id, double width, double linear_rgb[3]);
 bool wr_gui_check(const char *label, bool *value);
 /* The next button or chip keeps this id while its label changes with its state, so that the keyboard's ring stays on
@@ -228,8 +254,18 @@ void wr_gui_list_begin(const char *id, double height);
 void wr_gui_list_end(void);
 /* A single-line text field with a hint while empty. True when the text changed. */
 bool wr_gui_hint_field(const char *id, const char *hint, double width, char *text, size_t size);
-/* A foldable heading; true while its content is shown. */
+/* A foldable heading of a section of a panel; true while its content is shown. Its state is remembered by the name of
+   the area and its label. Ctrl or Alt and a click fold or unfold all sections of the area. */
 bool wr_gui_fold(const char *label, bool open_at_first);
+/* ---- pinned rows ---- Rows of pinnable areas (a label with its widgets, or a check) have a menu with Pin. Their names,
+   "AREA/SECTION/LABEL", are in a list owned by the caller, NULL-terminated. */
+void wr_gui_use_pins(WrGui *gui, char **pins, int most);
+void wr_gui_pinnable(bool on); /* rows of the following areas */
+bool wr_gui_has_pins(const char *area);
+/* Between begin and end, all rows of that area's panel but the pinned ones are skipped. */
+void wr_gui_pins_begin(const char *area);
+void wr_gui_pins_end(void);
+double wr_gui_content_height(void); /* of the area so far, pixels, with its padding */
 /* A square picture button, `side` pixels: 0 nothing, 1 clicked, 2 pressed with the right button. marked: with a small
  * star. texture may be NULL. */
 int wr_gui_tile(const char *id, SDL_Texture *texture, double side, bool selected, bool marked);

@@ -143,6 +143,11 @@ try {
 }
 WR_CAUGHT(nullptr)
 
+extern "C" void wr_gui_use_folds(WrGui *gui, char **folds)
+{
+    gui->folds = folds;
+}
+
 extern "C" void wr_gui_free(WrGui *gui)
 try {
     if (!gui) return;
@@ -346,6 +351,7 @@ extern "C" bool wr_gui_unsettled(const WrGui *gui)
     const WrFocus *focus = &gui->focus;
     if (focus->waiting_count > 0 || (focus->stepped && focus->arrow_let_go)) return true;
     if (gui->typing_focus || focus->moved) return true;
+    if (gui->fold_frame > ImGui::GetFrameCount()) return true;
     return gui->keys_dropped || gui->popups != g.OpenPopupStack.Size || dims || gui->fits ||
            window_comes(g);
 }

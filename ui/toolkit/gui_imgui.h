@@ -1,6 +1,7 @@
 /* gui_imgui.h - shared state and helpers of the gui_imgui*.cpp files. Private to them. */
 #pragma once
 #include "ui/toolkit/focus.h"
+#include "ui/toolkit/folds.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/words.h"
 
@@ -64,6 +65,8 @@ struct WrTyped {
     char letters[SDL_TEXTINPUTEVENT_TEXT_SIZE]; /* UTF-8; "" for a key */
 };
 
+#define WR_GUI_SCOPE 48 /* bytes of a name of an area */
+#define WR_GUI_PIN 256  /* bytes of a name of a row */
 #define WR_GUI_SHOWN 64 /* recorded windows, menus and dialogs of a frame */
 
 /* A window of the displayed frame. */
@@ -129,7 +132,29 @@ struct WrGui {
     const char *next_id;               /* of wr_gui_next_id; NULL: none */
     WrShownWindow shown[WR_GUI_SHOWN]; /* windows of the displayed frame, lowest first */
     int shown_count;
-    ImGuiID shown_top; /* the topmost open menu or dialog; 0: none */
+    ImGuiID shown_top;             /* the topmost open menu or dialog; 0: none */
+    char **folds;                  /* borrowed, or NULL */
+    char scope[WR_GUI_SCOPE];      /* name of the area being drawn */
+    char fold_scope[WR_GUI_SCOPE]; /* area in which all folds will be opened or closed, */
+    int fold_frame;                /* in this frame, */
+    bool fold_open;                /* to this state */
+    char section[96];              /* label of the last fold of the area */
+    /* pinned rows (gui_imgui_pins.cpp); borrowed, or NULL */
+    char **pins;
+    int pins_most;
+    bool pinnable, pinning, pin_skips;
+    char pin_area[WR_GUI_SCOPE];
+    float pin_low;              /* a widget below this starts another row */
+    ImVec2 pin_cursor, pin_end; /* ImGui's layout before rows were skipped */
+    char pin_asked[WR_GUI_PIN]; /* the row with the open menu */
+    bool pin_opens;
+    int tab_torn, tab_menu; /* of the previous tabs; -1: none */
+    ImGuiID float_id;       /* the floating panel being drawn, */
+    SDL_Rect float_rect;
+    bool floating;      /* areas are parts of a floating panel */
+    ImGuiID float_held; /* the floating panel that is dragged or resized, */
+    bool float_resized;
+    ImVec2 float_from; /* the pointer relative to the panel's corner at the press */
     WrFocus focus;
 };
 
@@ -186,6 +211,13 @@ ImU32 wr_gui_colour_u32(WrColour colour); /* from 0xAARRGGBB to ImGui's order */
 ImVec4 wr_gui_colour_vec4(WrColour colour);
 /* A border of whole pixels without its corners: SDL's software renderer draws thin antialiased lines unevenly. */
 void wr_gui_edge(ImDrawList *list, ImVec2 low, ImVec2 high);
+/* The name of an area without "##" and final digits. */
+void wr_gui_area_name(const char *scope, char (&name)[WR_GUI_SCOPE]);
+/* gui_imgui_pins.cpp: a row starts, with its widgets in the line below its label if two_lines; a widget that may start
+   another row; the end of an area. */
+void wr_gui_pin_row(const char *label, bool two_lines);
+void wr_gui_pin_step();
+void wr_gui_pin_menu();
 /* Tip of the last item, whose identifier for the ring is `id`. */
 void wr_gui_tip_of(ImGuiID id, const char *text);
 
@@ -197,6 +229,17 @@ inline float wr_gui_size_of(const ImFont *font)
     return font->LegacySize;
 #else
     return font->FontSize;
+#endif
+}
+
+/* A child window with the padding of windows. */
+inline bool wr_gui_begin_part(const char *name, float w, float h, ImGuiWindowFlags flags)
+{
+#if IMGUI_VERSION_NUM >= 19000
+    return ImGui::BeginChild(name, ImVec2(w, h), ImGuiChildFlags_AlwaysUseWindowPadding, flags);
+#else
+    return ImGui::BeginChild(name, ImVec2(w, h), false,
+                             flags | ImGuiWindowFlags_AlwaysUseWindowPadding);
 #endif
 }
 

@@ -183,6 +183,7 @@ extern "C" bool wr_gui_field_left(void)
 
 extern "C" bool wr_gui_text_field(const char *id, double width, char *text, size_t size, bool focus)
 try {
+    wr_gui_pin_step();
     ImGui::SetNextItemWidth(width > 0 ? (float)width : -1.0f);
     if (focus || wr_gui_focus_pressed(ImGui::GetID(id))) ImGui::SetKeyboardFocusHere();
     bool done = ImGui::InputText(
@@ -203,6 +204,7 @@ static int select_all(ImGuiInputTextCallbackData *data)
 
 extern "C" bool wr_gui_text_area(const char *id, int lines, char *text, size_t size, bool focus)
 try {
+    wr_gui_pin_step();
     WrGui *gui = wr_gui_current();
     float tall = ImGui::GetTextLineHeight() * (float)lines + 2 * ImGui::GetStyle().FramePadding.y;
     if (focus || wr_gui_focus_pressed(ImGui::GetID(id))) {
@@ -222,6 +224,7 @@ WR_CAUGHT(false)
 
 extern "C" int wr_gui_list_row(const char *icon, const char *label, bool selected)
 try {
+    wr_gui_pin_step();
     char text[1100];
     char said[320];
     snprintf(text, sizeof text, "%s%s%s", icon ? wr_gui_icon(icon) : "", icon ? "  " : "",
@@ -238,6 +241,7 @@ WR_CAUGHT(0)
 
 extern "C" void wr_gui_list_begin(const char *id, double height)
 try {
+    wr_gui_pin_step();
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(8), px(8)));
     ImGui::BeginChild(id, ImVec2(0, (float)height), true);
     ImGui::PopStyleVar();
@@ -279,6 +283,7 @@ static bool segment(const char *id, const char *said, ImVec2 size, WrColour grou
 extern "C" bool wr_gui_segments(const char *id, const char *const *items, const WrColour *colours,
                                 int count, int *index)
 try {
+    wr_gui_pin_step();
     bool changed = false;
     ImGui::PushID(id);
     float h = ImGui::GetFrameHeight(), pad = px(10), width = 0;
@@ -307,20 +312,81 @@ try {
 }
 WR_CAUGHT(false)
 
-static float tabs_wide(const char *const *items, int count)
-{
-    float wide = 0;
+#define BAR_PAD 9 /* beside each text of segments in the menu bar, units */
+
+extern "C" double wr_gui_bar_segments_width(const char *const *items, int count)
+try {
+    float wide = 2 * px(BAR_PAD) * (float)count;
     for (int i = 0; i < count; i++) wide += ImGui::CalcTextSize(wr_gui_said(items[i])).x;
-    return wide;
+    return (double)wide;
+}
+WR_CAUGHT(0.0)
+
+extern "C" bool wr_gui_bar_segments(const char *id, const char *const *items, int count, int *index)
+try {
+    bool changed = false;
+    ImGui::PushID(id);
+    const float bar = ImGui::GetWindowHeight(), h = roundf(ImGui::GetTextLineHeight() + px(8));
+    ImGui::SetCursorPosY(roundf((bar - h) / 2));
+    ImVec2 start = ImGui::GetCursorScreenPos(), end = start;
+    for (int i = 0; i < count; i++) {
+        const char *said = wr_gui_said(items[i]);
+        const float w = ImGui::CalcTextSize(said).x + 2 * px(BAR_PAD);
+        if (i) ImGui::SetCursorScreenPos(ImVec2(end.x, start.y));
+        if (segment(items[i], said, ImVec2(w, h), WR_COLOUR_SELECTED, i == *index)) {
+            changed = i != *index;
+            *index = i;
+        }
+        end = ImVec2(end.x + w, start.y + h);
+    }
+    wr_gui_edge(ImGui::GetWindowDrawList(), start, end);
+    ImGui::PopID();
+    return changed;
+}
+WR_CAUGHT(false)
+
+#define TAB_GAP 14 /* least distance of two labels, units */
+
+/* Tabs from `first` that fit into a row, at least one; their widths in *wide. */
+static int tabs_in_row(const char *const *items, int first, int count, float width, float *wide)
+{
+    int n = 0;
+    *wide = 0;
+    while (first + n < count) {
+        const float more = ImGui::CalcTextSize(wr_gui_said(items[first + n])).x;
+        if (n > 0 && *wide + more + px(TAB_GAP) * (float)(n + 1) > width) break;
+        *wide += more;
+        n++;
+    }
+    return n;
 }
 
-/* Two rows if even the small font leaves hardly a gap. */
+static int rows_of_tabs(const char *const *items, int count, float width)
+{
+    float wide;
+    int rows = 0;
+    for (int i = 0; i < count; rows++) i += tabs_in_row(items, i, count, width, &wide);
+    return rows;
+}
+
+static bool small_tabs(const char *const *items, int count, float width)
+{
+    return rows_of_tabs(items, count, width) > 1;
+}
+
+static int rows_in_font(const char *const *items, int count, float width, bool small)
+{
+    if (small) ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
+    const int rows = rows_of_tabs(items, count, width);
+    if (small) ImGui::PopFont();
+    return rows;
+}
+
 extern "C" int wr_gui_tab_rows(const char *const *items, int count, double width)
 try {
-    ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
-    bool tight = tabs_wide(items, count) + px(8) * (float)count > (float)width;
-    ImGui::PopFont();
-    return tight && count > 2 ? 2 : 1;
+    const bool small = small_tabs(items, count, (float)width);
+    const int rows = rows_in_font(items, count, (float)width, small);
+    return rows > 0 ? rows : 1;
 }
 WR_CAUGHT(1)
 
@@ -338,7 +404,7 @@ static bool tab(const char *label, ImVec2 place, ImVec2 size, bool on)
     }
     const char *said = wr_gui_said(label);
     ImVec2 text = ImGui::CalcTextSize(said);
-    wr_gui_fits(said, text.x, size.x);
+    wr_gui_fits(said, text.x, size.x - px(TAB_GAP) + 2);
     bool bright = on || ImGui::IsItemHovered();
     list->AddText(
         ImVec2(at.x + roundf((size.x - text.x) / 2), at.y + roundf((size.y - text.y) / 2)),
@@ -346,30 +412,51 @@ static bool tab(const char *label, ImVec2 place, ImVec2 size, bool on)
     return pressed;
 }
 
+/* The last tab was dragged out of the bar, or pressed with the right button. */
+static void note_tab(int index, float bar_height)
+{
+    WrGui *gui = wr_gui_current();
+    const float y = ImGui::GetIO().MousePos.y - ImGui::GetWindowPos().y;
+    const bool out = y < -px(16) || y > bar_height + px(16);
+    if (ImGui::IsItemActive() && out && ImGui::IsMouseDragPastThreshold(0, px(5)))
+        gui->tab_torn = index;
+    if ((ImGui::IsItemHovered() && ImGui::IsMouseClicked(1)) ||
+        wr_gui_focus_menu(ImGui::GetItemID()))
+        gui->tab_menu = index;
+}
+
+/* Rows are filled evenly: each has the width that the last one would need too. */
 extern "C" bool wr_gui_tabs(const char *id, const char *const *items, int count, int *index)
 try {
+    WrGui *gui = wr_gui_current();
     bool changed = false;
     ImGui::PushID(id);
     ImDrawList *list = ImGui::GetWindowDrawList();
     ImVec2 origin = ImGui::GetWindowPos();
-    float width = ImGui::GetWindowWidth(), h = px(32);
-    int rows = wr_gui_tab_rows(items, count, (double)width), each = (count + rows - 1) / rows;
+    const float width = ImGui::GetWindowWidth(), h = px(32);
+    const bool small = small_tabs(items, count, width);
+    const int rows = rows_in_font(items, count, width, small);
+    gui->tab_torn = gui->tab_menu = -1;
     /* over the padding */
     list->PushClipRect(origin, ImVec2(origin.x + width, origin.y + h * (float)rows));
-    bool small = rows > 1 || tabs_wide(items, count) + px(6) * (float)count > width;
-    if (small) ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
-    for (int row = 0; row < rows; row++) {
-        const char *const *first = items + row * each;
-        int n = count - row * each < each ? count - row * each : each;
-        float gap = (width - tabs_wide(first, n)) / (float)n, end = 0;
-        for (int i = 0; i < n; i++) {
+    if (small) ImGui::PushFont(gui->fonts[WR_FONT_SMALL]);
+    for (int row = 0, first = 0; first < count; row++) {
+        float wide, end = 0;
+        int n = tabs_in_row(items, first, count, width, &wide);
+        const int even = (count - first + rows - row - 1) / (rows - row);
+        while (n > even) wide -= ImGui::CalcTextSize(wr_gui_said(items[first + --n])).x;
+        const float gap = (width - wide) / (float)n;
+        for (int i = first; i < first + n; i++) {
             float x0 = roundf(end);
-            end += ImGui::CalcTextSize(wr_gui_said(first[i])).x + gap;
+            end += ImGui::CalcTextSize(wr_gui_said(items[i])).x + gap;
             ImVec2 place(x0, h * (float)row), size(roundf(end) - x0, h);
-            if (!tab(first[i], place, size, row * each + i == *index)) continue;
-            changed = row * each + i != *index;
-            *index = row * each + i;
+            if (tab(items[i], place, size, i == *index)) {
+                changed = i != *index;
+                *index = i;
+            }
+            note_tab(i, h * (float)rows);
         }
+        first += n;
     }
     if (small) ImGui::PopFont();
     list->PopClipRect();
@@ -378,3 +465,13 @@ try {
     return changed;
 }
 WR_CAUGHT(false)
+
+extern "C" int wr_gui_tab_torn(void)
+{
+    return wr_gui_current()->tab_torn;
+}
+
+extern "C" int wr_gui_tab_menu(void)
+{
+    return wr_gui_current()->tab_menu;
+}

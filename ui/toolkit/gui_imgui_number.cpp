@@ -233,6 +233,7 @@ static WrEdit by_keys(WrGui *gui, ImGuiID item, const WrNumber *spec, double *va
 
 extern "C" WrEdit wr_gui_number(const char *id, double width, const WrNumber *spec, double *value)
 try {
+    wr_gui_pin_step();
     WrGui *gui = wr_gui_current();
     ImGui::PushID(id);
     ImGuiID item = ImGui::GetID("##field");
@@ -264,6 +265,7 @@ static double decode(double c)
 
 extern "C" WrEdit wr_gui_colour(const char *id, double width, double rgb[3])
 try {
+    wr_gui_pin_step();
     float code[3];
     for (int k = 0; k < 3; k++) code[k] = (float)encode(rgb[k] < 0 ? 0 : rgb[k]);
     ImGui::PushID(id);

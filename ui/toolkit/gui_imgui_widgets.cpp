@@ -28,6 +28,8 @@ static float px(double units)
 extern "C" void wr_gui_area_begin(const char *name, WrAreaKind kind, SDL_Rect rect,
                                   WrColour background)
 try {
+    snprintf(wr_gui_current()->scope, WR_GUI_SCOPE, "%s", name);
+    wr_gui_current()->section[0] = '\0';
     ImGui::SetNextWindowPos(ImVec2((float)rect.x, (float)rect.y));
     ImGui::SetNextWindowSize(ImVec2((float)rect.w, (float)rect.h));
     /* it would end a drag */
@@ -47,8 +49,14 @@ try {
     }
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, wr_gui_colour_u32(background));
-    ImGui::Begin(name, nullptr, flags);
+    ImGui::PushStyleColor(wr_gui_current()->floating ? ImGuiCol_ChildBg : ImGuiCol_WindowBg,
+                          wr_gui_colour_u32(background));
+    if (wr_gui_current()->floating) {
+        ImGui::SetCursorScreenPos(ImVec2((float)rect.x, (float)rect.y));
+        wr_gui_begin_part(name, (float)rect.w, (float)rect.h, flags);
+    } else {
+        ImGui::Begin(name, nullptr, flags);
+    }
     ImGui::PopStyleColor();
     ImGui::PopStyleVar(2);
 }
@@ -57,7 +65,9 @@ WR_CAUGHT()
 extern "C" void wr_gui_area_end(void)
 try {
     wr_gui_stop_scrolled();
-    ImGui::End();
+    wr_gui_pin_menu();
+    if (wr_gui_current()->floating) ImGui::EndChild();
+    else ImGui::End();
 }
 WR_CAUGHT()
 
@@ -88,8 +98,16 @@ extern "C" void wr_gui_same_line(double gap_units)
     ImGui::SameLine(0.0f, px(gap_units));
 }
 
+extern "C" double wr_gui_content_height(void)
+{
+    const ImGuiWindow *window = ImGui::GetCurrentWindow();
+    return (double)(window->DC.CursorMaxPos.y - window->DC.CursorStartPos.y +
+                    2 * window->WindowPadding.y);
+}
+
 extern "C" void wr_gui_space(double units)
 {
+    wr_gui_pin_step();
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() + px(units));
 }
 
@@ -165,6 +183,7 @@ static bool text_in_lines(WrColour colour, const char *text, float room)
 
 extern "C" void wr_gui_text(WrFont font, WrColour colour, const char *text)
 try {
+    wr_gui_pin_step();
     const bool bar = (ImGui::GetCurrentWindow()->Flags & ImGuiWindowFlags_NoScrollWithMouse) != 0;
     const float room = ImGui::GetContentRegionAvail().x;
     if (bar && strchr(text, ' ') && wr_gui_text_width(font, text) > (double)room &&
@@ -177,6 +196,7 @@ WR_CAUGHT()
 
 extern "C" void wr_gui_text_wrapped(WrFont font, WrColour colour, const char *text)
 try {
+    wr_gui_pin_step();
     char said[WR_WORDS_MESSAGE];
     const bool wrong = colour == WR_COLOUR_BAD && !wr_gui_current()->as_it_is;
     text_in(font, colour, wrong ? wr_words_message(text, said, sizeof said) : text, true);
@@ -185,6 +205,7 @@ WR_CAUGHT()
 
 extern "C" void wr_gui_heading(const char *text)
 try {
+    wr_gui_pin_step();
     text_in(WR_FONT_SMALL, WR_COLOUR_LABEL, text, false);
 }
 WR_CAUGHT()
@@ -192,9 +213,10 @@ WR_CAUGHT()
 /* A label too long even in the small font is placed above its field. */
 extern "C" void wr_gui_label(const char *text)
 try {
-    ImGui::AlignTextToFramePadding();
     float column = roundf(ImGui::GetWindowContentRegionMax().x * 0.41f);
     float room = column - ImGui::GetCursorPosX() - px(4);
+    wr_gui_pin_row(text, wr_gui_text_width(WR_FONT_SMALL, text) > (double)room);
+    ImGui::AlignTextToFramePadding();
     if (wr_gui_text_width(WR_FONT_TEXT, text) < (double)room) {
         text_in(WR_FONT_TEXT, WR_COLOUR_LABEL, text, false);
     } else {
@@ -349,6 +371,7 @@ static int choose_by_key(ImGuiID list, int count, int index)
 extern "C" bool wr_gui_choice(const char *id, double width, const char *const *items, int count,
                               int *index)
 try {
+    wr_gui_pin_step();
     bool changed = false;
     ImGui::PushID(id);
     ImGui::SetNextItemWidth(width > 0 ? (float)width : -1.0f);
@@ -411,6 +434,8 @@ WR_CAUGHT(false)
 extern "C" bool wr_gui_check(const char *label, bool *value)
 try {
     char said[320], box[340];
+    if (label[0] != '#') wr_gui_pin_row(label, false);
+    wr_gui_pin_step();
     float side = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
     const char *shown = wr_gui_labelled(label, said), *id = strstr(shown, "##");
     float wide = ImGui::CalcTextSize(shown, nullptr, true).x + side + gap;
@@ -435,6 +460,7 @@ WR_CAUGHT(false)
 
 extern "C" bool wr_gui_button(const char *label, bool primary)
 try {
+    wr_gui_pin_step();
     if (primary) {
         ImGui::PushStyleColor(ImGuiCol_Button, wr_gui_colour_u32(WR_COLOUR_SELECTED));
         ImGui::PushStyleColor(ImGuiCol_ButtonHovered, wr_gui_colour_u32(WR_COLOUR_ACCENT));
@@ -455,6 +481,7 @@ WR_CAUGHT(false)
 
 extern "C" bool wr_gui_icon_button(const char *id, const char *icon, double units, bool selected)
 try {
+    wr_gui_pin_step();
     float side = px(units);
     ImVec2 at = ImGui::GetCursorScreenPos();
     bool pressed = ImGui::InvisibleButton(id, ImVec2(side, side));
@@ -480,6 +507,7 @@ WR_CAUGHT(false)
 
 extern "C" bool wr_gui_chip(const char *icon, const char *label)
 try {
+    wr_gui_pin_step();
     char text[400], said[320];
     snprintf(text, sizeof text, "%s%s%s", icon ? wr_gui_icon(icon) : "",
              icon && label[0] ? "  " : "", wr_gui_labelled(label, said));
@@ -538,6 +566,7 @@ static WrColour ground_of(WrRowLook look, bool hovered)
 
 extern "C" WrRow wr_gui_row_begin(int id, double height_units, WrRowLook look)
 try {
+    wr_gui_pin_step();
     WrGui *gui = wr_gui_current();
     ImGui::PushID(id);
     float left, right, height = px(height_units);
@@ -549,7 +578,7 @@ try {
     gui->row_height = height;
     ImDrawList *list = ImGui::GetWindowDrawList();
     const ImRect &inner = ImGui::GetCurrentWindow()->InnerRect;
-    ImGui::PushClipRect(ImVec2(left, inner.Min.y), ImVec2(right, inner.Max.y), false);
+    ImGui::PushClipRect(ImVec2(left, inner.Min.y), ImVec2(right, inner.Max.y), gui->pin_skips);
     ImGui::SetCursorScreenPos(ImVec2(left, at.y));
     bool released = ImGui::InvisibleButton("row", ImVec2(right - left, height));
     bool hovered = ImGui::IsItemHovered(), held = ImGui::IsItemActive();
@@ -686,6 +715,7 @@ WR_CAUGHT()
 /* The longest word must fit. */
 extern "C" void wr_gui_text_within(WrFont font, WrColour colour, const char *text, double width)
 try {
+    wr_gui_pin_step();
     ImFont *face = wr_gui_current()->fonts[font];
     const char *said = wr_gui_said(text);
     for (const char *at = said; *at;) {
@@ -707,6 +737,7 @@ WR_CAUGHT()
 
 extern "C" void wr_gui_image(SDL_Texture *texture, double w, double h)
 try {
+    wr_gui_pin_step();
     ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + (float)w, at.y + (float)h);
     ImGui::Dummy(ImVec2((float)w, (float)h));
     ImDrawList *list = ImGui::GetWindowDrawList();
@@ -718,6 +749,7 @@ WR_CAUGHT()
 
 extern "C" void wr_gui_ink(SDL_Texture *texture, double w, double h, WrColour colour)
 try {
+    wr_gui_pin_step();
     ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + (float)w, at.y + (float)h);
     ImGui::Dummy(ImVec2((float)w, (float)h));
     if (texture)
@@ -728,6 +760,7 @@ WR_CAUGHT()
 
 extern "C" bool wr_gui_list_button(const char *id, const char *label, double width)
 try {
+    wr_gui_pin_step();
     ImVec2 at = ImGui::GetCursorScreenPos();
     float h = ImGui::GetFrameHeight(), pad = ImGui::GetStyle().FramePadding.x, arrow = px(4);
     ImVec2 end(at.x + (float)width, at.y + h);
@@ -754,6 +787,7 @@ WR_CAUGHT(false)
 extern "C" bool wr_gui_image_button(const char *id, SDL_Texture *texture, double w, double h,
                                     bool chosen)
 try {
+    wr_gui_pin_step();
     ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + (float)w, at.y + (float)h);
     bool pressed = ImGui::InvisibleButton(id, ImVec2((float)w, (float)h));
     wr_gui_stop(WR_STOP_PRESS, false);
@@ -798,6 +832,7 @@ WR_CAUGHT(false)
 
 extern "C" bool wr_gui_glyph(const char *id, const char *icon, double units, WrColour colour)
 try {
+    wr_gui_pin_step();
     float side = px(units);
     ImVec2 at = ImGui::GetCursorScreenPos();
     bool pressed = ImGui::InvisibleButton(id, ImVec2(side, side));
@@ -814,6 +849,7 @@ WR_CAUGHT(false)
 
 extern "C" void wr_gui_progress(double width, double fraction)
 try {
+    wr_gui_pin_step();
     double f = fraction < 0 ? 0.25 : fraction > 1 ? 1 : fraction;
     float w = width > 0 ? (float)width : ImGui::GetContentRegionAvail().x;
     float h = ImGui::GetFrameHeight(), bar = px(8);
@@ -833,6 +869,7 @@ WR_CAUGHT()
 
 extern "C" void wr_gui_edge_colours_square(const char *id, double units, const WrColour sides[4])
 try {
+    wr_gui_pin_step();
     float side = px(units), gap = px(6), line = px(2);
     ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::InvisibleButton(id, ImVec2(side, side));
@@ -866,6 +903,7 @@ static void draw_cross(ImDrawList *list, const WrFocus *focus)
 
 extern "C" WrPad wr_gui_pad_begin(const char *id, double w, double h)
 try {
+    wr_gui_pin_step();
     WrGui *gui = wr_gui_current();
     float wide = w > 0 ? (float)w : ImGui::GetContentRegionAvail().x;
     ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + wide, at.y + (float)h);
@@ -910,6 +948,7 @@ extern "C" void wr_gui_pad_end(void)
 
 extern "C" void wr_gui_swatch(WrColour colour, double radius, double tall)
 try {
+    wr_gui_pin_step();
     const float r = (float)radius, frame = ImGui::GetFrameHeight();
     ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::Dummy(ImVec2(2 * r, tall > (double)frame ? (float)tall : frame));
@@ -939,6 +978,7 @@ static void put_picture(ImDrawList *list, SDL_Texture *texture, ImVec2 at, ImVec
 extern "C" int wr_gui_tile(const char *id, SDL_Texture *texture, double side, bool selected,
                            bool marked)
 try {
+    wr_gui_pin_step();
     float s = (float)side;
     ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + s, at.y + s);
     bool pressed = ImGui::InvisibleButton(id, ImVec2(s, s));
@@ -992,6 +1032,7 @@ extern "C" bool wr_gui_will_see(double side)
 extern "C" bool wr_gui_hint_field(const char *id, const char *hint, double width, char *text,
                                   size_t size)
 try {
+    wr_gui_pin_step();
     ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::SetNextItemWidth(width > 0 ? (float)width : -1.0f);
     float wide = ImGui::CalcItemWidth();
@@ -1004,26 +1045,89 @@ try {
 }
 WR_CAUGHT(false)
 
-extern "C" bool wr_gui_fold(const char *label, bool open)
-try {
-    ImGui::PushStyleColor(ImGuiCol_Header, wr_gui_colour_u32(0));
-    ImGui::PushStyleColor(ImGuiCol_HeaderHovered, wr_gui_colour_u32(WR_COLOUR_BUTTON));
-    ImGui::PushStyleColor(ImGuiCol_HeaderActive, wr_gui_colour_u32(WR_COLOUR_BUTTON));
-    ImGui::PushStyleColor(ImGuiCol_Text, wr_gui_colour_u32(WR_COLOUR_LABEL));
-    ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
+void wr_gui_area_name(const char *scope, char (&name)[WR_GUI_SCOPE])
+{
+    scope += strspn(scope, "#");
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(scope, "#0123456789"), scope);
+}
+
+/* Name for the list of folds: the area, and the label's identifier. */
+static void fold_name(const WrGui *gui, const char *label, char (&name)[160])
+{
+    char area[WR_GUI_SCOPE];
+    const char *id = strstr(label, "##");
+    wr_gui_area_name(gui->scope, area);
+    snprintf(name, sizeof name, "%s/%.100s", area, id ? id + strspn(id, "#") : label);
+}
+
+/* The heading: a chevron and the label in small letters. True if it was clicked. */
+static bool fold_heading(const char *label, bool open)
+{
     char said[320];
-    if (wr_gui_reports_all) ImGui::SetNextItemOpen(true);
-    bool shown = ImGui::CollapsingHeader(wr_gui_labelled(label, said),
-                                         open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    const char *shown = wr_gui_labelled(label, said),
+               *icon = open ? WR_ICON_OPENED : WR_ICON_CLOSED;
+    const float tall = px(22), wide = ImGui::GetContentRegionAvail().x, out = px(6);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const bool clicked = ImGui::InvisibleButton(shown, ImVec2(wide, tall));
     wr_gui_stop(WR_STOP_PRESS, false);
-    ImGui::PopFont();
-    ImGui::PopStyleColor(4);
-    return shown;
+    const bool hovered = ImGui::IsItemHovered();
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    if (hovered)
+        list->AddRectFilled(ImVec2(at.x - out, at.y), ImVec2(at.x + wide + out, at.y + tall),
+                            wr_gui_colour_u32(WR_COLOUR_BUTTON), px(3));
+    const ImU32 ink = wr_gui_colour_u32(hovered ? WR_COLOUR_STRONG : WR_COLOUR_LABEL);
+    ImFont *font = ImGui::GetFont(), *small = wr_gui_current()->fonts[WR_FONT_SMALL];
+    const float size = wr_gui_size_of(small), middle = at.y + floorf((tall - size) / 2);
+    list->AddText(font, size, ImVec2(at.x - px(3), middle), ink, wr_gui_icon(icon));
+    const char *end = strstr(shown, "##");
+    list->AddText(small, size, ImVec2(at.x + px(14), middle), ink, shown, end);
+    wr_gui_fits(label, small->CalcTextSizeA(size, FLT_MAX, 0, shown, end).x, wide - px(14));
+    return clicked;
+}
+
+/* The fold was clicked, or another one of its area with Ctrl or Alt. */
+static bool fold_changed(WrGui *gui, bool clicked, bool *open)
+{
+    const ImGuiIO &io = ImGui::GetIO();
+    const int frame = ImGui::GetFrameCount();
+    const bool was = *open;
+    if (clicked) *open = !*open;
+    if (clicked && (io.KeyCtrl || io.KeyAlt)) {
+        snprintf(gui->fold_scope, sizeof gui->fold_scope, "%s", gui->scope);
+        gui->fold_frame = frame + 1;
+        gui->fold_open = *open;
+    }
+    if (gui->fold_frame == frame && strcmp(gui->fold_scope, gui->scope) == 0)
+        *open = gui->fold_open;
+    return *open != was;
+}
+
+bool wr_gui_folds_open;
+
+extern "C" bool wr_gui_fold(const char *label, bool open_at_first)
+try {
+    WrGui *gui = wr_gui_current();
+    char name[160];
+    fold_name(gui, label, name);
+    snprintf(gui->section, sizeof gui->section, "%s", strchr(name, '/') + 1);
+    if (gui->pinning) return true; /* its rows decide for themselves */
+    if (ImGui::GetCurrentWindow()->SkipItems) return false;
+    ImGuiStorage *own = ImGui::GetStateStorage();
+    const ImGuiID id = ImGui::GetID(name);
+    bool open = gui->folds ? wr_folds_is_open(gui->folds, name, open_at_first)
+                           : own->GetBool(id, open_at_first);
+    const bool all = wr_gui_reports_all || wr_gui_folds_open;
+    const bool clicked = fold_heading(label, open || all);
+    if (!fold_changed(gui, clicked, &open)) return open || all;
+    if (gui->folds) wr_folds_set(gui->folds, name, open_at_first, open);
+    else own->SetBool(id, open);
+    return open || all;
 }
 WR_CAUGHT(false)
 
 extern "C" void wr_gui_mark(WrColour colour)
 try {
+    wr_gui_pin_step();
     ImVec2 at = ImGui::GetCursorScreenPos();
     float h = ImGui::GetFrameHeight();
     ImGui::Dummy(ImVec2(px(7), h));

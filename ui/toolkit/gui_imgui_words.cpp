@@ -24,8 +24,10 @@ const char *wr_gui_said(const char *text)
 bool wr_gui_popup_stand_in(const char *name)
 {
     if (!wr_gui_reports_all) return false;
+    char own[128]; /* a dialog or an area may have the same name */
+    snprintf(own, sizeof own, "##open_%.100s", name);
     ImGui::SetNextWindowPos(ImVec2(0, 0));
-    ImGui::Begin(name, nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::Begin(own, nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize);
     return true;
 }
 

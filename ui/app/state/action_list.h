@@ -150,6 +150,18 @@
     X(pan_up, "Up")                                                                                \
     X(pan_down, "Down")                                                                            \
     X(panels, "Tab")                                                                               \
+    X(side_left, "")                                                                               \
+    X(hide_strip, "")                                                                              \
+    X(hide_options, "")                                                                            \
+    X(meters, "")                                                                                  \
+    X(tab_float, "")                                                                               \
+    X(dock_all, "")                                                                                \
+    X(workspace_paint, "Ctrl+1")                                                                   \
+    X(workspace_generate, "Ctrl+2")                                                                \
+    X(workspace_light, "Ctrl+3")                                                                   \
+    X(workspace_export, "Ctrl+4")                                                                  \
+    X(workspace_study, "Ctrl+5")                                                                   \
+    X(workspace_reset, "")                                                                         \
     X(part_next, "Ctrl+Tab")                                                                       \
     X(part_back, "Ctrl+Shift+Tab")                                                                 \
     X(menus, "F10")                                                                                \

@@ -119,6 +119,9 @@ struct WrApp {
     WrCanvasRange *range;     /* range of heights on the canvas */
     WrCanvasRange *map_range; /* range of the map shown instead of the heights */
     bool map_shown;
+    double pins_height; /* of the pinned rows in the last frame, pixels */
+    int torn_tab;    /* 1 + index of the tab that the pointer has just torn off its bar; 0: none */
+    int tab_menu;    /* index of the tab with the open menu */
     bool mask_alone; /* show the active layer's mask on the canvas while edits go to it */
     bool canvas_unfinished;
     int tool;

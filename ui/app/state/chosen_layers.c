@@ -52,7 +52,8 @@ void wr_chosen_follow(WrChosenLayers *chosen, const WrDocument *document, const 
     for (int i = 0; i < count; i++) names[i] = name_of(&document->layers[i]);
     if (chosen->count != count || memcmp(chosen->name, names, (size_t)count * sizeof *names) != 0)
         follow_names(chosen, names, count);
-    if (chosen->awaited == active + 1 || (chosen->line && strcmp(chosen->line, last_line) == 0)) {
+    if (chosen->awaited == names[active] ||
+        (chosen->line && strcmp(chosen->line, last_line) == 0)) {
         memcpy(chosen->chosen, chosen->next, sizeof chosen->chosen);
         wr_chosen_free(chosen);
     }
@@ -101,7 +102,7 @@ void wr_chosen_expect(WrChosenLayers *chosen, const char *line, const bool next[
 void wr_chosen_expect_active(WrChosenLayers *chosen, int active, const bool next[WR_LAYERS_MAX])
 {
     wr_chosen_free(chosen);
-    chosen->awaited = active + 1;
+    chosen->awaited = chosen->name[active];
     memcpy(chosen->next, next, sizeof chosen->next);
 }
 

@@ -13,8 +13,8 @@ typedef struct WrChosenLayers {
     int anchor;                   /* index of the layer at which a range begins */
     int count;                    /* layers of the document that was followed; 0: none yet */
     uint64_t name[WR_LAYERS_MAX]; /* hashes of their names: they identify layers that move */
-    char *line;  /* the line after which `next` will be chosen, owned; NULL: none */
-    int awaited; /* or the number, from 1, of the layer that becomes active; 0: none */
+    char *line;       /* the line after which `next` will be chosen, owned; NULL: none */
+    uint64_t awaited; /* or the hash of the name of the layer that becomes active; 0: none */
     bool next[WR_LAYERS_MAX];
 } WrChosenLayers;
 

@@ -97,9 +97,9 @@ void wr_dialog_close_button(WrApp *app, const char *word)
 
 SDL_Rect wr_dialog_side(const WrApp *app)
 {
-    int wide = app->layout->panel.w > 0 ? app->layout->panel.w : wr_gui_px(320);
-    int top = app->menu_height + app->layout->options.h;
-    return (SDL_Rect){ app->width - wide, top, wide, app->layout->panel.h };
+    if (app->layout->panel.w > 0) return app->layout->panel;
+    const int wide = wr_gui_px(320), top = app->menu_height + app->layout->options.h;
+    return (SDL_Rect){ app->width - wide, top, wide, 0 };
 }
 
 void wr_panel_dialogs(WrApp *app)

@@ -37,7 +37,11 @@ void wr_app_make_layout(WrApp *app)
                          .views = app->settings->views,
                          .tools = app->registry->tool_count + WR_STRIP_MORE,
                          .panels = app->settings->panels,
-                         .lower = app->settings->lower };
+                         .lower = app->settings->lower,
+                         .side_width = app->settings->side_width,
+                         .side_left = app->settings->side_left,
+                         .hide_strip = app->settings->hide_strip,
+                         .hide_options = app->settings->hide_options };
     *app->layout = wr_layout_make(&in);
 }
 

@@ -27,7 +27,8 @@ typedef enum WrGrab {
     WR_GRAB_RESIZE, /* change the brush size by Shift and dragging */
     WR_GRAB_DIVIDER,
     WR_GRAB_SPLIT,    /* divider between two pictures of the patch */
-    WR_GRAB_PANELS,   /* divider between the panels on the right */
+    WR_GRAB_PANELS,   /* divider between the two parts of the side panel */
+    WR_GRAB_SIDE,     /* divider between the views and the side panel */
     WR_GRAB_SYMMETRY, /* centre of the symmetry */
     WR_GRAB_POINT,    /* point of a shape or ramp layer */
     WR_GRAB_ORBIT,
@@ -52,8 +53,10 @@ typedef struct WrInputRouter {
     int x, y;        /* pixel under the mouse at that event */
     WrPointer start; /* start of the drag */
     WrGrab grab;
-    int button; /* button that started the drag */
-    bool space; /* Space is held over the canvas: the next drag pans */
+    int button;          /* button that started the drag */
+    WrGrab last_divider; /* the last pressed divider, */
+    double divider_at;   /* and the clock of that press */
+    bool space;          /* Space is held over the canvas: the next drag pans */
     bool space_used;
     double turn_from;         /* canvas rotation in degrees at the start of the drag */
     bool on_canvas, on_patch; /* the pointer is over that view and not over a widget */

@@ -17,14 +17,19 @@ typedef struct WrDialogRow {
     bool shows_effect;
 } WrDialogRow;
 
-/* A tab of the right panel. One of the two functions draws it. */
+/* A tab of the side panel. One of draw and fill draws it. */
 typedef struct WrTab {
     const char *label;
     void (*draw)(WrApp *app);
     void (*fill)(WrApp *app, SDL_Rect room); /* uses areas of its own */
+    void (*second)(WrApp *app);              /* more sections, beside the others in a wide panel */
     bool is_long;                            /* needs many rows */
     /* all of it changes the document: disabled while a command runs in the background */
     bool edits;
+    bool below; /* in the lower part of the panel */
+    /* of tabs with fill: an area of theirs, and the function that draws its rows, which can be pinned */
+    const char *rows_area;
+    void (*rows)(WrApp *app);
 } WrTab;
 
 /* A component with background work. Each function may be NULL. */

@@ -1,4 +1,5 @@
 #include "ui/app/state/settings.h"
+#include "ui/app/state/workspace.h"
 #include "ui/canvas/canvas.h"
 #include "ui/input/stroke_smoothing.h"
 
@@ -46,19 +47,6 @@ WrSettings wr_settings_default(void)
     };
 }
 
-void wr_settings_fini(WrSettings *settings)
-{
-    for (int i = 0; i < WR_RECENT_MAX; i++) wr_free(settings->recent[i]);
-    for (int i = 0; i < WR_FAVOURITES_MAX; i++) wr_free(settings->favourites[i]);
-    for (int i = 0; i < WR_USED_MAX; i++) wr_free(settings->used[i]);
-    for (int i = 0; i < WR_FONTS_MAX; i++) wr_free(settings->fonts[i]);
-    for (int i = 0; i < WR_PENS_MAX; i++) wr_free(settings->pens[i]);
-    wr_free(settings->preset);
-    wr_free(settings->tip);
-    wr_free(settings->set);
-    *settings = (WrSettings){ 0 };
-}
-
 /* ---- lines ---- */
 
 /* A numeric setting: its variable and range. */
@@ -70,7 +58,7 @@ typedef struct Row {
     double low, high;
 } Row;
 
-#define ROWS_MAX 96
+#define ROWS_MAX 112
 
 /* Rows of the window as a whole. */
 static int window_rows(WrSettings *s, Row *rows)
@@ -83,18 +71,34 @@ static int window_rows(WrSettings *s, Row *rows)
         { "theme", NULL, (int *)&s->theme, NULL, 0, WR_THEME_KINDS - 1 },
         { "language", NULL, &s->language, NULL, 0, 63 },
         { "dialogs", NULL, &s->dialogs, NULL, 0, 2 },
-        { "divider", &s->divider, NULL, NULL, 0.05, 0.95 },
-        { "views", NULL, (int *)&s->views, NULL, 0, 2 },
         { "panels", NULL, NULL, &s->panels, 0, 1 },
-        { "lower", &s->lower, NULL, NULL, 0.05, 0.95 },
+        { "workspace", NULL, &s->workspace, NULL, 0, WR_WORKSPACES - 1 },
         { "ants", NULL, NULL, &s->ants, 0, 1 },
         { "grid", NULL, NULL, &s->grid, 0, 1 },
         { "grid_parts", NULL, &s->grid_parts, NULL, 1, 256 },
         { "history_lines", NULL, NULL, &s->history_lines, 0, 1 },
         { "tiling", NULL, (int *)&s->tiling, NULL, 0, WR_TILINGS - 1 },
         { "join", NULL, &s->join, NULL, 0, 3 },
-        { "tab", NULL, &s->tab, NULL, 0, 15 },
         { "turning", NULL, NULL, &s->turning, 0, 1 },
+    };
+    memcpy(rows, some, sizeof some);
+    return WR_LENGTH(some);
+}
+
+/* Rows of the places in the window. */
+static int place_rows(WrSettings *s, Row *rows)
+{
+    const Row some[] = {
+        { "divider", &s->divider, NULL, NULL, 0, 1 },
+        { "views", NULL, (int *)&s->views, NULL, 0, 2 },
+        { "tab", NULL, &s->tab, NULL, 0, 15 },
+        { "inspector", NULL, NULL, &s->inspector, 0, 1 },
+        { "lower", &s->lower, NULL, NULL, 0, 0.95 },
+        { "side_width", &s->side_width, NULL, NULL, -1, 32768 },
+        { "side_left", NULL, NULL, &s->side_left, 0, 1 },
+        { "hide_strip", NULL, NULL, &s->hide_strip, 0, 1 },
+        { "hide_options", NULL, NULL, &s->hide_options, 0, 1 },
+        { "meters", NULL, NULL, &s->meters, 0, 1 },
     };
     memcpy(rows, some, sizeof some);
     return WR_LENGTH(some);
@@ -192,6 +196,7 @@ static int view_rows(WrSettings *s, Row *rows)
 static int rows_of(WrSettings *s, Row rows[ROWS_MAX])
 {
     int count = window_rows(s, rows);
+    count += place_rows(s, rows + count);
     count += brush_rows(s, rows + count);
     count += drawing_rows(s, rows + count);
     return count + view_rows(s, rows + count);
@@ -220,21 +225,46 @@ typedef struct TextRow {
     const char *name;
     char **texts;
     int most;
+    bool shared; /* additions by other windows are taken over */
+    /* newest first: move an entry to the front */
+    void (*note)(WrSettings *settings, const char *text);
 } TextRow;
 
-#define TEXT_ROWS 8
+#define TEXT_ROWS 12
 
 static void text_rows_of(WrSettings *s, TextRow rows[TEXT_ROWS])
 {
-    const TextRow all[TEXT_ROWS] = { { "recent", s->recent, WR_RECENT_MAX },
-                                     { "pen", s->pens, WR_PENS_MAX },
-                                     { "favourite", s->favourites, WR_FAVOURITES_MAX },
-                                     { "used", s->used, WR_USED_MAX },
-                                     { "font", s->fonts, WR_FONTS_MAX },
-                                     { "preset", &s->preset, 1 },
-                                     { "tip", &s->tip, 1 },
-                                     { "set", &s->set, 1 } };
+    const TextRow all[TEXT_ROWS] = {
+        { "recent", s->recent, WR_RECENT_MAX, true, wr_settings_add_recent },
+        { "pen", s->pens, WR_PENS_MAX, true, NULL },
+        { "favourite", s->favourites, WR_FAVOURITES_MAX, true, NULL },
+        { "used", s->used, WR_USED_MAX, true, wr_settings_note_used },
+        { "font", s->fonts, WR_FONTS_MAX, true, wr_settings_note_font },
+        { "preset", &s->preset, 1, false, NULL },
+        { "tip", &s->tip, 1, false, NULL },
+        { "set", &s->set, 1, false, NULL },
+        { "fold", s->folds, WR_FOLDS_MAX, false, NULL },
+        { "float", s->floats, WR_FLOATS_MAX, false, NULL },
+        { "placed", s->workspaces, WR_WORKSPACES_MAX, false, NULL },
+        { "pin", s->pins, WR_PINS_MAX, false, NULL }
+    };
     memcpy(rows, all, sizeof all);
+}
+
+static void clear_texts(const TextRow *row)
+{
+    for (int i = 0; i < row->most; i++) {
+        wr_free(row->texts[i]);
+        row->texts[i] = NULL;
+    }
+}
+
+void wr_settings_fini(WrSettings *settings)
+{
+    TextRow rows[TEXT_ROWS];
+    text_rows_of(settings, rows);
+    for (int i = 0; i < TEXT_ROWS; i++) clear_texts(&rows[i]);
+    *settings = (WrSettings){ 0 };
 }
 
 static bool take_text(WrSettings *settings, const char *name, size_t name_length, const char *value,
@@ -270,11 +300,8 @@ void wr_settings_parse(WrSettings *settings, const char *text)
     }
 }
 
-void wr_settings_print(const WrSettings *settings, WrText *text)
+static void print_rows(const Row *rows, int count, WrText *text)
 {
-    WrSettings copy = *settings; /* rows point into a struct, so a copy protects the original */
-    Row rows[ROWS_MAX];
-    int count = rows_of(&copy, rows);
     for (int i = 0; i < count; i++) {
         wr_text_addf(text, "%s ", rows[i].name);
         wr_text_add_number(text, rows[i].real    ? *rows[i].real
@@ -282,12 +309,57 @@ void wr_settings_print(const WrSettings *settings, WrText *text)
                                                  : *rows[i].flag);
         wr_text_add(text, "\n");
     }
+}
+
+static void print_texts(const TextRow *row, WrText *text)
+{
+    for (int k = 0; k < row->most && row->texts[k]; k++)
+        if (!strchr(row->texts[k], '\n')) wr_text_addf(text, "%s %s\n", row->name, row->texts[k]);
+}
+
+void wr_settings_print(const WrSettings *settings, WrText *text)
+{
+    WrSettings copy = *settings; /* rows point into a struct, so a copy protects the original */
+    Row rows[ROWS_MAX];
     TextRow texts[TEXT_ROWS];
+    print_rows(rows, rows_of(&copy, rows), text);
+    text_rows_of(&copy, texts);
+    for (int i = 0; i < TEXT_ROWS; i++) print_texts(&texts[i], text);
+}
+
+/* ---- places ---- */
+
+static bool is_place(const TextRow *row)
+{
+    return strcmp(row->name, "fold") == 0 || strcmp(row->name, "float") == 0;
+}
+
+void wr_settings_place_print(const WrSettings *settings, WrText *text)
+{
+    WrSettings copy = *settings;
+    WrText lines = { 0 };
+    Row rows[ROWS_MAX];
+    TextRow texts[TEXT_ROWS];
+    print_rows(rows, place_rows(&copy, rows), &lines);
     text_rows_of(&copy, texts);
     for (int i = 0; i < TEXT_ROWS; i++)
-        for (int k = 0; k < texts[i].most && texts[i].texts[k]; k++)
-            if (!strchr(texts[i].texts[k], '\n'))
-                wr_text_addf(text, "%s %s\n", texts[i].name, texts[i].texts[k]);
+        if (is_place(&texts[i])) print_texts(&texts[i], &lines);
+    for (const char *c = wr_text_get(&lines); *c; c++)
+        wr_text_add_n(text, *c == '\n' ? "\t" : c, 1);
+    wr_text_fini(&lines);
+}
+
+void wr_settings_place_parse(WrSettings *settings, const char *text)
+{
+    char *lines = wr_strdup(text);
+    TextRow texts[TEXT_ROWS];
+    text_rows_of(settings, texts);
+    for (int i = 0; i < TEXT_ROWS; i++)
+        if (is_place(&texts[i])) clear_texts(&texts[i]);
+    for (char *c = lines; *c; c++)
+        if (*c == '\t') *c = '\n';
+    wr_settings_parse(settings, lines);
+    wr_free(lines);
 }
 
 /* ---- files ---- */
@@ -423,33 +495,34 @@ static void copy_texts(char **to, char *const *from, int most)
 static WrSettings without_texts(const WrSettings *settings)
 {
     WrSettings copy = *settings;
-    memset(copy.recent, 0, sizeof copy.recent);
-    memset(copy.pens, 0, sizeof copy.pens);
-    memset(copy.favourites, 0, sizeof copy.favourites);
-    memset(copy.used, 0, sizeof copy.used);
-    memset(copy.fonts, 0, sizeof copy.fonts);
-    copy.preset = copy.tip = copy.set = NULL;
+    TextRow rows[TEXT_ROWS];
+    text_rows_of(&copy, rows);
+    for (int i = 0; i < TEXT_ROWS; i++)
+        memset(rows[i].texts, 0, (size_t)rows[i].most * sizeof *rows[i].texts);
     copy.brush.preset = NULL;
     copy.brush.tip = NULL;
     return copy;
 }
 
+static void copy_rows(WrSettings *settings, const WrSettings *from, bool shared_alone)
+{
+    WrSettings source = *from;
+    TextRow to[TEXT_ROWS], have[TEXT_ROWS];
+    text_rows_of(settings, to);
+    text_rows_of(&source, have);
+    for (int i = 0; i < TEXT_ROWS; i++)
+        if (to[i].shared || !shared_alone) copy_texts(to[i].texts, have[i].texts, to[i].most);
+}
+
 void wr_settings_take_lists(WrSettings *settings, const WrSettings *from)
 {
-    copy_texts(settings->recent, from->recent, WR_RECENT_MAX);
-    copy_texts(settings->pens, from->pens, WR_PENS_MAX);
-    copy_texts(settings->favourites, from->favourites, WR_FAVOURITES_MAX);
-    copy_texts(settings->used, from->used, WR_USED_MAX);
-    copy_texts(settings->fonts, from->fonts, WR_FONTS_MAX);
+    copy_rows(settings, from, true);
 }
 
 WrSettings wr_settings_copy(const WrSettings *settings)
 {
     WrSettings copy = without_texts(settings);
-    wr_settings_take_lists(&copy, settings);
-    wr_settings_set_text(&copy.preset, settings->preset);
-    wr_settings_set_text(&copy.tip, settings->tip);
-    wr_settings_set_text(&copy.set, settings->set);
+    copy_rows(&copy, settings, false);
     return copy;
 }
 
@@ -489,11 +562,6 @@ static void merge_numbers(const WrSettings *base, const WrSettings *mine, WrSett
     wr_text_fini(&old);
     wr_text_fini(&fresh);
     wr_text_fini(&changed);
-}
-
-static void merge_text(const char *base, const char *mine, char **theirs)
-{
-    if (!same_text(base, mine)) wr_settings_set_text(theirs, mine);
 }
 
 static int count_of(char *const *list, int most)
@@ -547,16 +615,27 @@ static void merge_pens(const WrSettings *base, const WrSettings *mine, WrSetting
             wr_settings_keep_pen(theirs, mine->pens[i]);
 }
 
+static bool same_texts(const TextRow *a, const TextRow *b)
+{
+    for (int i = 0; i < a->most; i++)
+        if (!same_text(a->texts[i], b->texts[i])) return false;
+    return true;
+}
+
 /* Three-way merge: apply the changes from `base` to `mine` to `theirs`. */
 static void settings_merge(const WrSettings *base, const WrSettings *mine, WrSettings *theirs)
 {
+    WrSettings before = *base, now = *mine;
+    TextRow old[TEXT_ROWS], own[TEXT_ROWS], out[TEXT_ROWS];
+    text_rows_of(&before, old);
+    text_rows_of(&now, own);
+    text_rows_of(theirs, out);
     merge_numbers(base, mine, theirs);
-    merge_text(base->preset, mine->preset, &theirs->preset);
-    merge_text(base->tip, mine->tip, &theirs->tip);
-    merge_text(base->set, mine->set, &theirs->set);
-    merge_newest(base->recent, mine->recent, WR_RECENT_MAX, theirs, wr_settings_add_recent);
-    merge_newest(base->used, mine->used, WR_USED_MAX, theirs, wr_settings_note_used);
-    merge_newest(base->fonts, mine->fonts, WR_FONTS_MAX, theirs, wr_settings_note_font);
+    for (int i = 0; i < TEXT_ROWS; i++) {
+        if (own[i].note) merge_newest(old[i].texts, own[i].texts, own[i].most, theirs, own[i].note);
+        else if (!own[i].shared && !same_texts(&old[i], &own[i]))
+            copy_texts(out[i].texts, own[i].texts, own[i].most);
+    }
     merge_favourites(base, mine, theirs);
     merge_pens(base, mine, theirs);
 }

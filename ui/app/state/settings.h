@@ -2,6 +2,7 @@
 #pragma once
 #include "ui/canvas/canvas.h"
 #include "ui/app/state/layout.h"
+#include "ui/toolkit/folds.h"
 #include "ui/toolkit/theme.h"
 #include "ui/input/pen_curve.h"
 
@@ -17,6 +18,9 @@ typedef struct WrText WrText;
 #define WR_USED_MAX 12
 #define WR_FONTS_MAX 6
 #define WR_PENS_MAX 32
+#define WR_FLOATS_MAX 8      /* tabs in floating panels */
+#define WR_WORKSPACES_MAX 16 /* changed workspaces */
+#define WR_PINS_MAX 64
 #define WR_SETTINGS_FILE_MAX (1 << 16) /* bytes */
 
 /* Settings of drawing tools other than the brush. */
@@ -36,20 +40,33 @@ typedef struct WrSettings {
     bool maximized;
     double scale; /* 0.75..3; 0: the display's */
     WrThemeKind theme;
-    int language;   /* index into wr_languages */
-    int dialogs;    /* file dialogs: WrFileWay */
-    double divider; /* share of the views' area for the canvas, 0..1 */
+    int language; /* index into wr_languages */
+    int dialogs;  /* file dialogs: WrFileWay */
+    bool panels;  /* visible */
+    /* The place of everything in the window, which each workspace has for itself (workspace.h). */
+    double divider; /* share of the views' area for the canvas, 0..1; 0 and 1 close one of them */
     WrShownViews views;
-    bool panels;        /* visible */
-    double lower;       /* share of the right panel for the layers, 0..1 */
-    bool ants;          /* animate the selection outline */
-    bool grid;          /* visible; drawing tools then snap to it */
-    int grid_parts;     /* parts of the cell along each axis */
-    bool history_lines; /* the history shows command lines instead of names */
-    WrTiling tiling;    /* display of the copies beside the cell */
-    int join;           /* combination of a new selection with the present one: WrSelectMode */
-    int tab;            /* index of the tab in the right panel */
-    bool turning;       /* the patch rotates continuously */
+    int tab;                     /* index of the tab in the side panel */
+    bool inspector;              /* shown in place of the layers */
+    double lower;                /* share of the side panel for the layers, 0..1; 0: closed */
+    double side_width;           /* of the side panel, units; 0: automatic, below 0: closed */
+    bool side_left;              /* the side panel is on the left */
+    bool hide_strip;             /* hide the tool strip */
+    bool hide_options;           /* hide the option row */
+    bool meters;                 /* the status line shows times and memory */
+    char *folds[WR_FOLDS_MAX];   /* folds.h; owned */
+    char *floats[WR_FLOATS_MAX]; /* floating panels, "X Y WIDTH HEIGHT TAB" in units; owned */
+    int workspace;               /* index into wr_workspaces */
+    /* places of the other changed workspaces, "NAME PLACE" (wr_settings_place_print), owned; NULL-terminated */
+    char *workspaces[WR_WORKSPACES_MAX];
+    char *pins[WR_PINS_MAX]; /* pinned rows, "TAB/LABEL", owned; NULL-terminated */
+    bool ants;               /* animate the selection outline */
+    bool grid;               /* visible; drawing tools then snap to it */
+    int grid_parts;          /* parts of the cell along each axis */
+    bool history_lines;      /* the history shows command lines instead of names */
+    WrTiling tiling;         /* display of the copies beside the cell */
+    int join;                /* combination of a new selection with the present one: WrSelectMode */
+    bool turning;            /* the patch rotates continuously */
     WrBrush brush;
     WrCanvasDisplay look;
     /* Files of the brush, owned, NULL: none; as in WrBrushSources. */
@@ -87,6 +104,11 @@ void wr_settings_fini(WrSettings *settings);
 void wr_settings_parse(WrSettings *settings, const char *text);
 void wr_settings_print(const WrSettings *settings, WrText *text);
 
+/* The place of everything in the window, as the same lines with tabulators in place of line ends; and apply such a
+   text, without the present folds and floating panels. */
+void wr_settings_place_print(const WrSettings *settings, WrText *text);
+void wr_settings_place_parse(WrSettings *settings, const char *text);
+
 void wr_settings_load(WrSettings *settings);
 /* Create the folder of wr_config_path (base/file.h); a failure is ignored, since only settings are lost. */
 void wr_settings_make_folder(void);
@@ -97,7 +119,7 @@ void wr_settings_make_folder(void);
    names. */
 WrSettings wr_settings_copy(const WrSettings *settings);
 bool wr_settings_equal(const WrSettings *a, const WrSettings *b); /* compares all saved settings */
-/* Copy the lists of recent files, used brushes, favourites and pens from another. */
+/* Copy the lists shared by all windows from another: recent files, used brushes, fonts, favourites and pens. */
 void wr_settings_take_lists(WrSettings *settings, const WrSettings *from);
 /* Write the changes since `known`, the last state read or written by this program, and update it. Writes `now` with
  * the lists of the file merged in, so that additions by other windows are kept. last: wait briefly if another window

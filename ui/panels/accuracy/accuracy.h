@@ -50,7 +50,6 @@ typedef struct WrPatchLayer {
 } WrPatchLayer;
 
 typedef struct WrInspector {
-    bool shown;  /* its tab is visible */
     bool pinned; /* fixed at its position */
     bool have;   /* there is a position */
     bool on_table;

@@ -299,7 +299,7 @@ static void begin_probing(WrApp *app)
 {
     WrAccuracy *a = app->accuracy;
     WrInspector *in = &a->inspector;
-    if (!in->shown || !in->have || app->layout->patch.w <= 0) return;
+    if (!app->settings->inspector || !in->have || app->layout->patch.w <= 0) return;
     if (in->asked_of == a->state && in->asked_table == in->on_table && in->asked_x == in->x &&
         in->asked_y == in->y)
         return;

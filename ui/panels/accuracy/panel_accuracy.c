@@ -129,7 +129,7 @@ static void error(WrApp *app)
 {
     const WrAccuracy *a = app->accuracy;
     const WrWork *e = a->error;
-    wr_gui_heading("ERROR AGAINST THE REFERENCE");
+    if (!wr_gui_fold("ERROR AGAINST THE REFERENCE", true)) return;
     error_state(app);
     Cell c[4] = {
         { 0, "rms", "Root mean square of the error of linear intensity, over all covered pixels",
@@ -189,8 +189,7 @@ static void stages(WrApp *app)
     char words[WR_PICTURE_WORDS];
     double ms[WR_PICTURE_STAGES], all = wr_picture_time(picture, ms);
     if (!picture->serial) return;
-    wr_gui_space(8);
-    wr_gui_heading("TIME OF A PICTURE, MS");
+    if (!wr_gui_fold("TIME OF A PICTURE, MS", true)) return;
     stage_bar(ms, all);
     wr_gui_space(-4);
     for (int i = 0; i < WR_PICTURE_STAGES; i += 2) {
@@ -293,8 +292,7 @@ static void panel_accuracy_tolerance(WrApp *app)
     for (int i = 0; i < WR_TOLERANCE_COUNT; i++) names[i] = fresh[i].name;
     const WrTolerance t = wr_app_scene(app)->tolerance;
     int kind = (int)t.kind;
-    wr_gui_space(2);
-    wr_gui_heading("TOLERANCE");
+    if (!wr_gui_fold("TOLERANCE", false)) return;
     if (wr_gui_segments("tolerance", names, NULL, WR_TOLERANCE_COUNT, &kind))
         run_tolerance(app, kind, fresh[kind].value);
     wr_gui_tip("The cheapest dials that keep to an error, or the nearest that a time allows, found "
@@ -381,7 +379,7 @@ static void which_side(WrApp *app)
 
 static void panel_accuracy_dials(WrApp *app)
 {
-    wr_gui_heading("DIALS");
+    if (!wr_gui_fold("DIALS", true)) return;
     which_side(app);
     const int side = app->accuracy->chooses;
     if (side == 0) {
@@ -395,10 +393,8 @@ static void panel_accuracy_dials(WrApp *app)
         for (; wr_axis_labels[axis][i] && i < 47; i++)
             heading[i] = (char)toupper((unsigned char)wr_axis_labels[axis][i]);
         heading[i] = '\0';
-        wr_gui_space(2);
         wr_gui_push_id(axis + 100 * side);
-        wr_gui_heading(heading);
-        axis_dials(app, side, (WrAxis)axis, scene, plain);
+        if (wr_gui_fold(heading, false)) axis_dials(app, side, (WrAxis)axis, scene, plain);
         wr_gui_pop_id();
     }
     if (side == 0) wr_busy_hold_end();
@@ -614,7 +610,7 @@ static void field(WrApp *app)
 static void panel_accuracy_plot(WrApp *app)
 {
     WrAccuracy *a = app->accuracy;
-    wr_gui_heading("WHAT IT COSTS");
+    if (!wr_gui_fold("WHAT IT COSTS", true)) return;
     a->plot_open = wr_gui_will_see(wr_gui_px(PLOT_UNITS));
     field(app);
     foot(app);
@@ -627,24 +623,15 @@ void wr_panel_accuracy(WrApp *app)
     WrAccuracy *a = app->accuracy;
     a->error_open = true;
     show(app);
-    wr_gui_space(8);
     error(app);
     stages(app);
-    wr_gui_space(8);
     panel_accuracy_plot(app);
-    wr_gui_space(8);
     panel_accuracy_dials(app);
-    wr_gui_space(8);
     wr_panel_illusion(app);
-    wr_gui_space(8);
-    wr_gui_heading("HARD CASES");
-    if (wr_gui_button("Hard cases...", false)) wr_action_run(app, WR_ACT(hard_cases));
-    wr_gui_tip("120 inputs at which a naive program fails: the required result, and the error of "
-               "this one");
-    if (a->inspector.shown && app->layout->lower.w <= 0) {
-        wr_gui_space(8);
-        wr_gui_heading("INSPECTOR");
-        wr_panel_inspector(app);
+    if (wr_gui_fold("HARD CASES", false)) {
+        if (wr_gui_button("Hard cases...", false)) wr_action_run(app, WR_ACT(hard_cases));
+        wr_gui_tip("120 inputs at which a naive program fails: the required result, and the error "
+                   "of this one");
     }
     wr_gui_space(8);
 }

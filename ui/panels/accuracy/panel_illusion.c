@@ -52,7 +52,7 @@ void wr_panel_illusion(WrApp *app)
 {
     WrAccuracy *a = app->accuracy;
     double fraction = 0;
-    wr_gui_heading("BUMP BESIDE DISPLACEMENT");
+    if (!wr_gui_fold("BUMP BESIDE DISPLACEMENT", false)) return;
     if (a->illusion) results(a->illusion, a->illusion->of != a->state);
     if (wr_accuracy_busy(app, WR_WORK_ILLUSION, &fraction)) {
         wr_gui_progress(wr_gui_available() - wr_gui_px(64), fraction);

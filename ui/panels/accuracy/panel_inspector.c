@@ -6,6 +6,7 @@
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/pointer_state.h"
 #include "ui/app/state/layout.h"
+#include "ui/app/state/settings.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 
@@ -30,7 +31,7 @@ void wr_inspector_follow(WrApp *app)
     const WrInputRouter *hand = app->hand;
     const SDL_Rect *room = &app->layout->patch;
     double u, v;
-    if (!in->shown || in->pinned || hand->grab != WR_GRAB_NONE) return;
+    if (!app->settings->inspector || in->pinned || hand->grab != WR_GRAB_NONE) return;
     if (hand->on_patch && room->w > 0) {
         in->on_table = false;
         in->x = (hand->at.x - room->x) / room->w;

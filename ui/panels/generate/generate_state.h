@@ -146,6 +146,7 @@ bool wr_generate_preset_delete(WrApp *app, int index);
 
 /* ---- panel_generate.c ---- */
 void wr_panel_generate(WrApp *app, SDL_Rect room);
+void wr_panel_generate_values(WrApp *app); /* its rows */
 
 /* ---- tool_pose.c ---- */
 

@@ -244,8 +244,7 @@ static bool joining(WrGenerateState *hand)
                         .decimals = 3,
                         .tip = "Added to its heights first" };
     for (int i = 0; i < WR_BLEND_COUNT; i++) labels[i] = wr_blends[i].label;
-    wr_gui_space(4);
-    wr_gui_heading("HOW IT JOINS THE LAYER");
+    if (!wr_gui_fold("HOW IT JOINS THE LAYER", true)) return false;
     wr_gui_label("Blend");
     changed |= wr_gui_choice("blend", 0, labels, WR_BLEND_COUNT, &hand->blend);
     wr_gui_tip(wr_blends[hand->blend].help);
@@ -329,7 +328,7 @@ static bool parameters(WrApp *app)
     return changed;
 }
 
-static void panel_generate_values(WrApp *app)
+void wr_panel_generate_values(WrApp *app)
 {
     WrGenerateState *hand = app->generate;
     bool changed = parameters(app);
@@ -612,7 +611,9 @@ void wr_panel_generate(WrApp *app, SDL_Rect room)
         char name[40]; /* each generator has its own scroll position */
         snprintf(name, sizeof name, "##generate_values%d", hand->opened % 64);
         wr_gui_area_begin(name, WR_AREA_PANEL, room, WR_COLOUR_LIST);
-        panel_generate_values(app);
+        wr_gui_pinnable(true);
+        wr_panel_generate_values(app);
+        wr_gui_pinnable(false);
         wr_gui_area_end();
     }
     wr_gui_area_begin("##generate_foot", WR_AREA_BAR, low, WR_COLOUR_BAR);
