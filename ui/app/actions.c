@@ -18,6 +18,7 @@
 #include "ui/app/state/session_view.h"
 #include "ui/app/state/settings.h"
 #include "ui/panels/generate/generate_state.h"
+#include "ui/panels/panel_search.h"
 #include "ui/panels/panel_tablet.h"
 #include "ui/panels/panels.h"
 #include "ui/patch/patch.h"
@@ -75,7 +76,6 @@ static bool has_history(const WrApp *app)
     {                                                                                              \
         wr_dialog_open(app, dialog);                                                               \
     }
-DIALOG(search, WR_DIALOG_SEARCH)
 DIALOG(preferences, WR_DIALOG_PREFERENCES)
 DIALOG(fill, WR_DIALOG_FILL)
 DIALOG(grid, WR_DIALOG_GRID)
@@ -288,7 +288,7 @@ const WrAction wr_actions[] = {
     ROW(copy, "Copy", wr_act_copy, NULL, NULL),
     ROW(copy_shown, "Copy the visible result", wr_act_copy_shown, NULL, NULL),
     EDIT(paste, "Paste", wr_act_paste, NULL, NULL),
-    ROW(search, "Search actions...", search, NULL, NULL),
+    ROW(search, "Search...", wr_search_open, NULL, NULL),
     ROW(preferences, "Preferences...", preferences, NULL, NULL),
     ROW(brush, "Brush", tool_brush, NULL, NULL),
     ROW(smooth, "Smooth", tool_smooth, NULL, NULL),

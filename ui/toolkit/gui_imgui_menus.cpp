@@ -280,6 +280,7 @@ extern "C" bool wr_gui_segments(const char *id, const char *const *items, const 
                                 int count, int *index)
 try {
     bool changed = false;
+    wr_gui_row_choices(items, count);
     ImGui::PushID(id);
     float h = ImGui::GetFrameHeight(), pad = px(10), width = 0;
     for (int i = 0; i < count; i++) width += ImGui::CalcTextSize(wr_gui_said(items[i])).x;

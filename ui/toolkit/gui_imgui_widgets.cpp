@@ -185,6 +185,7 @@ WR_CAUGHT()
 
 extern "C" void wr_gui_heading(const char *text)
 try {
+    wr_gui_row_section(text);
     text_in(WR_FONT_SMALL, WR_COLOUR_LABEL, text, false);
 }
 WR_CAUGHT()
@@ -192,6 +193,7 @@ WR_CAUGHT()
 /* A label too long even in the small font is placed above its field. */
 extern "C" void wr_gui_label(const char *text)
 try {
+    wr_gui_row_label(text);
     ImGui::AlignTextToFramePadding();
     float column = roundf(ImGui::GetWindowContentRegionMax().x * 0.41f);
     float room = column - ImGui::GetCursorPosX() - px(4);
@@ -279,6 +281,7 @@ static void show_tip(const char *text)
 
 void wr_gui_tip_of(ImGuiID id, const char *text)
 try {
+    wr_gui_row_tip(text);
     const ImGuiContext &g = *ImGui::GetCurrentContext();
     const bool grey = g.LastItemData.InFlags & ImGuiItemFlags_Disabled;
     if (grey && wr_gui_current()->grey_why)
@@ -350,6 +353,7 @@ extern "C" bool wr_gui_choice(const char *id, double width, const char *const *i
                               int *index)
 try {
     bool changed = false;
+    wr_gui_row_choices(items, count);
     ImGui::PushID(id);
     ImGui::SetNextItemWidth(width > 0 ? (float)width : -1.0f);
     ImDrawList *list = ImGui::GetWindowDrawList();
@@ -419,6 +423,7 @@ try {
     snprintf(box, sizeof box, "##box%s", id ? id : label);
     bool changed = ImGui::Checkbox(wraps ? box : shown, value);
     wr_gui_stop(WR_STOP_PRESS, false);
+    wr_gui_row_item(label);
     wr_gui_edge(ImGui::GetWindowDrawList(), at, ImVec2(at.x + side, at.y + side));
     if (!wraps) {
         wr_gui_fits_window(label);
@@ -442,10 +447,12 @@ try {
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(14), px(5)));
     ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, px(3));
     char said[320];
+    const bool named = !wr_gui_current()->next_id; /* else the label is a value */
     const char *shown = wr_gui_labelled(label, said);
     wr_gui_row_room(ImGui::CalcTextSize(shown, nullptr, true).x + px(28));
     bool pressed = ImGui::Button(shown);
     wr_gui_stop(WR_STOP_PRESS, false);
+    if (named) wr_gui_row_item(label);
     wr_gui_fits_window(label);
     ImGui::PopStyleVar(2);
     if (primary) ImGui::PopStyleColor(2);
@@ -481,6 +488,7 @@ WR_CAUGHT(false)
 extern "C" bool wr_gui_chip(const char *icon, const char *label)
 try {
     char text[400], said[320];
+    const bool named = !wr_gui_current()->next_id;
     snprintf(text, sizeof text, "%s%s%s", icon ? wr_gui_icon(icon) : "",
              icon && label[0] ? "  " : "", wr_gui_labelled(label, said));
     ImGui::PushStyleColor(ImGuiCol_Button, wr_gui_colour_u32(WR_COLOUR_CHIP));
@@ -490,6 +498,7 @@ try {
     wr_gui_row_room(ImGui::CalcTextSize(text, nullptr, true).x + px(16));
     bool pressed = ImGui::Button(text);
     wr_gui_stop(WR_STOP_PRESS, false);
+    if (named) wr_gui_row_item(label);
     wr_gui_fits_window(label);
     ImGui::PopStyleVar(2);
     ImGui::PopStyleColor(2);
@@ -985,7 +994,7 @@ extern "C" void wr_gui_centre_end(double side)
 
 extern "C" bool wr_gui_will_see(double side)
 {
-    return ImGui::IsRectVisible(ImVec2((float)side, (float)side));
+    return !wr_gui_lists_rows() && ImGui::IsRectVisible(ImVec2((float)side, (float)side));
 }
 
 extern "C" bool wr_gui_hint_field(const char *id, const char *hint, double width, char *text,
@@ -1011,7 +1020,7 @@ try {
     ImGui::PushStyleColor(ImGuiCol_Text, wr_gui_colour_u32(WR_COLOUR_LABEL));
     ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
     char said[320];
-    if (wr_gui_reports_all) ImGui::SetNextItemOpen(true);
+    if (wr_gui_row_section(label) || wr_gui_reports_all) ImGui::SetNextItemOpen(true);
     bool shown = ImGui::CollapsingHeader(wr_gui_labelled(label, said),
                                          open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
     wr_gui_stop(WR_STOP_PRESS, false);

@@ -75,13 +75,13 @@ static void diagonal(WrApp *app, double width)
 static void options(WrApp *app)
 {
     unsigned uses = wr_current_brush_mode(app)->uses;
-    const WrOption items[] = { { "", 104, 12, wr_option_fill_mode, true },
+    const WrOption items[] = { { "##Fill mode", 104, 12, wr_option_fill_mode, true },
                                { "Strength", 84, 0, wr_option_strength,
                                  (uses & WR_USES_STRENGTH) != 0 },
                                { "Height", 84, 0, wr_option_to_height, (uses & WR_USES_TO) != 0 },
                                { "Opacity", 84, 0, wr_option_opacity, true },
                                { "Tolerance", 84, 0, tolerance, true },
-                               { "", 0, 120, diagonal, true } };
+                               { "##Across corners", 0, 120, diagonal, true } };
     wr_option_row(app, items, (int)(sizeof items / sizeof *items));
 }
 
