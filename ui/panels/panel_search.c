@@ -15,6 +15,7 @@
 #include "ui/toolkit/theme.h"
 
 #include "command/command_table.h"
+#include "system/clock.h"
 
 #include <SDL.h>
 #include <math.h>
@@ -225,3 +226,22 @@ void wr_dialog_search(WrApp *app)
     else if (!app->dialog->fresh && wr_gui_escape_pressed()) wr_dialog_close(app);
     wr_gui_dialog_end();
 }
+
+/* ---- the index before it is needed ---- */
+
+#define AHEAD_SECONDS 2.0 /* after the start */
+
+static double next_time(const WrApp *app)
+{
+    const bool made = app->finder->index.fixed > 0 || app->started_at <= 0;
+    return made ? 0.0 : fmax(app->started_at, app->input_at) + AHEAD_SECONDS;
+}
+
+/* The first opening would take 50 ms or more: the guide's pages and the brushes are read. */
+static void make_ahead(WrApp *app)
+{
+    const double due = next_time(app);
+    if (due > 0.0 && wr_clock_seconds() >= due) wr_search_index_update(app);
+}
+
+const WrPart wr_part_search = { .update = make_ahead, .next_time = next_time };

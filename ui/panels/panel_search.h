@@ -1,6 +1,7 @@
 /* panel_search.h - state of the search of everything. */
 #pragma once
 #include "ui/app/state/app_state.h"
+#include "ui/app/state/registry.h"
 #include "ui/panels/search_index.h"
 
 typedef struct WrFinder { /* the search */
@@ -18,3 +19,5 @@ void wr_dialog_search(WrApp *app);
 void wr_search_open(WrApp *app);
 /* Opens the search with a command line, to be changed and run. */
 void wr_search_line(WrApp *app, const char *line);
+
+extern const WrPart wr_part_search;

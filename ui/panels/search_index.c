@@ -54,16 +54,33 @@ static char *folded(const char *text)
     return owned;
 }
 
-/* Synonyms of an English label, in English and in the window's language, and further words. */
-static char *synonyms(const char *english, const char *also)
+/* Length of a label without the dots of a dialog's action. */
+static size_t bare_length(const char *label)
+{
+    const size_t length = strlen(label);
+    return length > 3 && strcmp(label + length - 3, "...") == 0 ? length - 3 : length;
+}
+
+/* Whether a row of the synonyms is for this English label at this place. */
+static bool is_for(const WrSearchWords *words, const char *label, const char *const where[3])
+{
+    const char *slash = strchr(words->label, '/'), *own = slash ? slash + 1 : words->label;
+    const size_t length = bare_length(label);
+    if (strlen(own) != length || strncmp(own, label, length) != 0) return false;
+    for (int i = 0; slash && i < 3 && where && where[i]; i++)
+        if (strlen(where[i]) == (size_t)(slash - words->label) &&
+            strncmp(where[i], words->label, strlen(where[i])) == 0)
+            return true;
+    return !slash;
+}
+
+/* Synonyms of an entry, in English and in the window's language, and further words. */
+static char *synonyms(const char *label, const char *const where[3], const char *also)
 {
     WrText all = { 0 };
-    const size_t length = strlen(english);
-    const size_t bare =
-        length > 3 && strcmp(english + length - 3, "...") == 0 ? length - 3 : length;
     if (also) wr_text_addf(&all, "%s,", also);
     for (const WrSearchWords *w = wr_search_words; w->label; w++) {
-        if (strlen(w->label) != bare || strncmp(w->label, english, bare) != 0) continue;
+        if (!is_for(w, label, where)) continue;
         wr_text_addf(&all, "%s,", w->words);
         if (wr_words(w->words) != w->words) wr_text_addf(&all, "%s,", wr_words(w->words));
     }
@@ -86,7 +103,7 @@ static WrSearchEntry *add(WrSearchIndex *index, WrSearchKind kind, const char *l
     if (wr_words(label) != label) entry.field[WR_SEARCH_ENGLISH] = folded(label);
     wr_text_add(&english, wr_text_get(&shown));
     entry.field[WR_SEARCH_LABEL] = folded(entry.label);
-    entry.field[WR_SEARCH_ALSO] = synonyms(label, also);
+    entry.field[WR_SEARCH_ALSO] = synonyms(label, where, also);
     entry.field[WR_SEARCH_PLACE] = folded(wr_text_get(&english));
     wr_text_fini(&shown);
     wr_text_fini(&english);
@@ -149,6 +166,15 @@ static bool is_button(const char *label)
     return false;
 }
 
+static bool is_action(const WrApp *app, const char *label)
+{
+    for (const WrAction *a = app->registry->actions; a->name; a++)
+        if (strncmp(a->label, label, bare_length(a->label)) == 0 &&
+            bare_length(a->label) == bare_length(label))
+            return true;
+    return false;
+}
+
 static bool is_known(const Drawing *d, const char *row)
 {
     for (int i = d->first; i < d->index->entries.count; i++) {
@@ -176,11 +202,13 @@ static void report(void *ctx, WrRowText kind, const char *text)
     if (kind == WR_ROW_SECTION) {
         snprintf(d->section, sizeof d->section, "%s", text);
         d->last = -1;
-    } else if (kind == WR_ROW_LABEL) {
+    } else if (kind == WR_ROW_LABEL || kind == WR_ROW_BUTTON) {
         d->last = -1;
         if (!has_letters(text) || is_button(text) || is_known(d, text)) return;
+        if (d->place.action && is_action(d->app, text)) return; /* its button */
         locate(add(d->index, WR_SEARCH_ROW, text, where, NULL, NULL), d, text);
         d->last = d->index->entries.count - 1;
+        d->index->entries.data[d->last].button = kind == WR_ROW_BUTTON;
     } else if (d->last < 0) {
         return;
     } else if (kind == WR_ROW_CHOICE) {
@@ -230,11 +258,13 @@ static void draw_dialog(void *ctx)
     d->app->registry->dialogs[d->which].draw(d->app);
 }
 
-static void list(Drawing *d, void (*draw)(void *ctx), const char *title, WrSearchEntry place)
+/* first: index of the first entry whose rows are not repeated; -1: all are new. */
+static void list(Drawing *d, void (*draw)(void *ctx), const char *title, WrSearchEntry place,
+                 int first)
 {
     d->title = title;
     d->place = place;
-    d->first = d->index->entries.count;
+    d->first = first >= 0 ? first : d->index->entries.count;
     d->last = -1;
     d->section[0] = '\0';
     wr_gui_list_rows(d->app->gui, TALL, TALL, draw, report, d);
@@ -247,21 +277,22 @@ static void list_tabs(Drawing *d)
         /* Rows of a generator come from its table; those of the plan and of the history are the document's. */
         const char *label = tabs[d->which].label;
         if (strcmp(label, "Generate") == 0 || strcmp(label, "History") == 0) continue;
-        list(d, draw_tab, label, (WrSearchEntry){ .tab = label, .part = 1 });
+        list(d, draw_tab, label, (WrSearchEntry){ .tab = label, .part = 1 }, -1);
     }
-    list(d, draw_layers, "Layers", (WrSearchEntry){ .tab = "Layers" });
+    list(d, draw_layers, "Layers", (WrSearchEntry){ .tab = "Layers" }, -1);
 }
 
 static void list_tools(Drawing *d)
 {
     WrApp *app = d->app;
-    const int tool = app->tool, width = app->width;
+    const int tool = app->tool, width = app->width, first = d->index->entries.count;
     app->width = TALL;
     for (d->which = 0; d->which < app->registry->tool_count; d->which++) {
         const char *action = app->registry->tools[d->which]->action;
         const WrAction *named = wr_action_find(app, action);
         app->tool = d->which;
-        if (named) list(d, draw_options, named->label, (WrSearchEntry){ .action = (char *)action });
+        if (named)
+            list(d, draw_options, named->label, (WrSearchEntry){ .action = (char *)action }, first);
     }
     app->tool = tool;
     app->width = width;
@@ -278,24 +309,65 @@ static void list_dialogs(Drawing *d)
         if (!action || !wr_action_can(app, action)) continue;
         app->dialog->now = (WrDialog)d->which;
         app->dialog->fresh = true;
-        list(d, draw_dialog, action->label, (WrSearchEntry){ .action = (char *)row->action });
+        list(d, draw_dialog, action->label, (WrSearchEntry){ .action = (char *)row->action }, -1);
     }
     *app->dialog = dialog;
     *app->forms = forms;
 }
 
-static void list_drawn(WrApp *app, WrSearchIndex *index)
+/* ---- places of actions ---- */
+
+#define MENU_LEVELS 4
+
+typedef struct MenuPlace {
+    const char *action; /* in the registry */
+    char menu[2][80];   /* English */
+} MenuPlace;
+
+typedef struct Menus {
+    WrApp *app;
+    WR_ARRAY(MenuPlace) places;
+    char path[MENU_LEVELS][80];
+    int depth;
+} Menus;
+
+static void report_menu(void *ctx, WrRowText kind, const char *text)
 {
-    Drawing d = { .app = app, .index = index };
-    const int redraw = app->redraw;
-    const bool error_open = app->accuracy->error_open, plot_open = app->accuracy->plot_open;
-    list_tabs(&d);
-    list_tools(&d);
-    list_dialogs(&d);
-    app->accuracy->error_open = error_open;
-    app->accuracy->plot_open = plot_open;
-    app->redraw = redraw;
-    for (int i = 0; i < index->entries.count; i++) fold_help(&index->entries.data[i]);
+    Menus *m = ctx;
+    if (kind == WR_ROW_MENU) {
+        if (m->depth < MENU_LEVELS) snprintf(m->path[m->depth], sizeof m->path[0], "%s", text);
+        m->depth++;
+    } else if (kind == WR_ROW_MENU_END) {
+        m->depth--;
+    } else if (kind == WR_ROW_LABEL && m->depth > 0) {
+        const WrAction *action = wr_action_find(m->app, text);
+        MenuPlace place = { .action = action ? action->name : NULL };
+        for (int i = 0; i < 2 && i < m->depth; i++)
+            memcpy(place.menu[i], m->path[i], sizeof place.menu[i]);
+        if (action) wr_array_push(&m->places, place);
+    }
+}
+
+static void draw_menu(void *ctx)
+{
+    wr_panel_menu(((Menus *)ctx)->app);
+}
+
+static void list_menus(Menus *menus)
+{
+    const bool all = wr_gui_reports_all;
+    const double height = menus->app->menu_height;
+    wr_gui_reports_all = true; /* opens the menus */
+    wr_gui_list_rows(menus->app->gui, TALL, TALL, draw_menu, report_menu, menus);
+    wr_gui_reports_all = all;
+    menus->app->menu_height = (int)height;
+}
+
+static const MenuPlace *menu_of(const Menus *menus, const char *action)
+{
+    for (int i = 0; i < menus->places.count; i++)
+        if (strcmp(menus->places.data[i].action, action) == 0) return &menus->places.data[i];
+    return NULL;
 }
 
 /* ---- tables ---- */
@@ -319,16 +391,23 @@ static void add_option(WrSearchIndex *index, const char *label, const char *cons
     fold_help(entry);
 }
 
-static void add_actions(const WrApp *app, WrSearchIndex *index)
+static void add_actions(WrApp *app, WrSearchIndex *index)
 {
+    Menus menus = { .app = app };
+    list_menus(&menus);
     for (const WrAction *a = app->registry->actions; a->name; a++) {
         if (strcmp(a->name, WR_ACT(search)) == 0) continue;
         const bool tool = wr_tool_find(app, a->name) >= 0;
-        const char *const where[3] = { tool ? "Tools" : NULL };
+        const MenuPlace *menu = menu_of(&menus, a->name);
+        const char *const where[3] = { tool   ? "Tools"
+                                       : menu ? menu->menu[0]
+                                              : NULL,
+                                       !tool && menu && menu->menu[1][0] ? menu->menu[1] : NULL };
         finish(add(index, tool ? WR_SEARCH_TOOL : WR_SEARCH_ACTION, a->label, where,
                    wr_action_help(app, a), NULL),
                a->name);
     }
+    wr_array_free(&menus.places);
 }
 
 static void add_operations(WrSearchIndex *index)
@@ -408,13 +487,31 @@ static void add_materials(WrSearchIndex *index)
     }
 }
 
-static bool is_drawn(const WrSearchIndex *index, const char *tab, const char *label)
+static bool is_drawn(const WrSearchIndex *index, const char *tab, const char *section,
+                     const char *label)
 {
-    for (int i = 0; i < index->entries.count; i++) {
+    for (int i = index->fixed; i < index->entries.count; i++) {
         const WrSearchEntry *e = &index->entries.data[i];
-        if (e->row && e->tab && strcmp(e->tab, tab) == 0 && strcmp(e->row, label) == 0) return true;
+        if (e->row && e->tab && strcmp(e->tab, tab) == 0 && strcmp(e->row, label) == 0 &&
+            (!section || strcmp(e->section, section) == 0))
+            return true;
     }
     return false;
+}
+
+/* Section of the scene panel with the values of a command. */
+static const char *section_of(const char *command)
+{
+    static const char *const sections[][2] = {
+        { "material", "MATERIAL" }, { "grain", "SOLID TEXTURE" },
+        { "light", "LIGHT" },       { "environment", "SURROUNDINGS" },
+        { "camera", "CAMERA" },     { "background", "BACKGROUND" },
+        { "object", "OBJECTS" },    { "cell", "REAL SIZE OF THE CELL" },
+        { "bump", "BUMP" },         { "tone", "EXPOSURE" },
+    };
+    for (size_t i = 0; i < sizeof sections / sizeof *sections; i++)
+        if (strcmp(sections[i][0], command) == 0) return sections[i][1];
+    return NULL;
 }
 
 /* Numbers of the scene and settings of brushes that have no row at present. */
@@ -422,14 +519,19 @@ static void add_hidden(WrSearchIndex *index)
 {
     for (int i = 0; i < WR_SCENE_PARAM_COUNT; i++) {
         const WrSceneParam *p = &wr_scene_params[i];
-        const char *const where[3] = { "Scene" };
-        if (p->label && !is_drawn(index, "Scene", p->label))
-            add_option(index, p->label, where, p->help, (WrSearchEntry){ .tab = "Scene" });
+        const char *section = section_of(p->command);
+        const char *const where[3] = { "Scene", section };
+        if (!p->label || is_drawn(index, "Scene", section, p->label)) continue;
+        add_option(index, p->label, where, p->help,
+                   (WrSearchEntry){ .tab = "Scene", .section = (char *)section });
+        WrSearchEntry *entry = &index->entries.data[index->entries.count - 1];
+        entry->kind = WR_SEARCH_ROW;
+        entry->hidden = true;
     }
     for (int i = 0; i < wr_preset_setting_count(); i++) {
         const WrSettingInfo *info = wr_preset_setting(i);
         const char *const where[3] = { "Brushes" };
-        if (info->use != WR_SETTING_IGNORED && !is_drawn(index, "Brushes", info->label))
+        if (info->use != WR_SETTING_IGNORED && !is_drawn(index, "Brushes", NULL, info->label))
             add_option(index, info->label, where, info->meaning,
                        (WrSearchEntry){ .tab = "Brushes", .part = 1 });
     }
@@ -458,6 +560,8 @@ static void add_heading(void *ctx, const char *page, const char *title, const ch
 {
     char place[300];
     const char *const where[3] = { "Guide", heading ? title : NULL };
+    if (heading && strncmp(page, "commands", 8) == 0)
+        return; /* the commands themselves are found */
     snprintf(place, sizeof place, "%.100s#%.190s", page, heading ? heading : "");
     finish(add(ctx, WR_SEARCH_PAGE, heading ? heading : title, where, NULL, NULL), place);
 }
@@ -470,27 +574,48 @@ static void add_commands(WrSearchIndex *index)
     }
 }
 
-void wr_search_index_update(WrApp *app)
+/* What depends on the language and the library alone. */
+static void make_fixed(WrApp *app, WrSearchIndex *index)
 {
-    WrSearchIndex *index = &app->finder->index;
-    const uint64_t revision = wr_session_revision(app->session);
-    if (index->entries.count > 0 && index->revision == revision &&
-        index->library == wr_preset_browser_library(app) &&
-        strcmp(index->language, wr_words_language()) == 0)
-        return;
+    Drawing d = { .app = app, .index = index };
     wr_search_index_free(index);
-    list_drawn(app, index);
     add_actions(app, index);
     add_operations(index);
     add_generators(index);
     add_models(index);
     add_materials(index);
-    add_hidden(index);
+    list_tools(&d);
+    list_dialogs(&d);
     add_brushes(app, index);
     wr_guide_headings(app, add_heading, index);
     add_commands(index);
-    index->revision = revision;
+    index->fixed = index->entries.count;
     snprintf(index->language, sizeof index->language, "%s", wr_words_language());
+}
+
+void wr_search_index_update(WrApp *app)
+{
+    WrSearchIndex *index = &app->finder->index;
+    const uint64_t revision = wr_session_revision(app->session);
+    const int redraw = app->redraw;
+    const bool error_open = app->accuracy->error_open, plot_open = app->accuracy->plot_open;
+    const bool same = index->fixed > 0 && index->library == wr_preset_browser_library(app) &&
+                      strcmp(index->language, wr_words_language()) == 0;
+    if (same && index->revision == revision) return;
+    Drawing d = { .app = app, .index = index };
+    if (!same) make_fixed(app, index);
+    while (index->entries.count > index->fixed)
+        entry_fini(&index->entries.data[--index->entries.count]);
+    list_tabs(&d);
+    add_hidden(index);
+    for (int i = 0; i < index->entries.count; i++) {
+        WrSearchEntry *e = &index->entries.data[i];
+        if (e->row && e->help && !e->field[WR_SEARCH_HELP]) fold_help(e);
+    }
+    index->revision = revision;
+    app->accuracy->error_open = error_open;
+    app->accuracy->plot_open = plot_open;
+    app->redraw = redraw;
 }
 
 /* ---- the answer ---- */
@@ -500,17 +625,17 @@ static int bias_of(WrSearchKind kind)
 {
     switch (kind) {
     case WR_SEARCH_TOOL: return 700;
-    case WR_SEARCH_ACTION: return 600;
     case WR_SEARCH_GENERATOR: return 650;
     case WR_SEARCH_OPERATION: return 620;
-    case WR_SEARCH_ROW: return 500;
+    case WR_SEARCH_ROW: return 610;
+    case WR_SEARCH_ACTION: return 600;
     case WR_SEARCH_MODEL:
     case WR_SEARCH_MATERIAL: return 450;
     case WR_SEARCH_FILTER: return 300;
-    case WR_SEARCH_OPTION: return 200;
-    case WR_SEARCH_BRUSH: return 150;
-    case WR_SEARCH_CHOICE: return 100;
-    case WR_SEARCH_PAGE: return 0;
+    case WR_SEARCH_CHOICE: return -2500;
+    case WR_SEARCH_OPTION: return -3000;
+    case WR_SEARCH_BRUSH: return -3500;
+    case WR_SEARCH_PAGE: return -4000;
     case WR_SEARCH_COMMAND:
     case WR_SEARCH_KINDS: break;
     }
@@ -525,7 +650,7 @@ static int find(const WrSearchIndex *index, const WrSearchQuery *query, bool any
         const WrSearchEntry *e = &index->entries.data[i];
         const int rank = wr_search_rank(query, (const char *const *)e->field, any);
         if (rank == 0) continue;
-        const int score = rank + bias_of(e->kind);
+        const int score = rank + bias_of(e->kind) - (e->button ? 50 : 0);
         int at = count;
         while (at > 0 && out[at - 1].score < score) at--;
         if (at >= most) continue;

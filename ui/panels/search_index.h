@@ -15,7 +15,7 @@ typedef enum WrSearchKind {
     WR_SEARCH_GENERATOR,
     WR_SEARCH_OPERATION,
     WR_SEARCH_FILTER, /* the operation as a filter layer */
-    WR_SEARCH_OPTION, /* a value of a generator or an operation, or a row that is hidden at present */
+    WR_SEARCH_OPTION, /* a value of a generator, an operation, a model or a brush */
     WR_SEARCH_MODEL,
     WR_SEARCH_MATERIAL,
     WR_SEARCH_BRUSH,
@@ -33,6 +33,8 @@ typedef struct WrSearchEntry {
     bool own_help;
     char *field[5];      /* folded texts, [WR_SEARCH_FIELDS]; owned; NULL: none */
     char *action;        /* action, or text of its kind: line, command, page; owned; NULL: none */
+    bool hidden;         /* the row is not drawn at present */
+    bool button;         /* the row is a button */
     const char *tab;     /* label of the tab that has the row; NULL: none */
     int part;            /* of the tab of brushes */
     char *section, *row; /* texts of the row, owned; NULL: none */
@@ -40,9 +42,10 @@ typedef struct WrSearchEntry {
 
 typedef struct WrSearchIndex {
     WR_ARRAY(WrSearchEntry) entries;
+    int fixed; /* the first ones, which depend only on the language and the library */
     char language[8];
-    uint64_t revision; /* of the document */
-    const void *library;
+    const void *library; /* of brushes */
+    uint64_t revision;   /* of the document */
 } WrSearchIndex;
 
 typedef struct WrSearchHit {

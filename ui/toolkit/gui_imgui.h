@@ -183,13 +183,14 @@ bool wr_gui_focus_key(ImGuiID id, SDL_Scancode key); /* it gets that key in this
 bool wr_gui_focus_menu(ImGuiID id);                  /* the key for a context menu */
 /* 1 up or right, -1 down or left; both: all four keys */
 int wr_gui_focus_arrows(ImGuiID id, bool both);
-/* gui_imgui_rows.cpp. A label before its row is drawn; of the last item; a heading before it is drawn: true if the section
+/* gui_imgui_rows.cpp. A label before its row is drawn; the last item, a button; a heading before it is drawn: true if the section
    must be open; alternatives; a tip; before a frame. */
 void wr_gui_row_label(const char *label);
-void wr_gui_row_item(const char *label);
+void wr_gui_row_button(const char *label);
 bool wr_gui_row_section(const char *label);
 void wr_gui_row_choices(const char *const *items, int count);
 void wr_gui_row_tip(const char *text);
+void wr_gui_row_menu(const char *label); /* NULL: its end */
 void wr_gui_light_frame(WrGui *gui);
 /* gui_imgui_words.cpp. A text translated, up to ##; and a label for ImGui: translated text with the English one as
    identifier. */

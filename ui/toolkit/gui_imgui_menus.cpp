@@ -40,6 +40,7 @@ static void keep_below(const ImGuiWindow *bar)
 
 extern "C" bool wr_gui_menu_begin(const char *label)
 try {
+    wr_gui_row_menu(label);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(10), px(8)));
     char said[320];
     const char *shown = wr_gui_labelled(label, said);
@@ -60,6 +61,7 @@ WR_CAUGHT(false)
 
 extern "C" void wr_gui_menu_end(void)
 {
+    wr_gui_row_menu(nullptr);
     if (wr_gui_reports_all) ImGui::End();
     else ImGui::EndMenu();
 }

@@ -102,9 +102,9 @@ extern "C" void wr_gui_name_item(const char *label)
         frame(&wr_gui_current()->light, ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
 }
 
-void wr_gui_row_item(const char *label)
+void wr_gui_row_button(const char *label)
 {
-    wr_gui_name_row(label);
+    report(WR_ROW_BUTTON, label);
     wr_gui_name_item(label);
 }
 
@@ -122,6 +122,11 @@ bool wr_gui_row_section(const char *label)
 void wr_gui_row_choices(const char *const *items, int count)
 {
     for (int i = 0; i < count; i++) report(WR_ROW_CHOICE, items[i]);
+}
+
+void wr_gui_row_menu(const char *label)
+{
+    report(label ? WR_ROW_MENU : WR_ROW_MENU_END, label ? label : "end");
 }
 
 void wr_gui_row_tip(const char *text)

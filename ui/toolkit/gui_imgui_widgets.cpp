@@ -423,7 +423,8 @@ try {
     snprintf(box, sizeof box, "##box%s", id ? id : label);
     bool changed = ImGui::Checkbox(wraps ? box : shown, value);
     wr_gui_stop(WR_STOP_PRESS, false);
-    wr_gui_row_item(label);
+    wr_gui_name_row(label);
+    wr_gui_name_item(label);
     wr_gui_edge(ImGui::GetWindowDrawList(), at, ImVec2(at.x + side, at.y + side));
     if (!wraps) {
         wr_gui_fits_window(label);
@@ -452,7 +453,7 @@ try {
     wr_gui_row_room(ImGui::CalcTextSize(shown, nullptr, true).x + px(28));
     bool pressed = ImGui::Button(shown);
     wr_gui_stop(WR_STOP_PRESS, false);
-    if (named) wr_gui_row_item(label);
+    if (named) wr_gui_row_button(label);
     wr_gui_fits_window(label);
     ImGui::PopStyleVar(2);
     if (primary) ImGui::PopStyleColor(2);
@@ -498,7 +499,7 @@ try {
     wr_gui_row_room(ImGui::CalcTextSize(text, nullptr, true).x + px(16));
     bool pressed = ImGui::Button(text);
     wr_gui_stop(WR_STOP_PRESS, false);
-    if (named) wr_gui_row_item(label);
+    if (named) wr_gui_row_button(label);
     wr_gui_fits_window(label);
     ImGui::PopStyleVar(2);
     ImGui::PopStyleColor(2);

@@ -10,9 +10,12 @@ extern "C" {
 
 typedef enum WrRowText {
     WR_ROW_SECTION, /* heading or foldable heading of the following rows */
-    WR_ROW_LABEL,   /* of a row, a check box or a button */
-    WR_ROW_CHOICE,  /* one of the alternatives of the row before it */
-    WR_ROW_TIP      /* of the row before it */
+    WR_ROW_LABEL,   /* of a row or a check box */
+    WR_ROW_BUTTON,
+    WR_ROW_CHOICE, /* one of the alternatives of the row before it */
+    WR_ROW_TIP,    /* of the row before it */
+    WR_ROW_MENU,   /* a menu begins; reported only while all menus are open (wr_gui_reports_all) */
+    WR_ROW_MENU_END
 } WrRowText;
 
 /* text: as passed to the widget; valid during the call. */

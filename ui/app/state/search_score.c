@@ -104,10 +104,12 @@ void wr_search_parse(const char *text, WrSearchQuery *query)
     WrText folded = { 0 };
     memset(query, 0, sizeof *query);
     wr_search_fold(text, &folded);
+    for (const char *c = wr_text_get(&folded);
+         *c && strlen(query->joined) + 1 < sizeof query->joined; c++)
+        if (*c != ' ' && *c != ',') strncat(query->joined, c, 1);
     add_words(wr_text_get(&folded), false, query);
     if (query->count == 0) add_words(wr_text_get(&folded), true, query);
     wr_text_fini(&folded);
-    for (int i = 0; i < query->count; i++) strcat(query->joined, query->words[i]);
 }
 
 /* True if the words differ only in their endings, such as those of plurals. */
@@ -129,6 +131,21 @@ static bool same_stem(const char *a, size_t a_length, const char *b, size_t b_le
     return known == 2;
 }
 
+static unsigned letters_of(const char *word)
+{
+    unsigned set = 0;
+    for (; *word; word++) set |= 1u << (*word & 31);
+    return set;
+}
+
+/* True if more letters occur in only one of the words than so many edits explain. */
+static bool differs(const char *a, const char *b, int edits)
+{
+    int count = 0;
+    for (unsigned set = letters_of(a) ^ letters_of(b); set; set &= set - 1) count++;
+    return count > 2 * edits;
+}
+
 /* 0..100 for a typed word and a word of an entry. */
 static int match(const char *typed, size_t length, const char *word, size_t whole, bool typos)
 {
@@ -142,11 +159,14 @@ static int match(const char *typed, size_t length, const char *word, size_t whol
     if (length >= 4 && strstr(copy, typed)) return 50 + (int)(10 * length / whole);
     const int allowed = length >= 8 ? 2 : length >= 4 ? 1 : 0;
     if (!typos || allowed == 0) return 0;
-    int distance = whole + 2 < length || length + 2 < whole ? 9 : wr_word_distance(typed, copy);
-    if (distance <= allowed) return 62 - 10 * distance;
-    if (length < 5 || whole <= length) return 0;
+    const int more = (int)whole - (int)length;
+    if (more >= -allowed && more <= allowed && !differs(typed, copy, allowed)) {
+        const int distance = wr_word_distance(typed, copy);
+        if (distance <= allowed) return 62 - 10 * distance;
+    }
+    if (length < 5 || more <= 0 || typed[0] != copy[0]) return 0;
     copy[length] = '\0'; /* a mistake in a word that is not typed to its end */
-    return wr_word_distance(typed, copy) <= 1 ? 40 : 0;
+    return !differs(typed, copy, 1) && wr_word_distance(typed, copy) <= 1 ? 40 : 0;
 }
 
 /* The best match of a typed word in a text; covered: the matched word counts for the share of the text. */

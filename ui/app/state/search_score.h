@@ -26,7 +26,7 @@ typedef enum WrSearchField {
 typedef struct WrSearchQuery {
     char words[WR_SEARCH_WORDS][WR_SEARCH_LETTERS];
     int count;
-    char joined[WR_SEARCH_WORDS * WR_SEARCH_LETTERS]; /* the words without spaces */
+    char joined[WR_SEARCH_WORDS * WR_SEARCH_LETTERS]; /* the whole text without spaces */
 } WrSearchQuery;
 
 /* Appends the text in lower case, without accents, words separated by one space, alternatives by a comma. */

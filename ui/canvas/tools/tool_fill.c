@@ -81,7 +81,7 @@ static void options(WrApp *app)
                                { "Height", 84, 0, wr_option_to_height, (uses & WR_USES_TO) != 0 },
                                { "Opacity", 84, 0, wr_option_opacity, true },
                                { "Tolerance", 84, 0, tolerance, true },
-                               { "##Across corners", 0, 120, diagonal, true } };
+                               { "##", 0, 120, diagonal, true } };
     wr_option_row(app, items, (int)(sizeof items / sizeof *items));
 }
 

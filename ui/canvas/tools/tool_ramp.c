@@ -198,7 +198,7 @@ static void options(WrApp *app)
     const WrOption items[] = { { "##Kind of ramp", 0, 190, ramp_kind, true },
                                { "Low", 84, 0, ramp_low, true },
                                { "High", 84, 0, ramp_high, true },
-                               { "##Back down", 0, 110, ramp_fold, true },
+                               { "##", 0, 110, ramp_fold, true },
                                { "Blend", 90, 0, ramp_blend, true } };
     wr_option_row(app, items, (int)(sizeof items / sizeof *items));
 }

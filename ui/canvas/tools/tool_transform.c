@@ -490,12 +490,10 @@ static void buttons(WrApp *app, double width)
 
 static void options(WrApp *app)
 {
-    const WrOption items[] = {
-        { "X", 84, 0, move_x, true },          { "Y", 84, 0, move_y, true },
-        { "W", 90, 0, scale_u, true },         { "H", 90, 0, scale_v, true },
-        { "Turn", 84, 0, turned, true },       { "##Switches", 0, 176, switches, true },
-        { "##Buttons", 0, 180, buttons, true }
-    };
+    const WrOption items[] = { { "X", 84, 0, move_x, true },    { "Y", 84, 0, move_y, true },
+                               { "W", 90, 0, scale_u, true },   { "H", 90, 0, scale_v, true },
+                               { "Turn", 84, 0, turned, true }, { "##", 0, 176, switches, true },
+                               { "##", 0, 180, buttons, true } };
     wr_option_row(app, items, (int)(sizeof items / sizeof *items));
 }
 
