@@ -2,10 +2,11 @@
 #include "ui/panels/panel_status.h"
 #include "ui/canvas/outline.h"
 #include "ui/canvas/view.h"
+#include "ui/app/state/action.h"
+#include "ui/app/state/action_list.h"
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/background_command.h"
 #include "ui/app/state/pointer_state.h"
-#include "ui/app/state/remedy.h"
 #include "ui/app/state/layout.h"
 #include "ui/app/state/messages.h"
 #include "ui/app/state/session_view.h"
@@ -133,6 +134,51 @@ static void unread_errors(WrApp *app)
     wr_gui_same_line(8);
 }
 
+/* The action of a message's button; NULL: none, or it cannot run now. A new mask is offered only without one. */
+static const WrAction *help_action(const WrApp *app, const WrMessage *message, int i)
+{
+    const WrAction *action = message->actions[i] ? wr_action_find(app, message->actions[i]) : NULL;
+    if (!action || !wr_action_can(app, action)) return NULL;
+    const bool makes = strcmp(action->name, WR_ACT(mask_white)) == 0;
+    return makes && help_action(app, message, 0) ? NULL : action;
+}
+
+static double help_width(const WrApp *app, const WrMessage *message)
+{
+    double width = 0;
+    if (message->remedy.label)
+        width += wr_gui_text_width(WR_FONT_TEXT, message->remedy.label) + wr_gui_px(30);
+    for (int i = 0; i < WR_PLAIN_ACTIONS; i++) {
+        const WrAction *action = help_action(app, message, i);
+        if (action) width += wr_gui_text_width(WR_FONT_TEXT, action->label) + wr_gui_px(30);
+    }
+    return width;
+}
+
+/* Buttons that mend what a message is about. */
+static void help_buttons(WrApp *app, const WrMessage *message)
+{
+    const WrRemedy remedy = message->remedy;
+    const char *chosen = NULL;
+    for (int i = 0; i < WR_PLAIN_ACTIONS; i++) {
+        const WrAction *action = help_action(app, message, i);
+        if (!action) continue;
+        wr_gui_same_line(8);
+        if (wr_gui_chip(NULL, action->label)) chosen = action->name;
+        wr_gui_tip(wr_action_help(app, action));
+    }
+    if (remedy.label) {
+        wr_gui_same_line(8);
+        if (wr_gui_chip(NULL, remedy.label)) {
+            dismiss(app);
+            wr_app_run_slow(app, remedy.line);
+        }
+    }
+    if (!chosen) return;
+    dismiss(app);
+    wr_action_run(app, chosen);
+}
+
 /* The newest message: an unread error (until something newer succeeds) or a recent note, beside the values under the
    pointer. A click shows the full text. Earlier errors are counted. False if the rest of the line is free. */
 static bool message(WrApp *app, double from)
@@ -152,31 +198,16 @@ static bool message(WrApp *app, double from)
     }
     all_messages(app);
     if (!show) return false;
-    WrRemedy remedy;
-    const bool mends = error && wr_remedy_find(show->text, &remedy);
-    WrText text = { 0 };
-    wr_text_add_n(&text, show->text, mends ? (size_t)remedy.length : strlen(show->text));
-    const double all = wr_gui_width() - wr_gui_place();
+    const double all = wr_gui_width() - wr_gui_place(), helps = help_width(app, show);
     wr_gui_as_it_is(true);
-    const bool cut = wr_gui_text_width(WR_FONT_TEXT, wr_text_get(&text)) > all - wr_gui_px(12);
-    const double button =
-        mends ? wr_gui_text_width(WR_FONT_TEXT, wr_words(remedy.label)) + wr_gui_px(30) : 0.0;
-    const double room = all - wr_gui_px(error ? 190 : cut ? 100 : 12) - button;
-    wr_gui_text_cut(WR_FONT_TEXT, error ? WR_COLOUR_STRONG : WR_COLOUR_TEXT, wr_text_get(&text),
-                    room);
+    const bool cut = wr_gui_text_width(WR_FONT_TEXT, show->text) > all - wr_gui_px(12) - helps;
+    const double room = all - wr_gui_px(error ? 190 : cut ? 100 : 12) - helps;
+    wr_gui_text_cut(WR_FONT_TEXT, error ? WR_COLOUR_STRONG : WR_COLOUR_TEXT, show->text, room);
     wr_gui_tip(show->text);
     wr_gui_as_it_is(false);
-    wr_text_fini(&text);
+    help_buttons(app, show);
     if (!error && !cut) return true;
     wr_gui_same_line(8);
-    if (mends) {
-        if (wr_gui_chip(NULL, remedy.label)) {
-            dismiss(app);
-            wr_app_run_slow(app, remedy.line);
-        }
-        wr_gui_tip(remedy.line);
-        wr_gui_same_line(6);
-    }
     if (wr_gui_chip(NULL, "Details")) wr_gui_popup_open("messages");
     if (!error) return true;
     wr_gui_same_line(6);

@@ -40,7 +40,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define ARROW "  \xe2\x80\xba  " /* between the parts of a place */
+#define ARROW "  >  " /* between the parts of a place */
 #define TALL 4000                /* pixels; all parts of a tab have room */
 
 /* ---- one entry ---- */
@@ -661,12 +661,31 @@ static int find(const WrSearchIndex *index, const WrSearchQuery *query, bool any
     return count;
 }
 
+#define ALL 200
+#define ALIKE 3
+
+/* Many generators have values of one name: the first ones are enough. */
+static bool is_flood(const WrSearchIndex *index, const WrSearchHit *kept, int count, int entry)
+{
+    const WrSearchEntry *e = &index->entries.data[entry];
+    int alike = 0;
+    for (int i = 0; i < count; i++) {
+        const WrSearchEntry *other = &index->entries.data[kept[i].entry];
+        alike += other->kind == e->kind && strcmp(other->label, e->label) == 0;
+    }
+    return e->kind == WR_SEARCH_OPTION && alike >= ALIKE;
+}
+
 int wr_search_index_find(const WrSearchIndex *index, const char *text, WrSearchHit *out, int most)
 {
     WrSearchQuery query;
+    WrSearchHit all[ALL];
     wr_search_parse(text, &query);
-    const int count = find(index, &query, false, out, most);
-    return count > 0 || query.count < 2 ? count : find(index, &query, true, out, most);
+    int count = find(index, &query, false, all, ALL), kept = 0;
+    if (count == 0 && query.count > 1) count = find(index, &query, true, all, ALL);
+    for (int i = 0; i < count && kept < most; i++)
+        if (!is_flood(index, out, kept, all[i].entry)) out[kept++] = all[i];
+    return kept;
 }
 
 /* ---- opening ---- */
