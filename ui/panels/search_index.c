@@ -93,14 +93,15 @@ static char *synonyms(const char *label, const char *const where[3], const char 
 static WrSearchEntry *add(WrSearchIndex *index, WrSearchKind kind, const char *label,
                           const char *const where[3], const char *help, const char *also)
 {
-    WrSearchEntry entry = { .kind = kind, .label = wr_strdup(wr_words(label)), .help = help };
+    const char *said = kind == WR_SEARCH_COMMAND ? label : wr_words(label);
+    WrSearchEntry entry = { .kind = kind, .label = wr_strdup(said), .help = help };
     WrText shown = { 0 }, english = { 0 };
     for (int i = 0; where && i < 3 && where[i]; i++) {
         wr_text_addf(&shown, "%s%s", shown.length > 0 ? ARROW : "", wr_words(where[i]));
         wr_text_addf(&english, ",%s", where[i]);
     }
     entry.where = wr_strdup(wr_text_get(&shown));
-    if (wr_words(label) != label) entry.field[WR_SEARCH_ENGLISH] = folded(label);
+    if (said != label) entry.field[WR_SEARCH_ENGLISH] = folded(label);
     wr_text_add(&english, wr_text_get(&shown));
     entry.field[WR_SEARCH_LABEL] = folded(entry.label);
     entry.field[WR_SEARCH_ALSO] = synonyms(label, where, also);
