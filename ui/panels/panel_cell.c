@@ -73,7 +73,7 @@ void wr_panel_cell(WrApp *app)
 {
     WrCellSize cell = wr_app_scene(app)->cell;
     wr_gui_space(8);
-    wr_gui_heading("REAL SIZE OF THE CELL");
+    wr_gui_heading("REAL-WORLD SIZE");
     const WrEdit edit = rows(&cell);
     report_texel(&cell, wr_app_document(app)->layers[0].heights);
     if (edit == WR_EDIT_LIVE) wr_app_live_begin(app)->cell = cell;

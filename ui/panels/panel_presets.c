@@ -193,6 +193,6 @@ void wr_panel_presets(WrApp *app)
     wr_gui_next_id("material");
     if (wr_gui_button(at_hand >= 0 ? wr_material_presets[at_hand].title : "of your own", false))
         wr_gui_popup_open("materials");
-    wr_gui_tip("Clay, stone, gold and others, as pictures: a click sets all of their numbers");
+    wr_gui_tip("Material presets as pictures: a click sets all values of the material");
     list(app, tiles, at_hand);
 }

@@ -143,40 +143,46 @@ static const WrAction *help_action(const WrApp *app, const WrMessage *message, i
     return makes && help_action(app, message, 0) ? NULL : action;
 }
 
-static double help_width(const WrApp *app, const WrMessage *message)
+typedef struct HelpButton {
+    const WrAction *action; /* NULL: the message's command */
+    const char *label;
+} HelpButton;
+
+/* The buttons that mend what a message is about, as many as fit; room: pixels, what is left of it afterwards. */
+static int help_list(const WrApp *app, const WrMessage *message, double *room,
+                     HelpButton out[WR_PLAIN_ACTIONS + 1])
 {
-    double width = 0;
-    if (message->remedy.label)
-        width += wr_gui_text_width(WR_FONT_TEXT, message->remedy.label) + wr_gui_px(30);
-    for (int i = 0; i < WR_PLAIN_ACTIONS; i++) {
-        const WrAction *action = help_action(app, message, i);
-        if (action) width += wr_gui_text_width(WR_FONT_TEXT, action->label) + wr_gui_px(30);
+    int count = 0;
+    for (int i = WR_PLAIN_ACTIONS; i >= 0; i--) { /* the command first */
+        const WrAction *action = i > 0 ? help_action(app, message, i - 1) : NULL;
+        const char *label = i > 0 ? action ? action->label : NULL : message->remedy.label;
+        if (!label) continue;
+        out[count++] = (HelpButton){ action, label };
     }
-    return width;
+    for (int i = count - 1; i >= 0; i--) {
+        const double width = wr_gui_text_width(WR_FONT_TEXT, out[i].label) + wr_gui_px(30);
+        if (*room - width < wr_gui_px(120)) {
+            memmove(out, out + i + 1, (size_t)(count - i - 1) * sizeof *out);
+            return count - i - 1;
+        }
+        *room -= width;
+    }
+    return count;
 }
 
-/* Buttons that mend what a message is about. */
-static void help_buttons(WrApp *app, const WrMessage *message)
+static void help_buttons(WrApp *app, const WrMessage *message, const HelpButton *buttons, int count)
 {
     const WrRemedy remedy = message->remedy;
-    const char *chosen = NULL;
-    for (int i = 0; i < WR_PLAIN_ACTIONS; i++) {
-        const WrAction *action = help_action(app, message, i);
-        if (!action) continue;
+    int chosen = -1;
+    for (int i = count - 1; i >= 0; i--) {
         wr_gui_same_line(8);
-        if (wr_gui_chip(NULL, action->label)) chosen = action->name;
-        wr_gui_tip(wr_action_help(app, action));
+        if (wr_gui_chip(NULL, buttons[i].label)) chosen = i;
+        if (buttons[i].action) wr_gui_tip(wr_action_help(app, buttons[i].action));
     }
-    if (remedy.label) {
-        wr_gui_same_line(8);
-        if (wr_gui_chip(NULL, remedy.label)) {
-            dismiss(app);
-            wr_app_run_slow(app, remedy.line);
-        }
-    }
-    if (!chosen) return;
+    if (chosen < 0) return;
     dismiss(app);
-    wr_action_run(app, chosen);
+    if (buttons[chosen].action) wr_action_run(app, buttons[chosen].action->name);
+    else wr_app_run_slow(app, remedy.line);
 }
 
 /* The newest message: an unread error (until something newer succeeds) or a recent note, beside the values under the
@@ -198,14 +204,19 @@ static bool message(WrApp *app, double from)
     }
     all_messages(app);
     if (!show) return false;
-    const double all = wr_gui_width() - wr_gui_place(), helps = help_width(app, show);
+    HelpButton buttons[WR_PLAIN_ACTIONS + 1];
     wr_gui_as_it_is(true);
-    const bool cut = wr_gui_text_width(WR_FONT_TEXT, show->text) > all - wr_gui_px(12) - helps;
-    const double room = all - wr_gui_px(error ? 190 : cut ? 100 : 12) - helps;
+    const double wide = wr_gui_text_width(WR_FONT_TEXT, show->text);
+    wr_gui_as_it_is(false);
+    double room = wr_gui_width() - wr_gui_place() - wr_gui_px(error ? 190 : 12);
+    const int count = help_list(app, show, &room, buttons);
+    const bool cut = wide > room;
+    if (cut && !error) room -= wr_gui_px(88);
+    wr_gui_as_it_is(true);
     wr_gui_text_cut(WR_FONT_TEXT, error ? WR_COLOUR_STRONG : WR_COLOUR_TEXT, show->text, room);
     wr_gui_tip(show->text);
     wr_gui_as_it_is(false);
-    help_buttons(app, show);
+    help_buttons(app, show, buttons, count);
     if (!error && !cut) return true;
     wr_gui_same_line(8);
     if (wr_gui_chip(NULL, "Details")) wr_gui_popup_open("messages");

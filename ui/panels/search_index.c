@@ -41,7 +41,7 @@
 #include <string.h>
 
 #define ARROW "  >  " /* between the parts of a place */
-#define TALL 4000                /* pixels; all parts of a tab have room */
+#define TALL 4000     /* pixels; all parts of a tab have room */
 
 /* ---- one entry ---- */
 
@@ -505,9 +505,9 @@ static const char *section_of(const char *command)
 {
     static const char *const sections[][2] = {
         { "material", "MATERIAL" }, { "grain", "SOLID TEXTURE" },
-        { "light", "LIGHT" },       { "environment", "SURROUNDINGS" },
+        { "light", "LIGHT" },       { "environment", "ENVIRONMENT" },
         { "camera", "CAMERA" },     { "background", "BACKGROUND" },
-        { "object", "OBJECTS" },    { "cell", "REAL SIZE OF THE CELL" },
+        { "object", "OBJECTS" },    { "cell", "REAL-WORLD SIZE" },
         { "bump", "BUMP" },         { "tone", "EXPOSURE" },
     };
     for (size_t i = 0; i < sizeof sections / sizeof *sections; i++)

@@ -80,25 +80,27 @@ static void percent(const char *id, double width, const char *tip, double *part)
 
 void wr_option_opacity(WrApp *app, double width)
 {
-    percent("opacity", width, "Of the whole stroke: it never does more than this part",
+    percent("opacity", width, "Opacity of the whole stroke: overlaps never exceed it",
             &app->settings->brush.opacity);
 }
 
 static void flow(WrApp *app, double width)
 {
-    percent("flow", width, "Of each dab: low flow builds up slowly", &app->settings->brush.flow);
+    percent("flow", width, "Opacity of each dab: low flow builds up slowly",
+            &app->settings->brush.flow);
 }
 
 void wr_option_to_height(WrApp *app, double width)
 {
-    static const WrNumber spec = { .low = 0,
-                                   .high = 1,
-                                   .hard_low = -1e30,
-                                   .hard_high = 1e30,
-                                   .reset = 0,
-                                   .decimals = 3,
-                                   .tip = "The height that the brush goes by. Ctrl and a click on "
-                                          "the table picks it." };
+    static const WrNumber spec = {
+        .low = 0,
+        .high = 1,
+        .hard_low = -1e30,
+        .hard_high = 1e30,
+        .reset = 0,
+        .decimals = 3,
+        .tip = "Target height of the brush. Ctrl and a click on the table pick it."
+    };
     wr_gui_number("to", width, &spec, &app->settings->brush.to);
 }
 
@@ -110,7 +112,8 @@ static void reach(WrApp *app, double width)
                                    .reset = 0,
                                    .decimals = 1,
                                    .unit = "px",
-                                   .tip = "How far it looks around; 0: an eighth of the radius" };
+                                   .tip =
+                                       "Radius of its filter; 0: an eighth of the brush's radius" };
     wr_gui_number("reach", width, &spec, &app->settings->brush.reach);
 }
 
@@ -181,10 +184,10 @@ static void steady(WrApp *app, double width)
                                    .decimals = 0,
                                    .unit = "px",
                                    .logarithmic = true,
-                                   .tip = "How far behind the pointer the brush may be" };
+                                   .tip = "Largest distance of the brush behind the pointer" };
     WrSettings *s = app->settings;
     wr_gui_choice("steady", width, names, WR_SMOOTHING_COUNT, &s->steady);
-    wr_gui_tip("A steadier hand: the brush follows the pointer on a smoother way, or hangs on a "
+    wr_gui_tip("Stabilizes strokes: the brush follows the pointer smoothly, or is pulled on a "
                "string behind it");
     if (s->steady == WR_SMOOTHING_OFF) return;
     wr_gui_same_line(6);
@@ -305,7 +308,7 @@ void wr_option_brush_row(WrApp *app, const WrOption *first, int first_count)
                                { "Reach", 74, 0, reach, (uses & WR_USES_REACH) != 0 },
                                { "##Symmetry", 28, 0, wr_option_symmetry, true },
                                { "Pressure", 86, 0, wr_option_pressure, round && paints },
-                               { "Hand", 96, steadies ? 74 : 0, steady, paints },
+                               { "Stabilizer", 96, steadies ? 74 : 0, steady, paints },
                                { "Flow", 70, 0, flow, true },
                                { "Opacity", 74, 0, wr_option_opacity, strong } };
     int count = (int)(sizeof items / sizeof *items);

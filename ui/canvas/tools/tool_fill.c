@@ -61,7 +61,7 @@ static void tolerance(WrApp *app, double width)
                                    .reset = 0.01,
                                    .decimals = -1,
                                    .logarithmic = true,
-                                   .tip = "How far heights may be from the one that is clicked" };
+                                   .tip = "Largest difference from the clicked height" };
     wr_gui_number("tolerance", width, &spec, &app->settings->drawing.tolerance);
 }
 
@@ -69,7 +69,7 @@ static void diagonal(WrApp *app, double width)
 {
     (void)width;
     wr_gui_check("over corners", &app->settings->drawing.diagonal);
-    wr_gui_tip("Texels that only touch at a corner count as connected");
+    wr_gui_tip("Fills across corners, too");
 }
 
 static void options(WrApp *app)
