@@ -155,6 +155,12 @@ static void help_line(const char *help)
     wr_gui_list_end();
 }
 
+static void make_index(WrApp *app, const char *text)
+{
+    (void)text;
+    wr_search_index_update(app);
+}
+
 void wr_search_open(WrApp *app)
 {
     wr_search_index_update(app);
@@ -210,6 +216,8 @@ void wr_dialog_search(WrApp *app)
         finder->line = finder->empty = false;
         finder->chosen = 0;
     }
+    if (finder->index.fixed == 0 && !wr_deferred_waits(app, make_index))
+        wr_deferred(app, make_index, ""); /* opened without the action */
     if (!wr_gui_dialog_begin("Search", 600)) return;
     char before[sizeof finder->text];
     memcpy(before, finder->text, sizeof before);
