@@ -1,5 +1,5 @@
-/* The search: words that artists of Krita, GIMP, Photoshop, Blender, Substance and ZBrush type, each with what must be found
-   first; and every row of the panels, which must be found by its label, opened and highlighted. */
+/* The search: words that artists of Krita, GIMP, Photoshop, Blender, Substance and ZBrush type, each with its expected first
+   result; and every row of the panels, which must be found by its label, opened and highlighted. */
 #include "test.h"
 
 #include "window_walk.h"

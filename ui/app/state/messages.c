@@ -25,7 +25,9 @@ static WrMessage *add(WrApp *app, const char *text, bool bad)
         m->list.count--;
         memmove(m->list.data, m->list.data + 1, (size_t)m->list.count * sizeof *m->list.data);
     }
-    wr_array_push(&m->list, ((WrMessage){ .text = wr_strdup(text), .bad = bad, .since = wr_clock_seconds() }));
+    wr_array_push(
+        &m->list,
+        ((WrMessage){ .text = wr_strdup(text), .bad = bad, .since = wr_clock_seconds() }));
     if (bad && m->unread < KEPT) m->unread++;
     wr_app_redraw(app);
     return &m->list.data[m->list.count - 1];
