@@ -148,24 +148,20 @@ typedef struct HelpButton {
     const char *label;
 } HelpButton;
 
-/* The buttons that mend what a message is about, as many as fit; room: pixels, what is left of it afterwards. */
-static int help_list(const WrApp *app, const WrMessage *message, double *room,
+/* The buttons that mend what a message is about: one, and more as long as the text of that width stays whole. room: pixels, what
+   is left of it afterwards. */
+static int help_list(const WrApp *app, const WrMessage *message, double wide, double *room,
                      HelpButton out[WR_PLAIN_ACTIONS + 1])
 {
     int count = 0;
-    for (int i = WR_PLAIN_ACTIONS; i >= 0; i--) { /* the command first */
-        const WrAction *action = i > 0 ? help_action(app, message, i - 1) : NULL;
-        const char *label = i > 0 ? action ? action->label : NULL : message->remedy.label;
+    for (int i = -1; i < WR_PLAIN_ACTIONS; i++) {
+        const WrAction *action = i >= 0 ? help_action(app, message, i) : NULL;
+        const char *label = i < 0 ? message->remedy.label : action ? action->label : NULL;
         if (!label) continue;
-        out[count++] = (HelpButton){ action, label };
-    }
-    for (int i = count - 1; i >= 0; i--) {
-        const double width = wr_gui_text_width(WR_FONT_TEXT, out[i].label) + wr_gui_px(30);
-        if (*room - width < wr_gui_px(120)) {
-            memmove(out, out + i + 1, (size_t)(count - i - 1) * sizeof *out);
-            return count - i - 1;
-        }
+        const double width = wr_gui_text_width(WR_FONT_TEXT, label) + wr_gui_px(30);
+        if (*room - width < (count > 0 ? wide : wr_gui_px(120))) break;
         *room -= width;
+        out[count++] = (HelpButton){ action, label };
     }
     return count;
 }
@@ -174,7 +170,7 @@ static void help_buttons(WrApp *app, const WrMessage *message, const HelpButton 
 {
     const WrRemedy remedy = message->remedy;
     int chosen = -1;
-    for (int i = count - 1; i >= 0; i--) {
+    for (int i = 0; i < count; i++) {
         wr_gui_same_line(8);
         if (wr_gui_chip(NULL, buttons[i].label)) chosen = i;
         if (buttons[i].action) wr_gui_tip(wr_action_help(app, buttons[i].action));
@@ -209,7 +205,7 @@ static bool message(WrApp *app, double from)
     const double wide = wr_gui_text_width(WR_FONT_TEXT, show->text);
     wr_gui_as_it_is(false);
     double room = wr_gui_width() - wr_gui_place() - wr_gui_px(error ? 190 : 12);
-    const int count = help_list(app, show, &room, buttons);
+    const int count = help_list(app, show, wide, &room, buttons);
     const bool cut = wide > room;
     if (cut && !error) room -= wr_gui_px(88);
     wr_gui_as_it_is(true);
