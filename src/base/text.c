@@ -215,7 +215,7 @@ static int length_of_word(const char *word)
 
 /* Optimal string alignment (Damerau-Levenshtein without overlapping edits): d[i][j] is the least number of insertions,
    deletions, substitutions and swaps of neighbours between the first i letters of a and the first j of b. */
-static int text_distance(const char *a, const char *b)
+int wr_word_distance(const char *a, const char *b)
 {
     int n = length_of_word(a), m = length_of_word(b);
     int d[WR_WORD_MAX + 1][WR_WORD_MAX + 1];
@@ -395,7 +395,7 @@ static bool begins(const char *word, const char *whole)
 /* -1: too far. A word without a letter in common with the typed word is never suggested. */
 static int score_of(const char *word, const char *candidate)
 {
-    int edits = text_distance(word, candidate);
+    int edits = wr_word_distance(word, candidate);
     bool near =
         edits <= most_edits(strlen(letters_of(word))) && edits < (int)strlen(letters_of(candidate));
     int score = near ? 2 * edits : -1;

@@ -36,6 +36,7 @@ bool wr_text_same_letters(const char *a, const char *b);
 /* Edit distance of two words: insertions, deletions, changes, swaps of neighbours. Only the first
    WR_WORD_MAX bytes of a longer word are compared. */
 #define WR_WORD_MAX 63
+int wr_word_distance(const char *a, const char *b);
 
 /* True if the bytes are valid UTF-8. */
 bool wr_text_is_utf8(const char *bytes);

@@ -1,10 +1,13 @@
 /* Steps of the history in words. */
 #include "test.h"
 
+#include "base/error.h"
 #include "base/text.h"
 
+#include "ui/app/state/plain_error.h"
 #include "ui/app/state/remedy.h"
 #include "ui/app/state/step_label.h"
+#include "ui/toolkit/words.h"
 
 #include <string.h>
 
@@ -104,9 +107,40 @@ static void an_error_offers_the_command_that_it_names(void **state)
     }
 }
 
+/* Errors as commands write them, and as the window shows them. */
+static void errors_are_shown_in_plain_words(void **state)
+{
+    (void)state;
+    char out[WR_WORDS_MESSAGE];
+    const char *actions[WR_PLAIN_ACTIONS];
+    WrError err;
+    wr_fail(&err,
+            "%s is a filter, without heights of its own: `layer use` chooses another, or its mask",
+            "layer 8 \"blur\"");
+    wr_error_prefix(&err, "%s: ", "stroke");
+    wr_plain_error(wr_error_message(&err), out, sizeof out);
+    assert_string_equal(out, "This is a filter layer. Paint on its mask, or choose another layer.");
+    assert_true(wr_plain_error_actions(wr_error_message(&err), actions));
+    assert_string_equal(actions[0], "mask_edit");
+    /* an error without a row loses its verb alone; a name that is no verb stays */
+    wr_fail(&err, "corner=%g: must be %g or more", -3.0, 0.0);
+    wr_error_prefix(&err, "%s: ", "shape");
+    wr_plain_error(wr_error_message(&err), out, sizeof out);
+    assert_string_equal(out, "corner=-3: must be 0 or more");
+    assert_false(wr_plain_error_actions(wr_error_message(&err), actions));
+    assert_null(actions[0]);
+    wr_fail(&err, "%s: %s", "/tmp/stroke.png", "No such file or directory");
+    wr_plain_error(wr_error_message(&err), out, sizeof out);
+    assert_string_equal(out, "/tmp/stroke.png: No such file or directory");
+    /* without marks, as other threads pass it on */
+    wr_plain_error("dab: the table is flat", out, sizeof out);
+    assert_string_equal(out, "the table is flat");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(lines_are_said_in_words),
+                                        cmocka_unit_test(errors_are_shown_in_plain_words),
                                         cmocka_unit_test(
                                             an_error_offers_the_command_that_it_names) };
     return cmocka_run_group_tests(tests, NULL, NULL);

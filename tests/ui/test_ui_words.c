@@ -194,11 +194,9 @@ static void every_command_is_reached_by_the_search(void **state)
     for (const WrCommand *const *c = wr_commands; *c; c++) {
         if (german && wr_words((*c)->help) == (*c)->help)
             fail_msg("%s: \"%s\" has no German text", (*c)->name, (*c)->help);
-        wr_action_run(walk.app, "search");
-        walk_frame(&walk);
-        walk_frame(&walk);
-        snprintf(walk.app->finder->text, sizeof walk.app->finder->text, "%s ", (*c)->name);
-        walk.app->finder->line = true; /* as by its row in the list */
+        char line[60];
+        snprintf(line, sizeof line, "%s ", (*c)->name);
+        wr_search_line(walk.app, line); /* as by its row in the list */
         searched_help = (*c)->help;
         requested = false;
         wr_words_requested = note_request;

@@ -20,6 +20,7 @@
 #include "ui/app/state/session_view.h"
 #include "ui/app/state/settings.h"
 #include "ui/panels/generate/generate_state.h"
+#include "ui/panels/panel_search.h"
 #include "ui/panels/panel_tablet.h"
 #include "ui/panels/panels.h"
 #include "ui/patch/patch.h"
@@ -76,7 +77,6 @@ static bool has_history(const WrApp *app)
     {                                                                                              \
         wr_dialog_open(app, dialog);                                                               \
     }
-DIALOG(search, WR_DIALOG_SEARCH)
 DIALOG(preferences, WR_DIALOG_PREFERENCES)
 DIALOG(fill, WR_DIALOG_FILL)
 DIALOG(grid, WR_DIALOG_GRID)
@@ -290,7 +290,7 @@ const WrAction wr_actions[] = {
     ROW(copy, "Copy", wr_act_copy, NULL, NULL),
     ROW(copy_shown, "Copy the visible result", wr_act_copy_shown, NULL, NULL),
     EDIT(paste, "Paste", wr_act_paste, NULL, NULL),
-    ROW(search, "Search actions...", search, NULL, NULL),
+    ROW(search, "Search...", wr_search_open, NULL, NULL),
     ROW(preferences, "Preferences...", preferences, NULL, NULL),
     ROW(brush, "Brush", tool_brush, NULL, NULL),
     ROW(smooth, "Smooth", tool_smooth, NULL, NULL),
@@ -348,9 +348,10 @@ const WrAction wr_actions[] = {
     ROW(pressure_down, "Press the mouse less", wr_act_pressure_down, NULL, NULL),
     ROW(pressure_speed, "Mouse presses by its speed", wr_act_pressure_speed, NULL,
         wr_is_pressure_speed),
-    ROW(steady_off, "Hand as it is", wr_act_steady_off, NULL, wr_is_steady_off),
-    ROW(steady_smooth, "Smoothed hand", wr_act_steady_smooth, NULL, wr_is_steady_smooth),
-    ROW(steady_string, "Brush on a string", wr_act_steady_string, NULL, wr_is_steady_string),
+    ROW(steady_off, "Stabilizer off", wr_act_steady_off, NULL, wr_is_steady_off),
+    ROW(steady_smooth, "Stabilizer: smoothed", wr_act_steady_smooth, NULL, wr_is_steady_smooth),
+    ROW(steady_string, "Stabilizer: pulled string", wr_act_steady_string, NULL,
+        wr_is_steady_string),
     ROW(steady_catch_up, "Strokes end at the pointer", wr_act_steady_catch_up, NULL,
         wr_is_steady_catch_up),
     EDIT(select_all, "Select all", wr_act_select_all, NULL, NULL),

@@ -31,6 +31,7 @@
 #include "ui/panels/generate/generate_presets.h"
 #include "ui/panels/generate/generate_state.h"
 #include "ui/toolkit/gui.h"
+#include "ui/toolkit/gui_rows.h"
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
 #include "ui/panels/help/guide.h"
@@ -178,6 +179,7 @@ void wr_app_end(WrApp *app)
     wr_font_choice_free(app);
     wr_generate_free(app);
     wr_guide_free(app);
+    wr_search_index_free(&app->finder->index);
     if (app->renderer) wr_panel_layers_forget(app);
     wr_missing_files_free(app);
     wr_history_panel_free(app);
@@ -404,6 +406,8 @@ static int wait_time(WrApp *app, double now)
     bool alive = wr_gui_wants_text(app->gui) || wr_gui_has_pending_timer(app->gui) || young;
     if (alive && app->drawn_at + CARET_SECONDS < next) next = app->drawn_at + CARET_SECONDS;
     if (wr_gui_has_pending_timer(app->gui) && now + 0.05 < next) next = now + 0.05;
+    const double lit = wr_gui_light_left(app->gui); /* the highlight of a found row is removed */
+    if (lit >= 0.0 && now + lit < next) next = now + lit;
     if (next > 1e299) return -1;
     double ms = ceil((next - now) * 1e3);
     return ms < 0.0 ? 0 : ms > 60000.0 ? 60000 : (int)ms;
@@ -469,6 +473,7 @@ void wr_app_step(WrApp *app)
     if (!app->busy) wr_app_compact_journal(app);
     wr_strokes_work(app);
     wr_deferred_run(app);
+    if (app->redraw == 0 && wr_gui_light_left(app->gui) == 0.0) app->redraw = 1;
     for (const WrPart *const *p = app->registry->parts; *p; p++)
         if ((*p)->update) (*p)->update(app);
     const double now = wr_clock_seconds();

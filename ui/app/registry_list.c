@@ -5,6 +5,7 @@
 #include "ui/app/input_router.h"
 #include "ui/app/loop.h"
 #include "ui/app/idle_probe.h"
+#include "ui/app/state/action_list.h"
 #include "ui/app/state/dialog.h"
 #include "ui/app/state/document.h"
 #include "ui/app/state/overwrite_question.h"
@@ -43,20 +44,20 @@ WR_ROWS(dialogs);
 static const WrDialogRow dialogs[] = {
     [WR_ROW(WR_DIALOG_NONE)] = { NULL, false },
     [WR_ROW(WR_DIALOG_UNSAVED)] = { wr_dialog_unsaved, false },
-    [WR_ROW(WR_DIALOG_NEW)] = { wr_dialog_new, false },
-    [WR_ROW(WR_DIALOG_TABLE)] = { wr_dialog_table, false },
-    [WR_ROW(WR_DIALOG_FILL)] = { wr_dialog_fill, false },
-    [WR_ROW(WR_DIALOG_GRID)] = { wr_dialog_grid, false },
-    [WR_ROW(WR_DIALOG_IMPORT)] = { wr_dialog_import, false },
-    [WR_ROW(WR_DIALOG_EXPORT)] = { wr_dialog_export, false },
-    [WR_ROW(WR_DIALOG_SHEET)] = { wr_dialog_sheet, false },
-    [WR_ROW(WR_DIALOG_RENDER)] = { wr_dialog_render, false },
-    [WR_ROW(WR_DIALOG_FILM)] = { wr_dialog_film, false },
+    [WR_ROW(WR_DIALOG_NEW)] = { wr_dialog_new, false, WR_ACT(new) },
+    [WR_ROW(WR_DIALOG_TABLE)] = { wr_dialog_table, false, WR_ACT(table_size) },
+    [WR_ROW(WR_DIALOG_FILL)] = { wr_dialog_fill, false, WR_ACT(fill) },
+    [WR_ROW(WR_DIALOG_GRID)] = { wr_dialog_grid, false, WR_ACT(grid) },
+    [WR_ROW(WR_DIALOG_IMPORT)] = { wr_dialog_import, false, WR_ACT(import) },
+    [WR_ROW(WR_DIALOG_EXPORT)] = { wr_dialog_export, false, WR_ACT(export) },
+    [WR_ROW(WR_DIALOG_SHEET)] = { wr_dialog_sheet, false, WR_ACT(maps) },
+    [WR_ROW(WR_DIALOG_RENDER)] = { wr_dialog_render, false, WR_ACT(render) },
+    [WR_ROW(WR_DIALOG_FILM)] = { wr_dialog_film, false, WR_ACT(film) },
     [WR_ROW(WR_DIALOG_FILE)] = { wr_dialog_file, false },
     [WR_ROW(WR_DIALOG_ADJUST)] = { wr_dialog_adjust, true },
     [WR_ROW(WR_DIALOG_SELECT)] = { wr_dialog_select, true },
     [WR_ROW(WR_DIALOG_SEARCH)] = { wr_dialog_search, false },
-    [WR_ROW(WR_DIALOG_PREFERENCES)] = { wr_dialog_preferences, false },
+    [WR_ROW(WR_DIALOG_PREFERENCES)] = { wr_dialog_preferences, false, WR_ACT(preferences) },
     [WR_ROW(WR_DIALOG_RECOVER)] = { wr_dialog_recover, false },
     [WR_ROW(WR_DIALOG_PRESET)] = { wr_dialog_preset, false },
     [WR_ROW(WR_DIALOG_DYNAMICS)] = { wr_dialog_dynamics, true },
@@ -68,7 +69,7 @@ static const WrDialogRow dialogs[] = {
     [WR_ROW(WR_DIALOG_STEP)] = { wr_dialog_step, true },
     [WR_ROW(WR_DIALOG_MACRO)] = { wr_dialog_macro, true },
     [WR_ROW(WR_DIALOG_TABLET)] = { wr_dialog_tablet, false },
-    [WR_ROW(WR_DIALOG_BAKE)] = { wr_dialog_bake, false },
+    [WR_ROW(WR_DIALOG_BAKE)] = { wr_dialog_bake, false, WR_ACT(bake) },
     [WR_ROW(WR_DIALOG_CASES)] = { wr_dialog_cases, false },
     [WR_ROW(WR_DIALOG_HELP)] = { wr_dialog_help, false },
     [WR_ROW(WR_DIALOG_ABOUT)] = { wr_dialog_help, false },
@@ -89,12 +90,13 @@ static const WrTab tabs[] = {
 };
 
 /* In the order of update and drawing. */
-static const WrPart *const parts[] = {
-    &wr_part_hand,     &wr_part_tools,  &wr_part_strokes, &wr_part_select,   &wr_part_clone,
-    &wr_part_canvas,   &wr_part_marks,  &wr_part_stamp,   &wr_part_generate, &wr_part_patch,
-    &wr_part_accuracy, &wr_part_layers, &wr_part_thumbs,  &wr_part_gallery,  &wr_part_font_choice,
-    &wr_part_presets,  &wr_part_sheet,  &wr_part_adjust,  &wr_part_thrift,   NULL
-};
+static const WrPart *const parts[] = { &wr_part_hand,    &wr_part_tools,    &wr_part_strokes,
+                                       &wr_part_select,  &wr_part_clone,    &wr_part_canvas,
+                                       &wr_part_marks,   &wr_part_stamp,    &wr_part_generate,
+                                       &wr_part_patch,   &wr_part_accuracy, &wr_part_layers,
+                                       &wr_part_thumbs,  &wr_part_gallery,  &wr_part_font_choice,
+                                       &wr_part_presets, &wr_part_sheet,    &wr_part_adjust,
+                                       &wr_part_thrift,  &wr_part_search,   NULL };
 
 static WrActionFamily *const families[] = { wr_adjust_dialog_of_action, wr_filter_dialog_of_action,
                                             wr_generate_tab_of_action, NULL };

@@ -52,7 +52,7 @@ static void basic(WrApp *app)
                       .high = 1,
                       .reset = own.hardness,
                       .decimals = 2,
-                      .tip = "How far from the middle it works in full" };
+                      .tip = "Share of the radius with full strength" };
     const WrNumber strength = wr_strength_slider(app);
     WrNumber to = { .low = 0,
                     .high = 1,
@@ -67,33 +67,35 @@ static void basic(WrApp *app)
                        .reset = own.reach,
                        .decimals = 1,
                        .unit = "px",
-                       .tip = "How far it looks around; 0: an eighth of the radius" };
+                       .tip = "Radius of its filter; 0: an eighth of the brush's radius" };
     double diameter = 2.0 * b->radius;
     if (number("Size", &size, &diameter)) b->radius = diameter / 2.0;
     number("Hardness", &hard, &b->hardness);
     if (uses & WR_USES_STRENGTH) number("Strength", &strength, wr_strength_setting(app));
     if (uses & WR_USES_TO) number("Height", &to, &b->to);
     if (uses & WR_USES_REACH) number("Reach", &reach, &b->reach);
-    percent("Opacity", "Of the whole stroke: it never does more than this part", &b->opacity);
-    percent("Flow", "Of each dab: low flow builds up slowly", &b->flow);
+    percent("Opacity", "Opacity of the whole stroke: overlaps never exceed it", &b->opacity);
+    percent("Flow", "Opacity of each dab: low flow builds up slowly", &b->flow);
     wr_gui_label("Build up");
     wr_gui_check("##buildup", &b->buildup);
-    wr_gui_tip("Crossing one's own stroke, and resting, adds more");
+    wr_gui_tip("Adds more where the stroke crosses itself, and while the pen rests");
     wr_gui_label("Keep size");
     wr_gui_check("##lock", &app->settings->lock_size);
-    wr_gui_tip("Choosing another brush keeps this size");
+    wr_gui_tip("Keeps this size when another brush is chosen");
 }
 
 static void dabs(WrApp *app)
 {
     WrBrush *b = &app->settings->brush, own = wr_preset_browser_own(app);
     bool preset = b->preset != NULL;
-    WrNumber spacing = { .low = 0,
-                         .high = 2,
-                         .hard_high = 10,
-                         .reset = own.spacing,
-                         .decimals = 2,
-                         .tip = "Of the radius, between dabs; 0: the mode's default" };
+    WrNumber spacing = {
+        .low = 0,
+        .high = 2,
+        .hard_high = 10,
+        .reset = own.spacing,
+        .decimals = 2,
+        .tip = "Distance between dabs as a share of the radius; 0: the mode's default"
+    };
     WrNumber angle = { .low = -180,
                        .high = 180,
                        .hard_low = -360,
@@ -101,20 +103,20 @@ static void dabs(WrApp *app)
                        .reset = own.angle_deg,
                        .decimals = 0,
                        .unit = "\xc2\xb0",
-                       .tip = "Turns the dab anticlockwise" };
+                       .tip = "Rotates the dab anticlockwise" };
     WrNumber aspect = { .low = 1,
                         .high = 10,
                         .hard_low = 1,
                         .hard_high = 100,
                         .reset = own.aspect,
                         .decimals = 2,
-                        .tip = "Length over breadth" };
+                        .tip = "Length divided by width" };
     if (!preset) number("Spacing", &spacing, &b->spacing);
     number("Angle", &angle, &b->angle_deg);
     number("Aspect", &aspect, &b->aspect);
     wr_gui_label("Follow");
     wr_gui_check("##follow", &b->follow);
-    wr_gui_tip("The angle counts from the stroke's direction");
+    wr_gui_tip("Measures the angle from the stroke's direction");
 }
 
 static void chance(WrApp *app)
@@ -125,19 +127,19 @@ static void chance(WrApp *app)
                        .hard_high = 100,
                        .reset = own.jitter_place,
                        .decimals = 2,
-                       .tip = "Dabs are thrown about by so many radii" };
+                       .tip = "Scatters dabs by up to so many radii" };
     WrNumber angle = { .low = 0,
                        .high = 180,
                        .reset = own.jitter_angle_deg,
                        .decimals = 0,
                        .unit = "\xc2\xb0",
-                       .tip = "Dabs are turned by up to this, either way" };
+                       .tip = "Rotates dabs at random by up to this angle" };
     WrNumber size = { .low = 0,
                       .high = 1,
                       .reset = own.jitter_size,
                       .decimals = 2,
-                      .tip = "Dabs are smaller by up to this part" };
-    number("Place", &place, &b->jitter_place);
+                      .tip = "Shrinks dabs at random by up to this share" };
+    number("Position", &place, &b->jitter_place);
     number("Angle ", &angle, &b->jitter_angle_deg);
     number("Size ", &size, &b->jitter_size);
 }
@@ -244,8 +246,8 @@ void wr_panel_brush(WrApp *app)
 {
     basic(app);
     pressure(app);
-    if (wr_gui_fold("DABS OF THE BRUSH", false)) dabs(app);
-    if (!app->settings->brush.preset && wr_gui_fold("CHANCE", false)) chance(app);
+    if (wr_gui_fold("DABS", false)) dabs(app);
+    if (!app->settings->brush.preset && wr_gui_fold("RANDOMNESS", false)) chance(app);
     if (app->shelf->preset) preset_settings(app);
 }
 

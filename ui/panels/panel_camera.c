@@ -82,7 +82,7 @@ static void placed(WrApp *app)
     sides(app);
     wr_gui_label("");
     if (wr_gui_chip(NULL, "Fill")) wr_action_run(app, WR_ACT(camera_fill));
-    wr_gui_tip("Move the camera along its view to where the objects just fill the picture");
+    wr_gui_tip("Moves the camera so that the objects fill the picture");
     wr_gui_same_line(4);
     if (wr_gui_chip(NULL, "Reset")) wr_action_run(app, WR_ACT(camera_reset));
     wr_gui_tip("In front of the objects, so far away that they fit however they turn");
@@ -112,7 +112,7 @@ static bool view_row(WrApp *app, int i)
     wr_gui_as_it_is(false);
     wr_gui_row_set_cursor(right, wr_gui_px(20));
     const bool forget = wr_gui_glyph("forget", WR_ICON_DELETE, 20, WR_COLOUR_MUTED);
-    wr_gui_tip("Forget this view");
+    wr_gui_tip("Deletes this view");
     wr_gui_row_end();
     if (forget) run_view(app, "forget", view);
     else if (r.clicked) run_view(app, "use", view);
@@ -124,8 +124,7 @@ static void views(WrApp *app)
     const WrScene *scene = wr_app_scene(app);
     wr_gui_label("Views");
     const bool keep = wr_gui_chip(WR_ICON_PLUS, "Keep this view");
-    wr_gui_tip("Keep how the patch is looked at now, in the document; `camera save NAME` keeps it "
-               "under a name of your own");
+    wr_gui_tip("Stores the present camera in the document");
     for (int i = 0; i < scene->view_count; i++) {
         wr_gui_push_id(1000 + i);
         const bool changed = view_row(app, i);
@@ -144,7 +143,7 @@ static void background(WrApp *app)
         [WR_ROW(WR_BACKGROUND_PLAIN)] = "One colour",
         [WR_ROW(WR_BACKGROUND_GRADIENT)] = "Gradient",
         [WR_ROW(WR_BACKGROUND_NONE)] = "None",
-        [WR_ROW(WR_BACKGROUND_SURROUNDINGS)] = "Surroundings",
+        [WR_ROW(WR_BACKGROUND_SURROUNDINGS)] = "Environment",
     };
     WR_ROWS_END(kinds, WR_BACKGROUND_KINDS);
     int kind = (int)wr_app_scene(app)->background.kind;
@@ -155,8 +154,8 @@ static void background(WrApp *app)
         wr_text_addf(&line, "background %s", wr_background_names[kind]);
         wr_scene_run(app, &line);
     }
-    wr_gui_tip("Behind the objects, here and in 8-bit pictures. None: pictures that hold alpha, "
-               "such as PNG, have it. Surroundings: those of the Lights panel.");
+    wr_gui_tip("Background of the patch and of 8-bit pictures. None: transparent in formats with "
+               "alpha, such as PNG. Environment: the HDRI.");
     const WrSceneParam *param;
     for (int i = 0; (param = wr_scene_param("background", wr_background_names[kind], i)); i++)
         wr_param_row(app, param);
@@ -196,11 +195,11 @@ static void tone(WrApp *app)
             wr_text_addf(&line, "tone %s", wr_tone_names[kind]);
             wr_scene_run(app, &line);
         }
-        wr_gui_tip("Clip: light beyond 1 is white. Soft: from one half on it bends over and keeps "
-                   "its form. Here and in 8-bit pictures; EXR and TIFF keep light as it is.");
+        wr_gui_tip("Clip: light above 1 is white. Soft: highlights are compressed from one half "
+                   "on. Here and in 8-bit pictures; EXR and TIFF stay linear.");
     }
     wr_gui_check("Mark clipped parts", &app->patch->look.marked);
-    wr_gui_tip("Stripes where a colour is full, so that more light would not show");
+    wr_gui_tip("Marks over-exposed pixels with stripes");
     wr_text_addf(&line, wr_words("%.1f %% of the picture is clipped"), 100 * app->patch->clipped);
     wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_text_get(&line));
     wr_text_fini(&line);

@@ -72,7 +72,7 @@ static void report_texel(const WrCellSize *cell, const WrField *field)
 void wr_panel_cell(WrApp *app)
 {
     WrCellSize cell = wr_app_scene(app)->cell;
-    if (!wr_gui_fold("REAL SIZE OF THE CELL", false)) return;
+    if (!wr_gui_fold("REAL-WORLD SIZE", false)) return;
     const WrEdit edit = rows(&cell);
     report_texel(&cell, wr_app_document(app)->layers[0].heights);
     if (edit == WR_EDIT_LIVE) wr_app_live_begin(app)->cell = cell;

@@ -94,7 +94,7 @@ static WrEdit steep_rows(WrHeightColormap *own)
                                    .tip = "Steep places: from which slope on their colour shows, "
                                           "and from which on it alone" };
     bool on = own->steep && own->slope[0] < 90;
-    if (wr_gui_check("Steep places apart", &on)) {
+    if (wr_gui_check("Colour of steep slopes", &on)) {
         own->steep = true;
         own->slope[0] = on ? 30 : 90, own->slope[1] = on ? 45 : 90;
         return WR_EDIT_DONE;
@@ -132,13 +132,13 @@ static WrEdit hollow_rows(WrHeightColormap *own)
                                      .unit = "texels",
                                      .tip = "Of the Gaussian mean that hollows are measured by" };
     bool on = own->hollow && own->depth[0] < NO_DEPTH;
-    if (wr_gui_check("Hollows apart", &on)) {
+    if (wr_gui_check("Colour of cavities", &on)) {
         own->hollow = true;
         own->depth[0] = on ? 0.01 : NO_DEPTH, own->depth[1] = on ? 0.1 : NO_DEPTH;
         return WR_EDIT_DONE;
     }
     if (!on) return WR_EDIT_NONE;
-    wr_gui_label("Hollows");
+    wr_gui_label("Cavities");
     const WrEdit a = wr_gui_colour("hollow", 0, own->hollow_rgb);
     wr_gui_label("Depths");
     const double half = (wr_gui_available() - wr_gui_px(8)) / 2;

@@ -45,9 +45,9 @@ static bool one_light(WrApp *app, int i)
     WrEdit b = wr_gui_colour(tint->name, 0, rgb);
     wr_gui_label(round->label);
     WrEdit c = wr_gui_number(round->name, 0, &size, &light.size_deg);
-    wr_gui_tip("Angular radius of a round lamp, degrees: how soft shadows are");
+    wr_gui_tip("Angular radius of the light, in degrees: how soft shadows are");
     const bool thrown = wr_gui_check(hides->label, &light.shadow);
-    wr_gui_tip("Objects throw shadows in this light, on one another and on themselves");
+    wr_gui_tip("Objects cast shadows in this light, on each other and on themselves");
     light.colour = (WrVec3){ rgb[0], rgb[1], rgb[2] };
     if (a != WR_EDIT_NONE || b != WR_EDIT_NONE || c != WR_EDIT_NONE)
         wr_app_live_begin(app)->lights[i] = light;
@@ -68,7 +68,7 @@ static bool one_light(WrApp *app, int i)
     X(RAKING, "Raking")                                                                            \
     X(STUDIO, "Studio")                                                                            \
     X(OVERCAST, "Overcast")                                                                        \
-    X(PAPER, "The paper's")
+    X(PAPER, "Blinn's")
 enum { PRESET_LIST(WR_WORD_ID) PRESETS };
 
 static void preset(WrApp *app, int which)
@@ -141,19 +141,17 @@ static void surroundings(WrApp *app)
 {
     const WrEnvironment *now = &wr_app_scene(app)->environment;
     int kind = (int)now->kind;
-    if (!wr_gui_fold("SURROUNDINGS", true)) return;
+    if (!wr_gui_fold("ENVIRONMENT", true)) return;
     wr_gui_label("Kind");
     if (wr_gui_choice("surroundings", 0, wr_environment_map_labels, WR_ENVIRONMENT_MAP_KINDS,
                       &kind)) {
         choose_surround(app, (WrEnvironmentMapKind)kind);
         return;
     }
-    wr_gui_tip(
-        now->path
-            ? now->path
-            : "Light from all sides, beside the lights: seen where the material "
-              "shines. A picture: by longitude and latitude, such as HDR and EXR. Shift and the "
-              "right button turn them on the patch");
+    wr_gui_tip(now->path
+                   ? now->path
+                   : "Image-based light from all sides. A picture: an HDRI by longitude and "
+                     "latitude, HDR or EXR. Shift and the right button rotate it on the patch");
     if (now->kind == WR_ENVIRONMENT_MAP_OFF) return;
     wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_ENVIRONMENT_TURN]);
     wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_ENVIRONMENT_STRENGTH]);

@@ -9,6 +9,7 @@
 #include "ui/app/state/workspace.h"
 #include "ui/panels/generate/generate_state.h"
 #include "ui/toolkit/gui.h"
+#include "ui/toolkit/gui_rows.h"
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
 #include "ui/panels/layer_choice.h"
@@ -337,6 +338,7 @@ void wr_menu_item(WrApp *app, const char *name)
 {
     char keys[32], label[WR_ACTION_LABEL];
     if (wr_menu_listed) wr_menu_listed(name);
+    wr_gui_name_row(name);
     const WrAction *action = wr_action_find(app, name);
     WR_ASSERT(action);
     if (!action) return;
@@ -491,7 +493,7 @@ static double find_width(const WrApp *app)
 {
     char keys[32];
     wr_keys_label(app->keys, WR_ACT(search), keys);
-    const double words = wr_gui_text_width(WR_FONT_SMALL, "Search actions") +
+    const double words = wr_gui_text_width(WR_FONT_SMALL, "Search") +
                          wr_gui_text_width(WR_FONT_SMALL, keys) + wr_gui_px(26);
     const double least = wr_gui_px(FIND_UNITS);
     return app->width < wr_gui_px(900) ? 0.0 : words > least ? words : least;
@@ -502,7 +504,7 @@ static void find_field(WrApp *app, double wide)
     char keys[32];
     if (wide <= 0.0) return;
     wr_gui_move_to(app->width - wide - wr_gui_px(12));
-    if (wr_gui_find_button("Search actions", wr_keys_label(app->keys, WR_ACT(search), keys), wide))
+    if (wr_gui_find_button("Search", wr_keys_label(app->keys, WR_ACT(search), keys), wide))
         wr_action_run(app, WR_ACT(search));
 }
 

@@ -83,8 +83,7 @@ void wr_dialog_new(WrApp *app)
     for (int i = 0; i < WR_STARTERS; i++) starters[i] = wr_starters[i].label;
     wr_gui_label("Begin with");
     wr_gui_choice("starter", 0, starters, WR_STARTERS, &form->starter);
-    wr_gui_tip(
-        "It can be changed or undone at once; Generate has all of them, with all their numbers");
+    wr_gui_tip("Content of the new document; it can be changed in Generate");
     wr_gui_space(4);
     if (wr_gui_button("From a picture...", false)) {
         wr_dialog_close(app);

@@ -152,7 +152,7 @@ static void place(WrApp *app)
         .hard_low = -1e9,
         .hard_high = 1e9,
         .decimals = 3,
-        .tip = "Where its centre stands: x to the right, y up, z to the viewer"
+        .tip = "Position of its centre: x to the right, y up, z to the viewer"
     };
     static const WrNumber deg = { .low = -180,
                                   .high = 180,
@@ -160,14 +160,14 @@ static void place(WrApp *app)
                                   .hard_high = 1e9,
                                   .decimals = 1,
                                   .unit = "\xc2\xb0",
-                                  .tip = "Turned about the world's x, then y, then z axis" };
+                                  .tip = "Rotation about the world's x, then y, then z axis" };
     const WrScene *scene = wr_app_scene(app);
     const double *own = wr_surfaces[scene->shape.kind]->pose_deg;
     double at[3] = { scene->at.x, scene->at.y, scene->at.z };
     double turn[3] = { own[0], own[1], own[2] };
     if (scene->posed)
         turn[0] = scene->rotate_deg.x, turn[1] = scene->rotate_deg.y, turn[2] = scene->rotate_deg.z;
-    WrEdit edit = wr_param_vector("Place", ids, &away, at);
+    WrEdit edit = wr_param_vector("Position", ids, &away, at);
     if (edit != WR_EDIT_NONE) wr_app_live_begin(app)->at = (WrVec3){ at[0], at[1], at[2] };
     if (edit == WR_EDIT_DONE) {
         WrText line = { 0 };

@@ -143,16 +143,34 @@ static bool tile(const WrPresetTiles *tiles, int i, bool at_hand)
     return pressed;
 }
 
-static void list(WrApp *app, WrPresetTiles *tiles, int at_hand)
+/* One more picture in each frame. */
+static void make_next(WrApp *app, WrPresetTiles *tiles)
 {
-    if (!wr_gui_popup_begin("materials")) return;
     const int side = wr_gui_px(TILE_UNITS);
     if (side != tiles->side) forget(app);
     tiles->side = side;
-    if (tiles->made < WR_MATERIAL_PRESETS) {
-        make_one(app, tiles);
-        wr_app_redraw(app);
-    }
+    if (tiles->made == WR_MATERIAL_PRESETS) return;
+    make_one(app, tiles);
+    wr_app_redraw(app);
+}
+
+static WrPresetTiles *tiles_of(WrApp *app)
+{
+    if (!app->presets) app->presets = wr_alloc(1, sizeof *app->presets);
+    return app->presets;
+}
+
+SDL_Texture *wr_presets_picture(WrApp *app, int preset)
+{
+    WrPresetTiles *tiles = tiles_of(app);
+    if (!tiles->texture[preset]) make_next(app, tiles);
+    return tiles->texture[preset];
+}
+
+static void list(WrApp *app, WrPresetTiles *tiles, int at_hand)
+{
+    if (!wr_gui_popup_begin("materials")) return;
+    make_next(app, tiles);
     wr_gui_width_at_least(COLUMNS * (TILE_UNITS + 8) + 12);
     int pressed = -1;
     for (int i = 0; i < WR_MATERIAL_PRESETS; i++)
@@ -169,12 +187,12 @@ static void list(WrApp *app, WrPresetTiles *tiles, int at_hand)
 
 void wr_panel_presets(WrApp *app)
 {
-    if (!app->presets) app->presets = wr_alloc(1, sizeof *app->presets);
+    WrPresetTiles *tiles = tiles_of(app);
     const int at_hand = chosen(&wr_app_scene(app)->material);
     wr_gui_label("Material");
     wr_gui_next_id("material");
     if (wr_gui_button(at_hand >= 0 ? wr_material_presets[at_hand].title : "of your own", false))
         wr_gui_popup_open("materials");
-    wr_gui_tip("Clay, stone, gold and others, as pictures: a click sets all of their numbers");
-    list(app, app->presets, at_hand);
+    wr_gui_tip("Material presets as pictures: a click sets all values of the material");
+    list(app, tiles, at_hand);
 }

@@ -128,9 +128,8 @@ static void form_layer(WrApp *app)
     int which;
     wr_gui_label("Layer");
     const bool chosen = wr_layer_choice(app, "form layer", scene->form_layer, &which);
-    wr_gui_tip(
-        "The layer that the ground has its form of: painting there raises hills, painting in "
-        "others wrinkles them");
+    wr_gui_tip("Layer with the terrain's height map: painting there raises hills; other layers add "
+               "detail");
     if (!chosen) return;
     WrText line = { 0 };
     wr_text_add(&line, "surface terrain");

@@ -1,136 +1,31 @@
-/* Search: menu actions, table operations, generators, surfaces and materials; and every command, whose line can then
-   be typed here. */
+/* Search: the results for a text, from the index of everything that the window shows; the line of a command can be typed
+   here. */
 #include "ui/panels/panel_search.h"
 #include "ui/app/state/action.h"
-#include "ui/app/state/action_list.h"
-#include "ui/app/state/background_command.h"
 #include "ui/app/state/app_state.h"
+#include "ui/app/state/background_command.h"
 #include "ui/app/state/dialog.h"
 #include "ui/app/state/keys.h"
 #include "ui/app/state/messages.h"
 #include "ui/app/state/registry.h"
-#include "ui/app/state/search_score.h"
-#include "ui/panels/generate/generate_state.h"
+#include "ui/canvas/tools/thumbs.h"
+#include "ui/canvas/tools/tool.h"
+#include "ui/panels/panel_presets.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
-#include "ui/toolkit/words.h"
 
 #include "command/command_table.h"
-#include "field/ops.h"
-#include "generate/generator.h"
-#include "scene/material_preset.h"
-#include "surface/surface.h"
+#include "system/clock.h"
 
 #include <SDL.h>
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-#define FOUND_MAX 12
-#define COMMAND "command:" /* name prefix of rows that are commands */
-#define LINE "line:"       /* name prefix of rows that are whole lines */
-
-typedef struct Found {
-    char name[64], label[80];
-    const char *help; /* one line of help; borrowed from a table */
-    int score;
-} Found;
-
-/* Keep the best matches; equal scores stay in the order of their table. also: further searched text besides label and
-   help, or NULL. */
-static void offer(Found found[FOUND_MAX], int *count, const Found *one, const char *also,
-                  const char *query)
-{
-    int score = wr_search_score(wr_words(one->label), query), at = *count;
-    if (score == 0) score = wr_search_score(one->label, query); /* try the English label too */
-    if (score == 0 && also && wr_search_score(also, query) > 0) score = 1;
-    if (score == 0 &&
-        (wr_search_score(wr_words(one->help), query) > 0 || wr_search_score(one->help, query) > 0))
-        score = 1;
-    if (score == 0) return;
-    while (at > 0 && found[at - 1].score < score) at--;
-    if (at >= FOUND_MAX) return;
-    int last = *count < FOUND_MAX ? *count : FOUND_MAX - 1;
-    memmove(found + at + 1, found + at, (size_t)(last - at) * sizeof *found);
-    found[at] = *one;
-    found[at].score = score;
-    if (*count < FOUND_MAX) (*count)++;
-}
-
-static int find_actions(const WrApp *app, Found found[FOUND_MAX])
-{
-    int count = 0;
-    const char *query = app->finder->text;
-    for (const WrAction *a = app->registry->actions; a->name; a++)
-        if (strcmp(a->name, WR_ACT(search)) != 0) {
-            Found one = { .help = wr_action_help(app, a) };
-            snprintf(one.name, sizeof one.name, "%.60s", a->name);
-            snprintf(one.label, sizeof one.label, "%.78s", a->label);
-            offer(found, &count, &one, NULL, query);
-        }
-    for (const WrOpInfo *op = wr_ops; op->name; op++) {
-        char also[120];
-        Found one = { .help = op->help };
-        snprintf(one.name, sizeof one.name, "adjust_%.50s", op->name);
-        snprintf(one.label, sizeof one.label, "%.60s...", wr_words(op->label));
-        snprintf(also, sizeof also, "%.60s %.40s", op->label, op->name);
-        offer(found, &count, &one, also, query);
-        if (op->reshapes) continue;
-        snprintf(one.name, sizeof one.name, "filter_%.50s", op->name);
-        snprintf(one.label, sizeof one.label, wr_words("Filter layer: %s..."), wr_words(op->label));
-        offer(found, &count, &one, also, query);
-    }
-    for (const WrFamily *f = wr_families; f->name; f++)
-        for (const WrGenerator *g = f->rows; g->family; g++) {
-            char name[WR_GENERATE_ACTION], also[300];
-            Found one = { .help = g->help };
-            wr_generate_action(g, name);
-            snprintf(one.name, sizeof one.name, "%.60s", name);
-            snprintf(one.label, sizeof one.label, g->name ? "%.30s: %.40s" : "%.30s",
-                     wr_words(f->label), wr_words(g->label));
-            snprintf(also, sizeof also, "%.30s %.30s %.30s %.130s", f->name, g->name ? g->name : "",
-                     g->label, g->help);
-            offer(found, &count, &one, also, query);
-        }
-    return count;
-}
-
-/* Surfaces and materials by name (torus, gold), as lines. */
-static void find_lines(Found found[FOUND_MAX], int *count, const char *query)
-{
-    for (int i = 0; i < WR_SURFACE_COUNT; i++) {
-        const WrSurfaceInfo *surface = wr_surfaces[i];
-        Found one = { .help = surface->help };
-        if (surface->held || surface->make)
-            continue; /* needs a file or a text, which the line lacks */
-        snprintf(one.name, sizeof one.name, LINE "surface %.40s", surface->name);
-        snprintf(one.label, sizeof one.label, "%.30s: %.40s", wr_words("Patch"),
-                 wr_words(surface->label));
-        offer(found, count, &one, surface->label, query);
-    }
-    for (int i = 0; i < WR_MATERIAL_PRESETS; i++) {
-        const WrMaterialPreset *preset = &wr_material_presets[i];
-        Found one = { .help = preset->help };
-        snprintf(one.name, sizeof one.name, LINE "material preset=%.40s", preset->name);
-        snprintf(one.label, sizeof one.label, "%.30s: %.40s", wr_words("Material"),
-                 wr_words(preset->title));
-        offer(found, count, &one, preset->title, query);
-    }
-}
-
-/* Search all tables, commands last. */
-static int find(const WrApp *app, Found found[FOUND_MAX])
-{
-    const char *query = app->finder->text;
-    int count = find_actions(app, found);
-    for (const WrCommand *const *c = wr_commands; *c; c++) {
-        Found one = { .help = (*c)->help };
-        snprintf(one.name, sizeof one.name, COMMAND "%.40s", (*c)->name);
-        snprintf(one.label, sizeof one.label, "%.20s: %.55s", (*c)->name, wr_words((*c)->help));
-        offer(found, &count, &one, NULL, query);
-    }
-    find_lines(found, &count, query);
-    return count;
-}
+#define FOUND_MAX 40 /* listed results */
+#define ROWS 12      /* that are seen without scrolling */
+#define ROW_UNITS 28
 
 /* The command whose line is being typed: the text starts with its verb and a space. */
 static const WrCommand *typed(const char *text)
@@ -147,7 +42,7 @@ static const WrCommand *typed(const char *text)
 static void command_line(WrApp *app, const WrCommand *command, bool enter)
 {
     char line[sizeof app->finder->text];
-    wr_gui_list_begin("found", 26.0 * FOUND_MAX * wr_gui_scale() + wr_gui_px(12));
+    wr_gui_list_begin("found", ROW_UNITS * ROWS * wr_gui_scale() + wr_gui_px(12));
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, command->help);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
                         "Enter carries the line out. Its values are on the guide's pages of the "
@@ -162,44 +57,114 @@ static void command_line(WrApp *app, const WrCommand *command, bool enter)
     wr_app_run_line(app, line);
 }
 
-static void run(WrApp *app, const char *name)
+/* ---- results ---- */
+
+static const char *icon_of(const WrApp *app, const WrSearchEntry *entry)
+{
+    const int tool = entry->action ? wr_tool_find(app, entry->action) : -1;
+    switch (entry->kind) {
+    case WR_SEARCH_TOOL: return tool >= 0 ? app->registry->tools[tool]->icon : WR_ICON_BRUSH;
+    case WR_SEARCH_ACTION: return WR_ICON_PLAY;
+    case WR_SEARCH_ROW:
+    case WR_SEARCH_CHOICE:
+    case WR_SEARCH_OPTION: return WR_ICON_TUNE;
+    case WR_SEARCH_GENERATOR: return WR_ICON_GRID;
+    case WR_SEARCH_OPERATION: return WR_ICON_WAND;
+    case WR_SEARCH_FILTER: return WR_ICON_COPY;
+    case WR_SEARCH_MODEL: return WR_ICON_CUBE;
+    case WR_SEARCH_MATERIAL: return WR_ICON_DROP;
+    case WR_SEARCH_BRUSH: return WR_ICON_BRUSH;
+    case WR_SEARCH_PAGE: return WR_ICON_HELP;
+    case WR_SEARCH_COMMAND:
+    case WR_SEARCH_KINDS: break;
+    }
+    return WR_ICON_CLOSED;
+}
+
+static SDL_Texture *picture_of(WrApp *app, const WrSearchEntry *entry)
+{
+    if (entry->kind == WR_SEARCH_BRUSH) return wr_thumb_of(app, entry->item, wr_gui_px(52));
+    if (entry->kind == WR_SEARCH_MATERIAL) return wr_presets_picture(app, entry->item);
+    return NULL;
+}
+
+/* After the frame, when the dialog is closed: panels can be opened then. text: number of the entry. */
+static void open_entry(WrApp *app, const char *text)
+{
+    const int entry = atoi(text);
+    if (entry < app->finder->index.entries.count)
+        wr_search_index_open(app, &app->finder->index.entries.data[entry]);
+}
+
+static void choose(WrApp *app, int entry)
 {
     WrFinder *finder = app->finder;
-    if (strncmp(name, COMMAND, strlen(COMMAND)) == 0) {
-        snprintf(finder->text, sizeof finder->text, "%.60s ", name + strlen(COMMAND));
+    const WrSearchEntry *e = &finder->index.entries.data[entry];
+    char number[16];
+    if (e->kind == WR_SEARCH_COMMAND) {
+        snprintf(finder->text, sizeof finder->text, "%.60s ", e->action);
         finder->fill = finder->line = true;
         wr_app_redraw(app);
         return;
     }
+    snprintf(number, sizeof number, "%d", entry);
     wr_dialog_close(app);
-    if (strncmp(name, LINE, strlen(LINE)) == 0) wr_app_run_line(app, name + strlen(LINE));
-    else wr_action_run(app, name);
+    wr_deferred(app, open_entry, number);
 }
 
-static bool row(const WrApp *app, const Found *found, int i, bool chosen)
+/* Icon or picture, name, place, and the keys of an action. */
+static bool row(WrApp *app, const WrSearchEntry *entry, int i, bool chosen)
 {
-    char keys[32];
-    const WrAction *action = wr_action_find(app, found->name);
-    bool enabled = !action || wr_action_can(app, action);
-    WrRow r = wr_gui_row_begin(i, 26, chosen);
-    wr_gui_row_set_cursor(wr_gui_px(14), 0);
-    wr_gui_text_cut(WR_FONT_TEXT, enabled ? WR_COLOUR_TEXT : WR_COLOUR_FAINT, found->label,
-                    wr_gui_row_width() - wr_gui_px(150));
-    wr_keys_label(app->keys, found->name, keys);
-    double wide = wr_gui_text_width(WR_FONT_SMALL, keys);
+    char keys[32] = "";
+    const WrAction *action =
+        entry->action && !entry->row ? wr_action_find(app, entry->action) : NULL;
+    const bool enabled = !action || wr_action_can(app, action);
+    const WrRow r = wr_gui_row_begin(i, ROW_UNITS, chosen);
+    if (chosen) wr_gui_row_see();
+    const double side = wr_gui_px(22), left = wr_gui_px(44);
+    SDL_Texture *picture = picture_of(app, entry);
+    wr_gui_row_set_cursor(wr_gui_px(picture ? 10 : 13), picture ? side : 0);
+    if (picture) wr_gui_image(picture, side, side);
+    else wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, icon_of(app, entry));
+    if (action) wr_keys_label(app->keys, action->name, keys);
+    const double wide = wr_gui_text_width(WR_FONT_SMALL, keys);
+    const double right = wr_gui_row_width() - wide - wr_gui_px(wide > 0 ? 28 : 14);
+    wr_gui_as_it_is(true); /* translated in the index */
+    const double place = wr_gui_text_width(WR_FONT_SMALL, entry->where);
+    double name = wr_gui_text_width(WR_FONT_TEXT, entry->label) + wr_gui_px(2);
+    const double room = right - left;
+    if (name > 0.6 * room && name + place > room)
+        name = fmax(0.6 * room, room - place - wr_gui_px(12));
+    wr_gui_row_set_cursor(left, 0);
+    wr_gui_text_cut(WR_FONT_TEXT, enabled ? WR_COLOUR_TEXT : WR_COLOUR_FAINT, entry->label, name);
+    wr_gui_row_set_cursor(left + name + wr_gui_px(12), 0);
+    wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, entry->where,
+                    fmax(0, room - name - wr_gui_px(12)));
     wr_gui_row_set_cursor(wr_gui_row_width() - wide - wr_gui_px(14), 0);
     wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, keys);
+    wr_gui_as_it_is(false);
     wr_gui_row_end();
-    wr_gui_tip(found->help);
     return r.clicked && enabled;
 }
 
 /* Help of the chosen row, always two lines high, so that the dialog keeps its size. */
-static void help_line(const Found *found)
+static void help_line(const char *help)
 {
     wr_gui_list_begin("help", 2.6 * wr_gui_line_height(WR_FONT_SMALL) + wr_gui_px(16));
-    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, found->help);
+    if (help) wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, help);
     wr_gui_list_end();
+}
+
+static void make_index(WrApp *app, const char *text)
+{
+    (void)text;
+    wr_search_index_update(app);
+}
+
+void wr_search_open(WrApp *app)
+{
+    wr_search_index_update(app);
+    wr_dialog_open(app, WR_DIALOG_SEARCH);
 }
 
 void wr_search_line(WrApp *app, const char *line)
@@ -208,17 +173,52 @@ void wr_search_line(WrApp *app, const char *line)
         wr_app_say(app, "The line of this layer is too long to be shown here");
         return;
     }
-    *app->finder = (WrFinder){ .fill = true, .line = true };
+    app->finder->fill = app->finder->line = true;
     strcpy(app->finder->text, line);
-    wr_dialog_open(app, WR_DIALOG_SEARCH);
+    wr_search_open(app);
+}
+
+static int step_chosen(WrFinder *finder, int count)
+{
+    if (wr_gui_key_pressed(SDL_SCANCODE_DOWN)) finder->chosen++;
+    if (wr_gui_key_pressed(SDL_SCANCODE_UP)) finder->chosen--;
+    finder->chosen = finder->chosen < 0 ? 0 : finder->chosen >= count ? count - 1 : finder->chosen;
+    if (finder->chosen < 0) finder->chosen = 0;
+    return finder->chosen;
+}
+
+/* The entry that was chosen, or -1. */
+static int results(WrApp *app, bool enter)
+{
+    WrSearchHit found[FOUND_MAX];
+    WrFinder *finder = app->finder;
+    const WrSearchEntry *entries = finder->index.entries.data;
+    const int count = wr_search_index_find(&finder->index, finder->text, found, FOUND_MAX);
+    const int chosen = step_chosen(finder, count);
+    int go = -1;
+    wr_gui_list_begin("found", ROW_UNITS * ROWS * wr_gui_scale() + wr_gui_px(12));
+    wr_gui_space(-6);
+    for (int i = 0; i < count; i++)
+        if (row(app, &entries[found[i].entry], i, i == chosen)) go = found[i].entry;
+    if (count == 0) wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "Nothing has these words.");
+    wr_gui_list_end();
+    help_line(count > 0 ? entries[found[chosen].entry].help : NULL);
+    /* Return with an empty field must not run the first row. */
+    finder->empty = enter && !finder->text[0] && chosen == 0;
+    return enter && count > 0 && !finder->empty ? found[chosen].entry : go;
 }
 
 void wr_dialog_search(WrApp *app)
 {
-    Found found[FOUND_MAX];
     WrFinder *finder = app->finder;
-    if (app->dialog->fresh && !finder->fill) *finder = (WrFinder){ 0 };
-    if (!wr_gui_dialog_begin("Search actions", 460)) return;
+    if (app->dialog->fresh && !finder->fill) {
+        finder->text[0] = '\0';
+        finder->line = finder->empty = false;
+        finder->chosen = 0;
+    }
+    if (finder->index.fixed == 0 && !wr_deferred_waits(app, make_index))
+        wr_deferred(app, make_index, ""); /* opened without the action */
+    if (!wr_gui_dialog_begin("Search", 600)) return;
     char before[sizeof finder->text];
     memcpy(before, finder->text, sizeof before);
     bool enter = wr_gui_text_field("##find", 0, finder->text, sizeof finder->text,
@@ -226,29 +226,30 @@ void wr_dialog_search(WrApp *app)
     const WrCommand *command = typed(finder->text);
     finder->fill = false;
     finder->line = finder->line && command;
-    if (command && (finder->line || find_actions(app, found) == 0)) {
-        command_line(app, command, enter);
-        if (!app->dialog->fresh && wr_gui_escape_pressed()) wr_dialog_close(app);
-        wr_gui_dialog_end();
-        return;
-    }
     if (strcmp(before, finder->text) != 0) finder->chosen = 0;
-    int count = find(app, found), go = -1;
-    if (wr_gui_key_pressed(SDL_SCANCODE_DOWN)) finder->chosen++;
-    if (wr_gui_key_pressed(SDL_SCANCODE_UP)) finder->chosen--;
-    finder->chosen = finder->chosen < 0 ? 0 : finder->chosen >= count ? count - 1 : finder->chosen;
-    if (finder->chosen < 0) finder->chosen = 0;
-    wr_gui_list_begin("found", 26.0 * FOUND_MAX * wr_gui_scale() + wr_gui_px(12));
-    wr_gui_space(-6);
-    for (int i = 0; i < count; i++)
-        if (row(app, &found[i], i, i == finder->chosen)) go = i;
-    if (count == 0) wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "No action has these words.");
-    wr_gui_list_end();
-    if (count > 0) help_line(&found[finder->chosen]);
-    /* Return with an empty field must not run the first row. */
-    finder->empty = enter && !finder->text[0] && finder->chosen == 0;
-    if (enter && count > 0 && !finder->empty) go = finder->chosen;
-    if (go >= 0) run(app, found[go].name);
+    int go = -1;
+    if (command && finder->line) command_line(app, command, enter);
+    else go = results(app, enter);
+    if (go >= 0) choose(app, go);
     else if (!app->dialog->fresh && wr_gui_escape_pressed()) wr_dialog_close(app);
     wr_gui_dialog_end();
 }
+
+/* ---- the index before it is needed ---- */
+
+#define AHEAD_SECONDS 2.0 /* after the start */
+
+static double next_time(const WrApp *app)
+{
+    const bool made = app->finder->index.fixed > 0 || app->started_at <= 0;
+    return made ? 0.0 : fmax(app->started_at, app->input_at) + AHEAD_SECONDS;
+}
+
+/* The first opening would take 50 ms or more: the guide's pages and the brushes are read. */
+static void make_ahead(WrApp *app)
+{
+    const double due = next_time(app);
+    if (due > 0.0 && wr_clock_seconds() >= due) wr_search_index_update(app);
+}
+
+const WrPart wr_part_search = { .update = make_ahead, .next_time = next_time };

@@ -1,6 +1,8 @@
-/* panel_search.h - state of the search for actions. */
+/* panel_search.h - state of the search of everything. */
 #pragma once
 #include "ui/app/state/app_state.h"
+#include "ui/app/state/registry.h"
+#include "ui/panels/search_index.h"
 
 typedef struct WrFinder { /* the search */
     char text[600];
@@ -9,8 +11,13 @@ typedef struct WrFinder { /* the search */
     bool line; /* the text is a command line, not a search */
     int chosen;
     bool empty; /* Return in an empty field: restore the keyboard focus */
+    WrSearchIndex index;
 } WrFinder;
 
 void wr_dialog_search(WrApp *app);
+/* Opens the search. Not within a frame. */
+void wr_search_open(WrApp *app);
 /* Opens the search with a command line, to be changed and run. */
 void wr_search_line(WrApp *app, const char *line);
+
+extern const WrPart wr_part_search;

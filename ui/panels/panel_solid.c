@@ -31,10 +31,9 @@ static void relief(WrApp *app)
 {
     if (!wr_gui_fold("RELIEF", true)) return;
     flag(app, WR_SCENE_PARAM_SHADOW, "Self-shadowing",
-         "The relief throws shadows on itself, by its height about each texel; lamps only");
+         "The relief casts shadows on itself, for lights but not for the environment");
     flag(app, WR_SCENE_PARAM_OCCLUSION, "Ambient occlusion",
-         "Ambient light and that of surroundings, by the visible part of the sky "
-         "at each texel");
+         "Darkens cavities: ambient and environment light by the visible part of the sky");
     flag(app, WR_SCENE_PARAM_PARALLAX, "Parallax",
          "Rays go on from the base to the relief, a rung between bump mapping and true "
          "displacement. Outlines are true on planes, spheres and cylinders, on other bases they "
@@ -87,10 +86,10 @@ static void solid(WrApp *app)
     for (int i = 0; i < WR_SOLID_TEXTURE_KINDS; i++)
         titles[i] = wr_grains[i].title, words[i] = wr_grains[i].name;
     if (!wr_gui_fold("SOLID TEXTURE", false)) return;
-    wr_gui_label("Cut out of");
+    wr_gui_label("Pattern");
     choose(app, "grain", titles, WR_SOLID_TEXTURE_KINDS, (int)grain->kind, "grain ", words);
-    wr_gui_tip("A pattern that goes through the object and stays where it is while that turns; its "
-               "colours are multiplied with the material's");
+    wr_gui_tip(
+        "A 3D pattern through the object, such as wood; its colours multiply the base colour");
     if (wr_app_scene(app)->grain.kind == WR_SOLID_TEXTURE_OFF) return;
     wr_gui_label("Drives");
     choose(app, "drives", drives, WR_SOLID_TEXTURE_DRIVES - 1, grain->drives - 1,

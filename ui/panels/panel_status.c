@@ -3,10 +3,10 @@
 #include "ui/canvas/outline.h"
 #include "ui/canvas/view.h"
 #include "ui/app/state/action.h"
+#include "ui/app/state/action_list.h"
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/background_command.h"
 #include "ui/app/state/pointer_state.h"
-#include "ui/app/state/remedy.h"
 #include "ui/app/state/layout.h"
 #include "ui/app/state/messages.h"
 #include "ui/app/state/session_view.h"
@@ -135,6 +135,53 @@ static void unread_errors(WrApp *app)
     wr_gui_same_line(8);
 }
 
+/* The action of a message's button; NULL: none, or it cannot run now. A new mask is offered only without one. */
+static const WrAction *help_action(const WrApp *app, const WrMessage *message, int i)
+{
+    const WrAction *action = message->actions[i] ? wr_action_find(app, message->actions[i]) : NULL;
+    if (!action || !wr_action_can(app, action)) return NULL;
+    const bool makes = strcmp(action->name, WR_ACT(mask_white)) == 0;
+    return makes && help_action(app, message, 0) ? NULL : action;
+}
+
+typedef struct HelpButton {
+    const WrAction *action; /* NULL: the message's command */
+    const char *label;
+} HelpButton;
+
+/* The buttons that mend what a message is about: one, and more as long as the text of that width stays whole. room: pixels, what
+   is left of it afterwards. */
+static int help_list(const WrApp *app, const WrMessage *message, double wide, double *room,
+                     HelpButton out[WR_PLAIN_ACTIONS + 1])
+{
+    int count = 0;
+    for (int i = -1; i < WR_PLAIN_ACTIONS; i++) {
+        const WrAction *action = i >= 0 ? help_action(app, message, i) : NULL;
+        const char *label = i < 0 ? message->remedy.label : action ? action->label : NULL;
+        if (!label) continue;
+        const double width = wr_gui_text_width(WR_FONT_TEXT, label) + wr_gui_px(30);
+        if (*room - width < (count > 0 ? wide : wr_gui_px(120))) break;
+        *room -= width;
+        out[count++] = (HelpButton){ action, label };
+    }
+    return count;
+}
+
+static void help_buttons(WrApp *app, const WrMessage *message, const HelpButton *buttons, int count)
+{
+    const WrRemedy remedy = message->remedy;
+    int chosen = -1;
+    for (int i = 0; i < count; i++) {
+        wr_gui_same_line(8);
+        if (wr_gui_chip(NULL, buttons[i].label)) chosen = i;
+        if (buttons[i].action) wr_gui_tip(wr_action_help(app, buttons[i].action));
+    }
+    if (chosen < 0) return;
+    dismiss(app);
+    if (buttons[chosen].action) wr_action_run(app, buttons[chosen].action->name);
+    else wr_app_run_slow(app, remedy.line);
+}
+
 /* The newest message: an unread error (until something newer succeeds) or a recent note, beside the values under the
    pointer. A click shows the full text. Earlier errors are counted. False if the rest of the line is free. */
 static bool message(WrApp *app, double from)
@@ -154,31 +201,21 @@ static bool message(WrApp *app, double from)
     }
     all_messages(app);
     if (!show) return false;
-    WrRemedy remedy;
-    const bool mends = error && wr_remedy_find(show->text, &remedy);
-    WrText text = { 0 };
-    wr_text_add_n(&text, show->text, mends ? (size_t)remedy.length : strlen(show->text));
-    const double all = wr_gui_width() - wr_gui_place();
+    HelpButton buttons[WR_PLAIN_ACTIONS + 1];
     wr_gui_as_it_is(true);
-    const bool cut = wr_gui_text_width(WR_FONT_TEXT, wr_text_get(&text)) > all - wr_gui_px(12);
-    const double button =
-        mends ? wr_gui_text_width(WR_FONT_TEXT, wr_words(remedy.label)) + wr_gui_px(30) : 0.0;
-    const double room = all - wr_gui_px(error ? 190 : cut ? 100 : 12) - button;
-    wr_gui_text_cut(WR_FONT_TEXT, error ? WR_COLOUR_STRONG : WR_COLOUR_TEXT, wr_text_get(&text),
-                    room);
+    const double wide = wr_gui_text_width(WR_FONT_TEXT, show->text);
+    wr_gui_as_it_is(false);
+    double room = wr_gui_width() - wr_gui_place() - wr_gui_px(error ? 190 : 12);
+    const int count = help_list(app, show, wide, &room, buttons);
+    const bool cut = wide > room;
+    if (cut && !error) room -= wr_gui_px(88);
+    wr_gui_as_it_is(true);
+    wr_gui_text_cut(WR_FONT_TEXT, error ? WR_COLOUR_STRONG : WR_COLOUR_TEXT, show->text, room);
     wr_gui_tip(show->text);
     wr_gui_as_it_is(false);
-    wr_text_fini(&text);
+    help_buttons(app, show, buttons, count);
     if (!error && !cut) return true;
     wr_gui_same_line(8);
-    if (mends) {
-        if (wr_gui_chip(NULL, remedy.label)) {
-            dismiss(app);
-            wr_app_run_slow(app, remedy.line);
-        }
-        wr_gui_tip(remedy.line);
-        wr_gui_same_line(6);
-    }
     if (wr_gui_chip(NULL, "Details")) wr_gui_popup_open("messages");
     if (!error) return true;
     wr_gui_same_line(6);

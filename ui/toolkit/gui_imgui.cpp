@@ -350,7 +350,7 @@ extern "C" bool wr_gui_unsettled(const WrGui *gui)
     bool dims = g.DimBgRatio > 0.0f && g.DimBgRatio < 1.0f;
     const WrFocus *focus = &gui->focus;
     if (focus->waiting_count > 0 || (focus->stepped && focus->arrow_let_go)) return true;
-    if (gui->typing_focus || focus->moved) return true;
+    if (gui->typing_focus || focus->moved || wr_gui_light_left(gui) == 0) return true;
     if (gui->fold_frame > ImGui::GetFrameCount()) return true;
     return gui->keys_dropped || gui->popups != g.OpenPopupStack.Size || dims || gui->fits ||
            window_comes(g);
@@ -398,6 +398,7 @@ try {
     gui->close_popups = false;
     gui->keys_dropped = wr_gui_keys_seen(gui);
     wr_gui_focus_begun(gui);
+    wr_gui_light_frame(gui);
     ImGui::PushFont(gui->fonts[WR_FONT_TEXT]);
 }
 WR_CAUGHT()

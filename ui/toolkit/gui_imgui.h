@@ -3,6 +3,7 @@
 #include "ui/toolkit/focus.h"
 #include "ui/toolkit/folds.h"
 #include "ui/toolkit/gui.h"
+#include "ui/toolkit/gui_rows.h"
 #include "ui/toolkit/words.h"
 
 extern "C" {
@@ -67,6 +68,18 @@ struct WrTyped {
 
 #define WR_GUI_SCOPE 48 /* bytes of a name of an area */
 #define WR_GUI_PIN 256  /* bytes of a name of a row */
+/* Highlight of a row (gui_rows.h). */
+struct WrLight {
+    char section[128], label[256]; /* label "": none */
+    Uint64 since;                  /* SDL_GetTicks64 when it was drawn first; 0: not yet */
+    int waited;                    /* frames since its request */
+    int scrolls;                   /* frames in which the area still scrolls to it */
+    int lit_in;                    /* frame in which it was drawn last */
+    bool inside;                   /* the rows being drawn are in its section */
+    bool heading;                  /* the section's heading is framed instead */
+    float place[4];                /* x, y, width, height, pixels of the window */
+};
+
 #define WR_GUI_SHOWN 64 /* recorded windows, menus and dialogs of a frame */
 
 /* A window of the displayed frame. */
@@ -156,6 +169,11 @@ struct WrGui {
     bool float_resized;
     ImVec2 float_from; /* the pointer relative to the panel's corner at the press */
     WrFocus focus;
+    WrLight light;
+    struct {
+        WrRowReport *report; /* NULL: rows are not being listed */
+        void *ctx;
+    } rows;
 };
 
 /* The WrGui of the present frame. */
@@ -191,6 +209,15 @@ bool wr_gui_focus_key(ImGuiID id, SDL_Scancode key); /* it gets that key in this
 bool wr_gui_focus_menu(ImGuiID id);                  /* the key for a context menu */
 /* 1 up or right, -1 down or left; both: all four keys */
 int wr_gui_focus_arrows(ImGuiID id, bool both);
+/* gui_imgui_rows.cpp. A label before its row is drawn; the last item, a button; a heading before it is drawn: true if the section
+   must be open; alternatives; a tip; before a frame. */
+void wr_gui_row_label(const char *label);
+void wr_gui_row_button(const char *label);
+bool wr_gui_row_section(const char *label);
+void wr_gui_row_choices(const char *const *items, int count);
+void wr_gui_row_tip(const char *text);
+void wr_gui_row_menu(const char *label); /* NULL: its end */
+void wr_gui_light_frame(WrGui *gui);
 /* gui_imgui_words.cpp. A text translated, up to ##; and a label for ImGui: translated text with the English one as
    identifier. */
 const char *wr_gui_said(const char *text);

@@ -40,6 +40,7 @@ static void keep_below(const ImGuiWindow *bar)
 
 extern "C" bool wr_gui_menu_begin(const char *label)
 try {
+    wr_gui_row_menu(label);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(10), px(8)));
     char said[320];
     const char *shown = wr_gui_labelled(label, said);
@@ -60,6 +61,7 @@ WR_CAUGHT(false)
 
 extern "C" void wr_gui_menu_end(void)
 {
+    wr_gui_row_menu(nullptr);
     if (wr_gui_reports_all) ImGui::End();
     else ImGui::EndMenu();
 }
@@ -285,6 +287,7 @@ extern "C" bool wr_gui_segments(const char *id, const char *const *items, const 
 try {
     wr_gui_pin_step();
     bool changed = false;
+    wr_gui_row_choices(items, count);
     ImGui::PushID(id);
     float h = ImGui::GetFrameHeight(), pad = px(10), width = 0;
     for (int i = 0; i < count; i++) width += ImGui::CalcTextSize(wr_gui_said(items[i])).x;

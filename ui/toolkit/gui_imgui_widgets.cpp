@@ -206,6 +206,7 @@ WR_CAUGHT()
 extern "C" void wr_gui_heading(const char *text)
 try {
     wr_gui_pin_step();
+    wr_gui_row_section(text);
     text_in(WR_FONT_SMALL, WR_COLOUR_LABEL, text, false);
 }
 WR_CAUGHT()
@@ -213,6 +214,7 @@ WR_CAUGHT()
 /* A label too long even in the small font is placed above its field. */
 extern "C" void wr_gui_label(const char *text)
 try {
+    if (!wr_gui_current()->pinning) wr_gui_row_label(text);
     float column = roundf(ImGui::GetWindowContentRegionMax().x * 0.41f);
     float room = column - ImGui::GetCursorPosX() - px(4);
     wr_gui_pin_row(text, wr_gui_text_width(WR_FONT_SMALL, text) > (double)room);
@@ -301,6 +303,7 @@ static void show_tip(const char *text)
 
 void wr_gui_tip_of(ImGuiID id, const char *text)
 try {
+    wr_gui_row_tip(text);
     const ImGuiContext &g = *ImGui::GetCurrentContext();
     const bool grey = g.LastItemData.InFlags & ImGuiItemFlags_Disabled;
     if (grey && wr_gui_current()->grey_why)
@@ -373,6 +376,7 @@ extern "C" bool wr_gui_choice(const char *id, double width, const char *const *i
 try {
     wr_gui_pin_step();
     bool changed = false;
+    wr_gui_row_choices(items, count);
     ImGui::PushID(id);
     ImGui::SetNextItemWidth(width > 0 ? (float)width : -1.0f);
     ImDrawList *list = ImGui::GetWindowDrawList();
@@ -444,6 +448,8 @@ try {
     snprintf(box, sizeof box, "##box%s", id ? id : label);
     bool changed = ImGui::Checkbox(wraps ? box : shown, value);
     wr_gui_stop(WR_STOP_PRESS, false);
+    wr_gui_name_row(label);
+    wr_gui_name_item(label);
     wr_gui_edge(ImGui::GetWindowDrawList(), at, ImVec2(at.x + side, at.y + side));
     if (!wraps) {
         wr_gui_fits_window(label);
@@ -468,10 +474,12 @@ try {
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(14), px(5)));
     ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, px(3));
     char said[320];
+    const bool named = !wr_gui_current()->next_id; /* else the label is a value */
     const char *shown = wr_gui_labelled(label, said);
     wr_gui_row_room(ImGui::CalcTextSize(shown, nullptr, true).x + px(28));
     bool pressed = ImGui::Button(shown);
     wr_gui_stop(WR_STOP_PRESS, false);
+    if (named) wr_gui_row_button(label);
     wr_gui_fits_window(label);
     ImGui::PopStyleVar(2);
     if (primary) ImGui::PopStyleColor(2);
@@ -509,6 +517,7 @@ extern "C" bool wr_gui_chip(const char *icon, const char *label)
 try {
     wr_gui_pin_step();
     char text[400], said[320];
+    const bool named = !wr_gui_current()->next_id;
     snprintf(text, sizeof text, "%s%s%s", icon ? wr_gui_icon(icon) : "",
              icon && label[0] ? "  " : "", wr_gui_labelled(label, said));
     ImGui::PushStyleColor(ImGuiCol_Button, wr_gui_colour_u32(WR_COLOUR_CHIP));
@@ -518,6 +527,7 @@ try {
     wr_gui_row_room(ImGui::CalcTextSize(text, nullptr, true).x + px(16));
     bool pressed = ImGui::Button(text);
     wr_gui_stop(WR_STOP_PRESS, false);
+    if (named) wr_gui_row_button(label);
     wr_gui_fits_window(label);
     ImGui::PopStyleVar(2);
     ImGui::PopStyleColor(2);
@@ -1026,7 +1036,7 @@ extern "C" void wr_gui_centre_end(double side)
 
 extern "C" bool wr_gui_will_see(double side)
 {
-    return ImGui::IsRectVisible(ImVec2((float)side, (float)side));
+    return !wr_gui_lists_rows() && ImGui::IsRectVisible(ImVec2((float)side, (float)side));
 }
 
 extern "C" bool wr_gui_hint_field(const char *id, const char *hint, double width, char *text,
@@ -1116,7 +1126,7 @@ try {
     const ImGuiID id = ImGui::GetID(name);
     bool open = gui->folds ? wr_folds_is_open(gui->folds, name, open_at_first)
                            : own->GetBool(id, open_at_first);
-    const bool all = wr_gui_reports_all || wr_gui_folds_open;
+    const bool all = wr_gui_row_section(label) || wr_gui_reports_all || wr_gui_folds_open;
     const bool clicked = fold_heading(label, open || all);
     if (!fold_changed(gui, clicked, &open)) return open || all;
     if (gui->folds) wr_folds_set(gui->folds, name, open_at_first, open);

@@ -17,7 +17,7 @@
 #define KEPT 200 /* messages */
 #define NOTE_SECONDS 6.0
 
-static void add(WrApp *app, const char *text, bool bad)
+static WrMessage *add(WrApp *app, const char *text, bool bad)
 {
     WrMessages *m = app->messages;
     if (m->list.count == KEPT) {
@@ -25,9 +25,27 @@ static void add(WrApp *app, const char *text, bool bad)
         m->list.count--;
         memmove(m->list.data, m->list.data + 1, (size_t)m->list.count * sizeof *m->list.data);
     }
-    wr_array_push(&m->list, ((WrMessage){ wr_strdup(text), bad, wr_clock_seconds() }));
+    wr_array_push(
+        &m->list,
+        ((WrMessage){ .text = wr_strdup(text), .bad = bad, .since = wr_clock_seconds() }));
     if (bad && m->unread < KEPT) m->unread++;
     wr_app_redraw(app);
+    return &m->list.data[m->list.count - 1];
+}
+
+/* In plain words, with the buttons that help. */
+static void add_error(WrApp *app, const WrError *err, bool bad)
+{
+    char said[WR_WORDS_MESSAGE];
+    WrRemedy remedy = { 0 };
+    const char *message = wr_error_message(err);
+    wr_plain_error(message, said, sizeof said);
+    const bool line = wr_remedy_find(err->text, &remedy);
+    const bool plain = strchr(said, '`') == NULL;
+    if (line && !plain && wr_remedy_find(said, &remedy)) said[remedy.length] = '\0';
+    WrMessage *added = add(app, said, bad);
+    if (line) added->remedy = remedy;
+    wr_plain_error_actions(message, added->actions);
 }
 
 void wr_app_say(WrApp *app, const char *format, ...)
@@ -51,14 +69,12 @@ void wr_app_say_each_line(WrApp *app, const char *text)
 
 void wr_app_say_why(WrApp *app, const WrError *err)
 {
-    char said[WR_WORDS_MESSAGE];
-    add(app, wr_words_message(wr_error_message(err), said, sizeof said), false);
+    add_error(app, err, false);
 }
 
 void wr_app_fail(WrApp *app, const WrError *err)
 {
-    char said[WR_WORDS_MESSAGE];
-    add(app, wr_words_message(wr_error_message(err), said, sizeof said), true);
+    add_error(app, err, true);
 }
 
 void wr_app_take_notes(WrApp *app)

@@ -1,6 +1,8 @@
 /* messages.h - messages of the window: notes and errors. */
 #pragma once
 #include "ui/app/state/app_state.h"
+#include "ui/app/state/plain_error.h"
+#include "ui/app/state/remedy.h"
 
 #include "base/array.h"
 
@@ -13,6 +15,8 @@ typedef struct WrMessage {
     char *text; /* owned */
     bool bad;   /* an error: stays until read */
     double since;
+    WrRemedy remedy;                       /* label NULL: none */
+    const char *actions[WR_PLAIN_ACTIONS]; /* names of actions that help; NULL: none */
 } WrMessage;
 
 typedef struct WrMessages {

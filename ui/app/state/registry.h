@@ -15,6 +15,8 @@ typedef struct WrDialogRow {
     void (*draw)(WrApp *app);
     /* effect visible on canvas and patch, which may be panned and turned meanwhile */
     bool shows_effect;
+    const char *
+        action; /* opens it; the search then finds its rows. NULL: it needs a situation of its own */
 } WrDialogRow;
 
 /* A tab of the side panel. One of draw and fill draws it. */

@@ -8,6 +8,7 @@
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/settings.h"
 #include "ui/toolkit/gui.h"
+#include "ui/toolkit/gui_rows.h"
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
 #include "ui/input/stroke_smoothing.h"
@@ -79,25 +80,27 @@ static void percent(const char *id, double width, const char *tip, double *part)
 
 void wr_option_opacity(WrApp *app, double width)
 {
-    percent("opacity", width, "Of the whole stroke: it never does more than this part",
+    percent("opacity", width, "Opacity of the whole stroke: overlaps never exceed it",
             &app->settings->brush.opacity);
 }
 
 static void flow(WrApp *app, double width)
 {
-    percent("flow", width, "Of each dab: low flow builds up slowly", &app->settings->brush.flow);
+    percent("flow", width, "Opacity of each dab: low flow builds up slowly",
+            &app->settings->brush.flow);
 }
 
 void wr_option_to_height(WrApp *app, double width)
 {
-    static const WrNumber spec = { .low = 0,
-                                   .high = 1,
-                                   .hard_low = -1e30,
-                                   .hard_high = 1e30,
-                                   .reset = 0,
-                                   .decimals = 3,
-                                   .tip = "The height that the brush goes by. Ctrl and a click on "
-                                          "the table picks it." };
+    static const WrNumber spec = {
+        .low = 0,
+        .high = 1,
+        .hard_low = -1e30,
+        .hard_high = 1e30,
+        .reset = 0,
+        .decimals = 3,
+        .tip = "Target height of the brush. Ctrl and a click on the table pick it."
+    };
     wr_gui_number("to", width, &spec, &app->settings->brush.to);
 }
 
@@ -109,7 +112,8 @@ static void reach(WrApp *app, double width)
                                    .reset = 0,
                                    .decimals = 1,
                                    .unit = "px",
-                                   .tip = "How far it looks around; 0: an eighth of the radius" };
+                                   .tip =
+                                       "Radius of its filter; 0: an eighth of the brush's radius" };
     wr_gui_number("reach", width, &spec, &app->settings->brush.reach);
 }
 
@@ -180,10 +184,10 @@ static void steady(WrApp *app, double width)
                                    .decimals = 0,
                                    .unit = "px",
                                    .logarithmic = true,
-                                   .tip = "How far behind the pointer the brush may be" };
+                                   .tip = "Largest distance of the brush behind the pointer" };
     WrSettings *s = app->settings;
     wr_gui_choice("steady", width, names, WR_SMOOTHING_COUNT, &s->steady);
-    wr_gui_tip("A steadier hand: the brush follows the pointer on a smoother way, or hangs on a "
+    wr_gui_tip("Stabilizes strokes: the brush follows the pointer smoothly, or is pulled on a "
                "string behind it");
     if (s->steady == WR_SMOOTHING_OFF) return;
     wr_gui_same_line(6);
@@ -203,19 +207,41 @@ void wr_option_symmetry(WrApp *app, double width)
 
 /* ---- the row ---- */
 
+static bool is_labelled(const WrOption *item)
+{
+    return item->label[0] != '#';
+}
+
+/* For the search. */
+static const char *name_of(const WrOption *item)
+{
+    return is_labelled(item) ? item->label : item->label + 2;
+}
+
 static double width_of(const WrOption *item)
 {
     double w = wr_gui_px(item->units) + wr_gui_px(item->extra) + wr_gui_px(14);
-    if (item->label[0]) w += wr_gui_text_width(WR_FONT_TEXT, item->label) + wr_gui_px(8);
+    if (is_labelled(item)) w += wr_gui_text_width(WR_FONT_TEXT, item->label) + wr_gui_px(8);
     return w;
 }
 
 static void put(WrApp *app, const WrOption *item, bool in_row)
 {
+    const bool labelled = is_labelled(item);
     if (in_row) wr_gui_same_line(14);
-    if (in_row && item->label[0]) label(item->label);
-    if (!in_row) wr_gui_label(item->label);
+    if (in_row && labelled) label(item->label);
+    if (in_row || !labelled) wr_gui_name_row(name_of(item));
+    if (!in_row) wr_gui_label(labelled ? item->label : "");
     item->draw(app, wr_gui_px(in_row ? item->units : 140));
+    if (in_row || !labelled) wr_gui_name_item(name_of(item));
+}
+
+/* True if the search highlights one of the options in the popup. */
+static bool is_found(const WrOption *items, int first, int count)
+{
+    for (int i = first; i < count; i++)
+        if (items[i].here && wr_gui_light_waits(name_of(&items[i]))) return true;
+    return false;
 }
 
 /* Show as many as fit, in order; the rest in a popup. */
@@ -235,7 +261,9 @@ void wr_option_row(WrApp *app, const WrOption *items, int count)
     if (i >= count) return;
     wr_gui_same_line(14);
     wr_gui_centre(wr_gui_px(28));
-    if (wr_gui_icon_button("more", WR_ICON_TUNE, 28, false)) wr_gui_popup_open("more_options");
+    const bool found = is_found(items, i, count);
+    if (wr_gui_icon_button("more", WR_ICON_TUNE, 28, false) || found)
+        wr_gui_popup_open("more_options");
     wr_gui_centre_end(wr_gui_px(28));
     wr_gui_tip("The rest of the options");
     if (!wr_gui_popup_begin("more_options")) return;
@@ -271,16 +299,16 @@ void wr_option_brush_row(WrApp *app, const WrOption *first, int first_count)
          steadies = app->settings->steady != WR_SMOOTHING_OFF;
     bool forced = wr_tool_now(app)->mode != 0, round = app->settings->brush.preset == NULL;
     bool paints = wr_tool_now(app)->paints;
-    const WrOption items[] = { { "", 104, 12, wr_option_mode, !forced },
+    const WrOption items[] = { { "##Brush mode", 104, 12, wr_option_mode, !forced },
                                { "Size", 92, 0, size, true },
                                { "Hardness", 74, 0, wr_option_hardness, true },
                                { "Strength", 74, 0, wr_option_strength, strong },
                                { "Height", 74, 0, wr_option_to_height, (uses & WR_USES_TO) != 0 },
                                { "Opacity", 74, 0, wr_option_opacity, !strong },
                                { "Reach", 74, 0, reach, (uses & WR_USES_REACH) != 0 },
-                               { "", 28, 0, wr_option_symmetry, true },
+                               { "##Symmetry", 28, 0, wr_option_symmetry, true },
                                { "Pressure", 86, 0, wr_option_pressure, round && paints },
-                               { "Hand", 96, steadies ? 74 : 0, steady, paints },
+                               { "Stabilizer", 96, steadies ? 74 : 0, steady, paints },
                                { "Flow", 70, 0, flow, true },
                                { "Opacity", 74, 0, wr_option_opacity, strong } };
     int count = (int)(sizeof items / sizeof *items);

@@ -7,7 +7,7 @@
 typedef struct WrBrushModeInfo WrBrushModeInfo;
 
 typedef struct WrOption {
-    const char *label; /* "" for none */
+    const char *label; /* "##NAME": not shown, for the search; "##": none */
     double units;      /* width for `draw` */
     double extra;      /* additional width */
     void (*draw)(WrApp *app, double width);

@@ -61,7 +61,7 @@ static void tolerance(WrApp *app, double width)
                                    .reset = 0.01,
                                    .decimals = -1,
                                    .logarithmic = true,
-                                   .tip = "How far heights may be from the one that is clicked" };
+                                   .tip = "Largest difference from the clicked height" };
     wr_gui_number("tolerance", width, &spec, &app->settings->drawing.tolerance);
 }
 
@@ -69,19 +69,19 @@ static void diagonal(WrApp *app, double width)
 {
     (void)width;
     wr_gui_check("over corners", &app->settings->drawing.diagonal);
-    wr_gui_tip("Texels that only touch at a corner count as connected");
+    wr_gui_tip("Fills across corners, too");
 }
 
 static void options(WrApp *app)
 {
     unsigned uses = wr_current_brush_mode(app)->uses;
-    const WrOption items[] = { { "", 104, 12, wr_option_fill_mode, true },
+    const WrOption items[] = { { "##Fill mode", 104, 12, wr_option_fill_mode, true },
                                { "Strength", 84, 0, wr_option_strength,
                                  (uses & WR_USES_STRENGTH) != 0 },
                                { "Height", 84, 0, wr_option_to_height, (uses & WR_USES_TO) != 0 },
                                { "Opacity", 84, 0, wr_option_opacity, true },
                                { "Tolerance", 84, 0, tolerance, true },
-                               { "", 0, 120, diagonal, true } };
+                               { "##", 0, 120, diagonal, true } };
     wr_option_row(app, items, (int)(sizeof items / sizeof *items));
 }
 

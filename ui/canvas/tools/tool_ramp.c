@@ -182,7 +182,7 @@ static void ramp_fold(WrApp *app, double width)
 {
     (void)width;
     wr_gui_check("back down", &app->settings->drawing.fold);
-    wr_gui_tip("Leads back to the low height, so that nothing jumps at the edges");
+    wr_gui_tip("Returns to the low height, so that the ramp tiles");
 }
 
 static void ramp_blend(WrApp *app, double width)
@@ -190,15 +190,15 @@ static void ramp_blend(WrApp *app, double width)
     const char *names[WR_RAMP_BLENDS];
     for (int i = 0; i < WR_RAMP_BLENDS; i++) names[i] = wr_blends[wr_ramp_blends[i]].name;
     wr_gui_choice("blend", width, names, WR_RAMP_BLENDS, &app->settings->drawing.blend);
-    wr_gui_tip("How it joins the heights that are there");
+    wr_gui_tip("How it blends with the present heights");
 }
 
 static void options(WrApp *app)
 {
-    const WrOption items[] = { { "", 0, 190, ramp_kind, true },
+    const WrOption items[] = { { "##Kind of ramp", 0, 190, ramp_kind, true },
                                { "Low", 84, 0, ramp_low, true },
                                { "High", 84, 0, ramp_high, true },
-                               { "", 0, 110, ramp_fold, true },
+                               { "##", 0, 110, ramp_fold, true },
                                { "Blend", 90, 0, ramp_blend, true } };
     wr_option_row(app, items, (int)(sizeof items / sizeof *items));
 }

@@ -207,7 +207,7 @@ static void corner(WrApp *app, double width)
 void wr_shape_options(WrApp *app)
 {
     bool rect = strcmp(wr_tool_now(app)->action, WR_ACT(shape_rect)) == 0;
-    const WrOption first[] = { { "", 0, 118, paint_what, true },
+    const WrOption first[] = { { "##Outline or filled", 0, 118, paint_what, true },
                                { "Corner", 74, 0, corner, rect } };
     wr_option_brush_row(app, first, 2);
 }

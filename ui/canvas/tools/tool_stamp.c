@@ -447,13 +447,13 @@ static void stamp_angle(WrApp *app, double width)
 static void options(WrApp *app)
 {
     unsigned uses = wr_current_brush_mode(app)->uses;
-    const WrOption items[] = { { "", 104, 12, wr_option_mode, true },
+    const WrOption items[] = { { "##Stamp mode", 104, 12, wr_option_mode, true },
                                { "Size", 92, 0, stamp_size, true },
                                { "Angle", 74, 0, stamp_angle, true },
                                { "Strength", 84, 0, wr_option_strength,
                                  (uses & WR_USES_STRENGTH) != 0 },
                                { "Height", 84, 0, wr_option_to_height, (uses & WR_USES_TO) != 0 },
-                               { "", 28, 0, wr_option_symmetry, true },
+                               { "##Symmetry", 28, 0, wr_option_symmetry, true },
                                { "Hardness", 74, 0, wr_option_hardness, app->stamp->tip == NULL },
                                { "Opacity", 84, 0, wr_option_opacity, true } };
     stamp_picker(app);

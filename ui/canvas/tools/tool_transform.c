@@ -436,12 +436,12 @@ static void percent(WrApp *app, const char *id, double width, const char *tip, d
 
 static void scale_u(WrApp *app, double width)
 {
-    percent(app, "w", width, "How wide; below 0 mirrors", &app->transform->now.scale[0]);
+    percent(app, "w", width, "Width; a negative one mirrors", &app->transform->now.scale[0]);
 }
 
 static void scale_v(WrApp *app, double width)
 {
-    percent(app, "h", width, "How tall; below 0 mirrors", &app->transform->now.scale[1]);
+    percent(app, "h", width, "Height; a negative one mirrors", &app->transform->now.scale[1]);
 }
 
 static void turned(WrApp *app, double width)
@@ -462,7 +462,7 @@ static void switches(WrApp *app, double width)
     (void)width;
     bool leave = hand->leave, all = hand->all;
     wr_gui_check("copy", &hand->leave);
-    wr_gui_tip("The selected heights also stay where they are");
+    wr_gui_tip("Transforms a copy of the selected heights");
     wr_gui_same_line(10);
     wr_gui_check("all layers", &hand->all);
     if (all != hand->all) { /* another frame with the same values */
@@ -492,8 +492,8 @@ static void options(WrApp *app)
 {
     const WrOption items[] = { { "X", 84, 0, move_x, true },    { "Y", 84, 0, move_y, true },
                                { "W", 90, 0, scale_u, true },   { "H", 90, 0, scale_v, true },
-                               { "Turn", 84, 0, turned, true }, { "", 0, 176, switches, true },
-                               { "", 0, 180, buttons, true } };
+                               { "Turn", 84, 0, turned, true }, { "##", 0, 176, switches, true },
+                               { "##", 0, 180, buttons, true } };
     wr_option_row(app, items, (int)(sizeof items / sizeof *items));
 }
 

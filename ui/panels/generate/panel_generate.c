@@ -236,15 +236,15 @@ static bool joining(WrGenerateState *hand)
                         .hard_high = 1e30,
                         .reset = 0.1,
                         .decimals = 3,
-                        .tip = "How far from each other heights flow together" };
+                        .tip = "Distance within which heights blend smoothly" };
     WrNumber offset = { .low = -1,
                         .high = 1,
                         .hard_low = -1e30,
                         .hard_high = 1e30,
                         .decimals = 3,
-                        .tip = "Added to its heights first" };
+                        .tip = "Added to its heights before blending" };
     for (int i = 0; i < WR_BLEND_COUNT; i++) labels[i] = wr_blends[i].label;
-    if (!wr_gui_fold("HOW IT JOINS THE LAYER", true)) return false;
+    if (!wr_gui_fold("BLENDING", true)) return false;
     wr_gui_label("Blend");
     changed |= wr_gui_choice("blend", 0, labels, WR_BLEND_COUNT, &hand->blend);
     wr_gui_tip(wr_blends[hand->blend].help);

@@ -185,6 +185,37 @@ static void follow(WrApp *app, WrGuide *guide, const char *link)
     open_page(app, guide, page, block);
 }
 
+void wr_guide_headings(WrApp *app,
+                       void (*each)(void *ctx, const char *page, const char *title,
+                                    const char *heading),
+                       void *ctx)
+{
+    const WrGuide *guide = guide_of(app);
+    for (int i = 0; i < guide->pages.count; i++) {
+        const WrGuidePage *page = &guide->pages.data[i];
+        if (page->name[0] && page->title) each(ctx, page->name, page->title, NULL);
+        for (int k = 1; k < page->blocks.count; k++)
+            if (page->blocks.data[k].kind == WR_GUIDE_HEADING && page->name[0])
+                each(ctx, page->name, page->title, wr_guide_words(&page->blocks.data[k], 0));
+    }
+}
+
+void wr_guide_open(WrApp *app, const char *place)
+{
+    WrGuide *guide = guide_of(app);
+    const size_t name = strcspn(place, "#");
+    const int page = find_page(guide, place, name);
+    int block = -1;
+    if (page < 0) return;
+    for (int i = 0; i < guide->pages.data[page].blocks.count && block < 0; i++)
+        if (guide->pages.data[page].blocks.data[i].kind == WR_GUIDE_HEADING &&
+            strcmp(wr_guide_words(&guide->pages.data[page].blocks.data[i], 0), place + name + 1) ==
+                0)
+            block = i;
+    wr_dialog_open(app, WR_DIALOG_HELP);
+    open_page(app, guide, page, block);
+}
+
 /* ---- running ---- */
 
 #define PROPOSAL 85 /* units of its place below the page */

@@ -16,6 +16,14 @@ const char *wr_guide_proposed(const WrApp *app);
 /* Where the Run of a command of the page was drawn last, pixels of the window; false: it is not seen. */
 bool wr_guide_run_place(const WrApp *app, const char *line, int *x, int *y);
 
+/* Each page, with heading NULL, and each of its headings. The texts are valid until the guide is freed. */
+void wr_guide_headings(WrApp *app,
+                       void (*each)(void *ctx, const char *page, const char *title,
+                                    const char *heading),
+                       void *ctx);
+/* Open the guide at "PAGE#HEADING", or at a page "PAGE#". */
+void wr_guide_open(WrApp *app, const char *place);
+
 /* ---- commands of the guide's pages that run in the window ---- */
 
 /* Which lines of code are commands, and the sentence that describes the effect of a line. */
