@@ -235,12 +235,8 @@ static void draw_tab(void *ctx)
     }
     wr_gui_area_begin(tab->label, WR_AREA_PANEL, room, WR_COLOUR_PANEL);
     tab->draw(d->app);
+    if (tab->second) tab->second(d->app);
     wr_gui_area_end();
-}
-
-static void draw_layers(void *ctx)
-{
-    wr_panel_layers(((Drawing *)ctx)->app, (SDL_Rect){ 0, 0, wr_gui_px(400), TALL });
 }
 
 static void draw_options(void *ctx)
@@ -280,7 +276,6 @@ static void list_tabs(Drawing *d)
         if (strcmp(label, "Generate") == 0 || strcmp(label, "History") == 0) continue;
         list(d, draw_tab, label, (WrSearchEntry){ .tab = label, .part = 1 }, -1);
     }
-    list(d, draw_layers, "Layers", (WrSearchEntry){ .tab = "Layers" }, -1);
 }
 
 static void list_tools(Drawing *d)
@@ -691,18 +686,6 @@ int wr_search_index_find(const WrSearchIndex *index, const char *text, WrSearchH
 
 /* ---- opening ---- */
 
-static void open_tab(WrApp *app, const WrSearchEntry *entry)
-{
-    app->shelf->part = entry->part;
-    if (strcmp(entry->tab, "Layers") != 0) {
-        wr_tab_show(app, entry->tab);
-        return;
-    }
-    app->settings->panels = true;
-    app->accuracy->inspector.shown = false;
-    if (app->layout->lower.w <= 0) app->settings->tab = app->registry->tab_count;
-}
-
 void wr_search_index_open(WrApp *app, const WrSearchEntry *entry)
 {
     switch (entry->kind) {
@@ -724,7 +707,8 @@ void wr_search_index_open(WrApp *app, const WrSearchEntry *entry)
     case WR_SEARCH_OPTION:
     case WR_SEARCH_KINDS:
         if (entry->action) wr_action_run(app, entry->action);
-        if (entry->tab) open_tab(app, entry);
+        if (entry->tab) app->shelf->part = entry->part;
+        if (entry->tab) wr_tab_show(app, entry->tab);
         if (entry->row) wr_gui_light_row(app->gui, entry->section, entry->row);
     }
     wr_app_redraw(app);

@@ -1,6 +1,7 @@
 /* Calls to all components of the window through the registry. */
 #include "ui/app/state/registry.h"
 #include "ui/app/state/app_state.h"
+#include "ui/app/state/layout.h"
 #include "ui/app/state/settings.h"
 
 #include <string.h>
@@ -14,8 +15,11 @@ int wr_tab_find(const WrApp *app, const char *label)
 
 void wr_tab_show(WrApp *app, const char *label)
 {
+    const int tab = wr_tab_find(app, label);
+    const bool below = app->registry->tabs[tab].below;
     app->settings->panels = true;
-    app->settings->tab = wr_tab_find(app, label);
+    if (below) app->settings->inspector = strcmp(label, "Inspector") == 0;
+    if (!below || app->layout->lower.w <= 0) app->settings->tab = tab;
 }
 
 void wr_input_router_let_go(WrApp *app)
