@@ -28,6 +28,7 @@
 /* Names of actions; "-" is a separator; "recent", "scale", "theme", "tiling", "operations" and "filters" are
    generated below. */
 static const char *const file_menu[] = { WR_ACT(new),
+                                         WR_ACT(starters),
                                          WR_ACT(open),
                                          "recent",
                                          "-",
