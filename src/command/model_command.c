@@ -67,10 +67,9 @@ static const WrArgSpec model_args[] = { { .name = "NAME",
 
 const WrCommand wr_command_model = {
     .name = "model",
-    .kind = WR_CLASS_SCENE,
+    .kind = WR_CLASS_EDIT,
     .args = model_args,
     .run = run_model,
-    .of_object = true,
     .help = "a stock model as the object's surface",
     .details = "A mesh about 2 units across, with the table on all of its sides by box projection, "
                "replicated once, and turned so that its shape shows. It stands in the scene as "

@@ -18,7 +18,7 @@ const WrLightPreset wr_light_presets[WR_LIGHT_PRESETS] = {
       "Studio",
       "A soft box at the upper left, a cool rim light and a dim room",
       WR_ENVIRONMENT_MAP_STUDIO,
-      0.6,
+      0.5,
       { LAMP(-0.72, 0.66, 0.5, 1, 0.96, 0.9, 1, 4),
         LAMP(0.85, 0.3, -0.55, 0.8, 0.9, 1, 0.5, 0) } },
     { "raking",

@@ -18,7 +18,9 @@
 #include "command/command_table.h"
 #include "field/ops.h"
 #include "generate/generator.h"
+#include "scene/light_preset.h"
 #include "scene/material_preset.h"
+#include "scene/stock_model.h"
 #include "surface/surface.h"
 
 #include <SDL.h>
@@ -94,7 +96,17 @@ static int find_actions(const WrApp *app, Found found[FOUND_MAX])
     return count;
 }
 
-/* Surfaces and materials by name (torus, gold), as lines. */
+/* The line that sets a row of a table, under its subject and title. */
+static void offer_line(Found found[FOUND_MAX], int *count, const char *verb, const char *name,
+                       const char *subject, const char *title, const char *help, const char *query)
+{
+    Found one = { .help = help };
+    snprintf(one.name, sizeof one.name, LINE "%s%.30s", verb, name);
+    snprintf(one.label, sizeof one.label, "%.30s: %.40s", wr_words(subject), wr_words(title));
+    offer(found, count, &one, title, query);
+}
+
+/* Surfaces, materials, models and light presets by name (torus, gold), as lines. */
 static void find_lines(Found found[FOUND_MAX], int *count, const char *query)
 {
     for (int i = 0; i < WR_SURFACE_COUNT; i++) {
@@ -109,11 +121,17 @@ static void find_lines(Found found[FOUND_MAX], int *count, const char *query)
     }
     for (int i = 0; i < WR_MATERIAL_PRESETS; i++) {
         const WrMaterialPreset *preset = &wr_material_presets[i];
-        Found one = { .help = preset->help };
-        snprintf(one.name, sizeof one.name, LINE "material preset=%.40s", preset->name);
-        snprintf(one.label, sizeof one.label, "%.30s: %.40s", wr_words("Material"),
-                 wr_words(preset->title));
-        offer(found, count, &one, preset->title, query);
+        offer_line(found, count, "material preset=", preset->name, "Material", preset->title,
+                   preset->help, query);
+    }
+    for (int i = 0; i < WR_STOCK_MODELS; i++) {
+        const WrStockModel *model = &wr_stock_models[i];
+        offer_line(found, count, "model ", model->name, "Model", model->title, model->help, query);
+    }
+    for (int i = 0; i < WR_LIGHT_PRESETS; i++) {
+        const WrLightPreset *preset = &wr_light_presets[i];
+        offer_line(found, count, "light preset ", preset->name, "Light", preset->title,
+                   preset->help, query);
     }
 }
 
