@@ -5,6 +5,7 @@
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/gui_sdl_renderer.h"
 #include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
 
 #include "base/memory.h"
 #include "command/session.h"
@@ -15,6 +16,7 @@
 #include "scene/stock_model.h"
 
 #include <SDL.h>
+#include <stdio.h>
 #include <string.h>
 
 #define GROUND 0.02f /* background of the pictures, linear */
@@ -185,13 +187,24 @@ static void make(WrPictures *pictures, WrPictureSet set, int i, const WrPictureI
 
 /* ---- a grid ---- */
 
-static bool tile(SDL_Texture *texture, const WrPictureItem *item, double side, bool chosen)
+#define CAPTION_FROM                                                                               \
+    100 /* units: names are cut below smaller pictures, and stand in their tips alone */
+
+static bool tile(SDL_Texture *texture, const WrPictureItem *item, double side, bool chosen,
+                 bool caption)
 {
+    char tip[300];
+    snprintf(tip, sizeof tip, "%.60s: %.230s", wr_words(item->title), wr_words(item->help));
     wr_gui_group_begin();
     const bool pressed = wr_gui_tile("tile", texture, side, chosen, false) == 1;
-    wr_gui_tip(item->help);
-    wr_gui_space(-4);
-    wr_gui_text_cut(WR_FONT_SMALL, chosen ? WR_COLOUR_TEXT : WR_COLOUR_LABEL, item->title, side);
+    wr_gui_as_it_is(true);
+    wr_gui_tip(tip);
+    wr_gui_as_it_is(false);
+    if (caption) {
+        wr_gui_space(-4);
+        wr_gui_text_cut(WR_FONT_SMALL, chosen ? WR_COLOUR_TEXT : WR_COLOUR_LABEL, item->title,
+                        side);
+    }
     wr_gui_group_end();
     return pressed;
 }
@@ -209,7 +222,8 @@ int wr_picture_grid(WrApp *app, WrPictureSet set, int count, double units, int c
         if (i % columns) wr_gui_same_line(GAP);
         wr_gui_push_id(i);
         if (wr_gui_will_see(side)) make(pictures, set, i, &one);
-        if (tile(pictures->list[set][i].texture, &one, side, i == chosen)) pressed = i;
+        if (tile(pictures->list[set][i].texture, &one, side, i == chosen, units >= CAPTION_FROM))
+            pressed = i;
         wr_gui_pop_id();
         wr_text_fini(&one.lines);
         wr_text_fini(&one.path);
