@@ -8,6 +8,7 @@
 #include "document/document.h"
 #include "document/document_file.h"
 #include "image/image.h"
+#include "scene/light_preset.h"
 #include "scene/param.h"
 #include "scene/scene.h"
 #include "system/path.h"
@@ -49,13 +50,17 @@ static bool put_light(WrScene *scene, WrLight light, int index, WrError *err)
     return true;
 }
 
+enum { LIGHT_CLEAR = WR_LIGHT_KINDS, LIGHT_PRESET, LIGHT_FORMS };
+
 static bool run_light(WrSession *session, WrCall *call, WrError *err)
 {
-    const bool clear = call->form >= WR_LIGHT_KINDS;
+    const bool clear = call->form == LIGHT_CLEAR;
     bool good = true;
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     if (clear) {
         scene->light_count = 0;
+    } else if (call->form == LIGHT_PRESET) {
+        good = wr_light_preset_apply(&wr_light_presets[wr_call_choice(call, "NAME")], scene, err);
     } else {
         WrLight light = { .kind = (WrLightKind)call->form };
         wr_scene_take(call, wr_light_kinds[light.kind].name, &light);
@@ -74,12 +79,29 @@ static bool run_light(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
-/* One form for each kind of light, and one for none. */
+static const char *light_preset_name(int i)
+{
+    return i < WR_LIGHT_PRESETS ? wr_light_presets[i].name : NULL;
+}
+
+/* One form for each kind of light, one for none, and one for presets. */
 static bool form_light(int i, WrForm *out)
 {
-    if (i > WR_LIGHT_KINDS) return false;
-    if (i == WR_LIGHT_KINDS) {
+    if (i >= LIGHT_FORMS) return false;
+    if (i == LIGHT_CLEAR) {
         *out = (WrForm){ .name = "clear", .help = "no light at all" };
+        return true;
+    }
+    if (i == LIGHT_PRESET) {
+        *out =
+            (WrForm){ .name = "preset",
+                      .help = "lamps and surroundings together, in place of those that are there",
+                      .args = { { .name = "NAME",
+                                  .type = WR_ARG_CHOICE,
+                                  .positional = true,
+                                  .required = true,
+                                  .choice = light_preset_name,
+                                  .help = "of the preset" } } };
         return true;
     }
     *out = (WrForm){ .name = wr_light_kinds[i].name, .help = wr_light_kinds[i].help };

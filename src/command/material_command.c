@@ -21,8 +21,12 @@ static bool run_material(WrSession *session, WrCall *call, WrError *err)
     (void)err;
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     WrMaterial *m = &scene->material;
-    if (wr_call_given(call, "preset"))
+    if (wr_call_given(call, "preset")) {
+        const bool shadow = m->shadow,
+                   occlusion = m->occlusion; /* of the relief, not the material */
         *m = wr_material_presets[wr_call_choice(call, "preset")].material;
+        m->shadow = shadow, m->occlusion = occlusion;
+    }
     wr_scene_take(call, NULL, scene);
     if (wr_call_given(call, "model")) m->model = wr_call_choice(call, "model");
     if (wr_call_given(call, "energy")) m->energy = (WrEnergy)wr_call_choice(call, "energy");

@@ -1,6 +1,8 @@
 /* Colours are linear. For metals they are the reflectance at normal incidence, from measured n and k
-   (rounded as in common tables for renderers); for all others a plausible albedo. Roughness is a
-   plausible value. */
+   (rounded as in common tables for renderers); for all others, and for bronze, a plausible albedo; steel (iron) and
+   rubber are those of Filament's sheet of material properties.
+   Indices of refraction are published ones: ice 1.31 (Warren, Brandt 2008), beeswax 1.44, rubber 1.52
+   (CRC Handbook). Roughness is a plausible value. */
 #include "scene/material_preset.h"
 
 #include "shade/reflection_models.h"
@@ -25,6 +27,17 @@
                   .model = WR_REFLECT_GGX,                                                         \
                   .roughness = rough,                                                              \
                   .metalness = metal,                                                              \
+                  .ior = index }
+/* Stands in for light that goes under the surface, for which there is no model: more light from everywhere. */
+#define SOFT(r, g, b, rough, index)                                                                \
+    .material = { .ambient = 0.2,                                                                  \
+                  .diffuse = 0.9,                                                                  \
+                  .specular = 1,                                                                   \
+                  .shininess = 40,                                                                 \
+                  .colour = { r, g, b },                                                           \
+                  .gate = true,                                                                    \
+                  .model = WR_REFLECT_GGX,                                                         \
+                  .roughness = rough,                                                              \
                   .ior = index }
 
 const WrMaterialPreset wr_material_presets[WR_MATERIAL_PRESETS] = {
@@ -55,4 +68,14 @@ const WrMaterialPreset wr_material_presets[WR_MATERIAL_PRESETS] = {
       GGX(1, 0.77, 0.34, 0.3, 1, 1.5) },
     { "copper", "Copper", "Worn, so that its highlight is broad",
       GGX(0.96, 0.64, 0.54, 0.4, 1, 1.5) },
+    { "plaster", "Plaster", "White and matt, without a highlight", MATT(0.78, 0.76, 0.72, 0.55) },
+    { "steel", "Steel", "Ground: a grey highlight, rather sharp",
+      GGX(0.527, 0.509, 0.491, 0.3, 1, 1.5) },
+    { "bronze", "Bronze", "Cast and waxed, brown to yellow", GGX(0.71, 0.47, 0.24, 0.34, 1, 1.5) },
+    { "rubber", "Rubber", "Black, with a weak and broad highlight",
+      GGX(0.036, 0.036, 0.036, 0.58, 0, 1.52) },
+    { "wax", "Wax", "Yellow, its dark side bright; light does not go under it here",
+      SOFT(0.78, 0.60, 0.33, 0.42, 1.44) },
+    { "ice", "Ice", "Pale blue and smooth; it is not seen through here",
+      SOFT(0.55, 0.74, 0.86, 0.16, 1.31) },
 };

@@ -10,5 +10,5 @@ typedef struct WrMaterialPreset {
     WrMaterial material;
 } WrMaterialPreset;
 
-#define WR_MATERIAL_PRESETS 12
+#define WR_MATERIAL_PRESETS 18
 extern const WrMaterialPreset wr_material_presets[WR_MATERIAL_PRESETS];

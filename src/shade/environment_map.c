@@ -405,6 +405,38 @@ static void raking(WrVec3 d, double rgb[3])
     add_light(rgb, panel(d, (WrVec3){ 1, 0.3, -0.3 }, 0.3, 0.3), 0.28, 0.34, 0.45);
 }
 
+/* The CIE overcast sky, three times as bright above as at the horizon, over grey ground. */
+static void overcast(WrVec3 d, double rgb[3])
+{
+    const double above = step(-0.03, 0.03, d.y), sky = 1.15 * (1 + 2 * fmax(d.y, 0)) / 3;
+    rgb[0] = 0.97 * above * sky, rgb[1] = above * sky, rgb[2] = 1.04 * above * sky;
+    add_light(rgb, 1 - above, 0.2, 0.195, 0.185);
+}
+
+/* A warm room with two panes of a tall window at the left and their light on the wall at the right. */
+static void window(WrVec3 d, double rgb[3])
+{
+    const double up = step(-0.6, 1, d.y);
+    rgb[0] = 0.09 + 0.06 * up, rgb[1] = 0.078 + 0.054 * up, rgb[2] = 0.066 + 0.048 * up;
+    add_light(rgb, panel(d, (WrVec3){ -1, 0.28, 0.72 }, 0.2, 0.5), 5.2, 5.8, 6.4);
+    add_light(rgb, panel(d, (WrVec3){ -1, 0.28, 0.12 }, 0.24, 0.56), 5.2, 5.8, 6.4);
+    add_light(rgb, panel(d, (WrVec3){ 1, -0.1, 0.2 }, 0.8, 0.7), 0.2, 0.18, 0.15);
+}
+
+/* A sun just above the horizon at the left: a warm glow about it, blue above, dark ground. */
+static void sunset(WrVec3 d, double rgb[3])
+{
+    const WrVec3 sun = v3_unit((WrVec3){ -0.85, 0.3, 0.5 }, (WrVec3){ 0, 1, 0 });
+    const double c = v3_dot(d, sun), low = wr_exp2(-5 * fabs(d.y)), ground = step(0.02, -0.02, d.y);
+    const double near = wr_exp2(-2.2 * (1 - c));
+    rgb[0] = 0.15 + low * (0.16 + 0.8 * near), rgb[1] = 0.2 + low * (0.13 + 0.36 * near);
+    rgb[2] = 0.38 + low * (0.14 + 0.06 * near);
+    add_light(rgb, wr_exp2(-40 * (1 - c)), 3.2, 1.7, 0.7);
+    const double earth[3] = { 0.1, 0.075, 0.06 };
+    for (int i = 0; i < 3; i++) rgb[i] += ground * (earth[i] - rgb[i]);
+    add_light(rgb, (1 - ground) * step(0.9982, 0.9990, c), 130, 70, 28); /* 3 degrees */
+}
+
 /* Linear light from the unit direction d. */
 typedef void Light(WrVec3 d, double rgb[3]);
 #define LIGHT(KIND, word, label, light) [WR_ENVIRONMENT_MAP_##KIND] = light,

@@ -21,7 +21,10 @@ typedef struct WrImage WrImage;
 #define WR_ENVIRONMENT_SETS(X)                                                                     \
     X(STUDIO, "studio", "Studio", studio)                                                          \
     X(SKY, "sky", "Sky", sky)                                                                      \
-    X(RAKING, "raking", "Raking", raking)
+    X(RAKING, "raking", "Raking", raking)                                                          \
+    X(OVERCAST, "overcast", "Overcast", overcast)                                                  \
+    X(WINDOW, "window", "Window", window)                                                          \
+    X(SUNSET, "sunset", "Sunset", sunset)
 
 typedef enum WrEnvironmentMapKind {
     WR_ENVIRONMENT_MAP_OFF,

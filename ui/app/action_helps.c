@@ -9,6 +9,8 @@
 WR_ROWS(wr_action_helps);
 const char *const wr_action_helps[] = {
     ROW(new, "Begin another document: size and shape of its table, its surface, its first heights"),
+    ROW(starters,
+        "Begin with a finished document of layers: bricks, leather, wood, coin and others"),
     ROW(open, "Open a document, a script, or a picture as heights"),
     ROW(save, "Write the document to its file"),
     ROW(save_as, "Write the document under another name, and go on with that one"),
@@ -181,7 +183,8 @@ const char *const wr_action_helps[] = {
     ROW(look_grey, "Show heights as greys: light is high"),
     ROW(look_signed, "Show heights in two colours that part at zero"),
     ROW(look_contours, "Show lines of equal height, the one at zero orange"),
-    ROW(look_relief, "Show the table lit from a side; drag the ball to move the light"),
+    ROW(look_relief,
+        "Show the table lit from a side, or as greys again; drag the ball to move the light"),
     ROW(look_normals, "Show the directions of the table as a normal map's colours"),
     ROW(look_occlusion, "Show the visible part of the sky at each texel"),
     ROW(look_curvature, "Show where the table bends: grooves and ridges"),

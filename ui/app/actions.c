@@ -77,6 +77,7 @@ static bool has_history(const WrApp *app)
     {                                                                                              \
         wr_dialog_open(app, dialog);                                                               \
     }
+DIALOG(starters, WR_DIALOG_STARTERS)
 DIALOG(preferences, WR_DIALOG_PREFERENCES)
 DIALOG(fill, WR_DIALOG_FILL)
 DIALOG(grid, WR_DIALOG_GRID)
@@ -274,6 +275,7 @@ static void save(WrApp *app)
 WR_ROWS(wr_actions);
 const WrAction wr_actions[] = {
     EDIT(new, "New", wr_app_new_document, NULL, NULL),
+    EDIT(starters, "New from a starter...", starters, NULL, NULL),
     EDIT(open, "Open...", wr_app_open, NULL, NULL),
     EDIT(save, "Save", save, NULL, NULL),
     EDIT(save_as, "Save as...", wr_app_save_as, NULL, NULL),

@@ -43,7 +43,8 @@ bool wr_is_contours(const WrApp *app)
 
 void wr_act_display_relief(WrApp *app)
 {
-    app->settings->look.shown = WR_CANVAS_LIT;
+    WrCanvasShown *shown = &app->settings->look.shown;
+    *shown = *shown == WR_CANVAS_LIT ? WR_CANVAS_HEIGHTS : WR_CANVAS_LIT;
 }
 
 bool wr_is_relief(const WrApp *app)

@@ -43,7 +43,7 @@
 #include "ui/panels/panel_history.h"
 #include "ui/panels/panel_tablet.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/panel_presets.h"
+#include "ui/panels/picture_grid.h"
 #include "ui/panels/panel_sheet.h"
 #include "ui/patch/patch.h"
 #include "ui/patch/patch_paint.h"
@@ -174,7 +174,8 @@ void wr_app_end(WrApp *app)
     wr_preset_browser_free(app);
     wr_stamp_forget(app);
     wr_sheet_free(app);
-    wr_presets_free(app);
+    wr_pictures_free(app);
+    wr_starters_free(app);
     wr_gallery_free(app);
     wr_font_choice_free(app);
     wr_generate_free(app);

@@ -1,6 +1,7 @@
 /* Canvas view: the table's picture and overlays. */
 #include "ui/app/canvas_view.h"
 #include "ui/canvas/canvas.h"
+#include "ui/app/state/action.h"
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/layout.h"
 #include "ui/app/state/session_view.h"
@@ -201,6 +202,17 @@ static void light(WrApp *app)
     wr_gui_overlay_end();
 }
 
+/* Button beside the range: heights as a lit relief, or as greys. */
+static void relief_switch(WrApp *app)
+{
+    const bool on = app->settings->look.shown == WR_CANVAS_LIT;
+    wr_gui_same_line(6);
+    wr_gui_next_id("relief");
+    if (wr_gui_chip(on ? WR_ICON_CHECK : WR_ICON_ROUND, "Relief"))
+        wr_action_run(app, WR_ACT(look_relief));
+    wr_gui_tip(wr_action_help(app, wr_action_find(app, WR_ACT(look_relief))));
+}
+
 static void canvas_chip(WrApp *app)
 {
     const SDL_Rect *room = &app->layout->canvas;
@@ -214,8 +226,10 @@ static void canvas_chip(WrApp *app)
     if (wr_gui_chip(WR_ICON_DOWN, text)) wr_gui_popup_open("range");
     wr_gui_tip("The values shown, and which of them are black and white");
     /* Beside the range button, if there is room for the square at the right end. */
+    const double beside = room->w - wr_gui_text_width(WR_FONT_TEXT, text);
     bool ranged = !app->map_shown || !wr_canvas_maps[look->shown].two;
-    if (ranged && room->w > wr_gui_text_width(WR_FONT_TEXT, text) + wr_gui_px(180)) {
+    if (beside > wr_gui_px(190)) relief_switch(app);
+    if (ranged && beside > wr_gui_px(270)) {
         wr_gui_same_line(6);
         ramp(app, "narrow", wr_gui_px(64), wr_gui_line_height(WR_FONT_TEXT));
         ramp_tip(app);

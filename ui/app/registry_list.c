@@ -24,7 +24,7 @@
 #include "ui/panels/panel_objects.h"
 #include "ui/panels/missing_files.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/panel_presets.h"
+#include "ui/panels/picture_grid.h"
 #include "ui/panels/panel_sheet.h"
 #include "ui/patch/patch.h"
 #include "ui/canvas/tools/preset_browser.h"
@@ -45,6 +45,7 @@ static const WrDialogRow dialogs[] = {
     [WR_ROW(WR_DIALOG_NONE)] = { NULL, false },
     [WR_ROW(WR_DIALOG_UNSAVED)] = { wr_dialog_unsaved, false },
     [WR_ROW(WR_DIALOG_NEW)] = { wr_dialog_new, false, WR_ACT(new) },
+    [WR_ROW(WR_DIALOG_STARTERS)] = { wr_dialog_starters, false, WR_ACT(starters) },
     [WR_ROW(WR_DIALOG_TABLE)] = { wr_dialog_table, false, WR_ACT(table_size) },
     [WR_ROW(WR_DIALOG_FILL)] = { wr_dialog_fill, false, WR_ACT(fill) },
     [WR_ROW(WR_DIALOG_GRID)] = { wr_dialog_grid, false, WR_ACT(grid) },
@@ -90,13 +91,13 @@ static const WrTab tabs[] = {
 };
 
 /* In the order of update and drawing. */
-static const WrPart *const parts[] = { &wr_part_hand,    &wr_part_tools,    &wr_part_strokes,
-                                       &wr_part_select,  &wr_part_clone,    &wr_part_canvas,
-                                       &wr_part_marks,   &wr_part_stamp,    &wr_part_generate,
-                                       &wr_part_patch,   &wr_part_accuracy, &wr_part_layers,
-                                       &wr_part_thumbs,  &wr_part_gallery,  &wr_part_font_choice,
-                                       &wr_part_presets, &wr_part_sheet,    &wr_part_adjust,
-                                       &wr_part_thrift,  &wr_part_search,   NULL };
+static const WrPart *const parts[] = { &wr_part_hand,     &wr_part_tools,    &wr_part_strokes,
+                                       &wr_part_select,   &wr_part_clone,    &wr_part_canvas,
+                                       &wr_part_marks,    &wr_part_stamp,    &wr_part_generate,
+                                       &wr_part_patch,    &wr_part_accuracy, &wr_part_layers,
+                                       &wr_part_thumbs,   &wr_part_gallery,  &wr_part_font_choice,
+                                       &wr_part_pictures, &wr_part_sheet,    &wr_part_adjust,
+                                       &wr_part_thrift,   &wr_part_search,   NULL };
 
 static WrActionFamily *const families[] = { wr_adjust_dialog_of_action, wr_filter_dialog_of_action,
                                             wr_generate_tab_of_action, NULL };

@@ -5,6 +5,8 @@ set(desktop ${CMAKE_CURRENT_LIST_DIR})
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/samples DESTINATION ${CMAKE_INSTALL_DATADIR}/wrinkle
         PATTERN CMakeLists.txt EXCLUDE)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/models ${PROJECT_SOURCE_DIR}/starters
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/wrinkle PATTERN "*.py" EXCLUDE PATTERN "*.sh" EXCLUDE)
 # The guide, which the window shows, where its links to the samples lead on.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/ui/guide DESTINATION ${CMAKE_INSTALL_DATADIR}/wrinkle/ui
         PATTERN "*.sh" EXCLUDE)

@@ -11,6 +11,7 @@
 #include "ui/app/jobs/files.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/param_row.h"
+#include "ui/panels/picture_grid.h"
 
 #include "base/enum_rows.h"
 #include "base/text.h"
@@ -64,53 +65,16 @@ static bool one_light(WrApp *app, int i)
     return true;
 }
 
-#define PRESET_LIST(X)                                                                             \
-    X(RAKING, "Raking")                                                                            \
-    X(STUDIO, "Studio")                                                                            \
-    X(OVERCAST, "Overcast")                                                                        \
-    X(PAPER, "Blinn's")
-enum { PRESET_LIST(WR_WORD_ID) PRESETS };
-
-static void preset(WrApp *app, int which)
-{
-    static const char *const raking[] = { "light clear",
-                                          "light directional to=-0.9,0.35,0.28 strength=1.1" };
-    static const char *const studio[] = { "light clear", "light directional to=-0.5,0.6,0.75",
-                                          "light directional to=0.8,0.1,0.5 strength=0.3",
-                                          "light directional to=0.1,0.5,-1 strength=0.4" };
-    static const char *const overcast[] = { "light clear",
-                                            "light directional to=0,1,0.3 strength=0.55",
-                                            "light directional to=-0.8,0.4,0.6 strength=0.3",
-                                            "light directional to=0.8,0.4,0.6 strength=0.3" };
-    static const char *const paper[] = { "light clear",
-                                         "light directional to=-0.4,0.5,0.8 strength=1" };
-    WR_ROWS(sets);
-    static const struct {
-        const char *const *lines;
-        int count;
-    } sets[] = { [WR_ROW(RAKING)] = { raking, WR_LENGTH(raking) },
-                 [WR_ROW(STUDIO)] = { studio, WR_LENGTH(studio) },
-                 [WR_ROW(OVERCAST)] = { overcast, WR_LENGTH(overcast) },
-                 [WR_ROW(PAPER)] = { paper, WR_LENGTH(paper) } };
-    WR_ROWS_END(sets, PRESETS);
-    wr_app_settle(app);
-    for (int i = 0; i < sets[which].count; i++) wr_app_run_line(app, sets[which].lines[i]);
-}
-
 static void lights(WrApp *app)
 {
-    static const char *const presets[] = { "choose \xe2\x80\xa6", PRESET_LIST(WR_WORD) };
-    int chosen = 0;
     if (!wr_gui_fold("LIGHT", true)) return;
+    wr_light_grid(app);
     for (int i = 0; i < wr_app_scene(app)->light_count; i++) {
         wr_gui_push_id(i);
         bool changed = one_light(app, i);
         wr_gui_pop_id();
         if (changed) break;
     }
-    wr_gui_label("Presets");
-    if (wr_gui_choice("presets", 0, presets, 1 + PRESETS, &chosen) && chosen > 0)
-        preset(app, chosen - 1);
     wr_gui_label("");
     if (wr_gui_chip(WR_ICON_PLUS, "Add a light")) {
         WrText line = { 0 };

@@ -6,7 +6,7 @@
 #include "ui/app/state/scene_line.h"
 #include "ui/app/state/session_view.h"
 #include "ui/toolkit/gui.h"
-#include "ui/panels/panel_presets.h"
+#include "ui/panels/picture_grid.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/param_row.h"
 
@@ -84,7 +84,7 @@ static void material(WrApp *app)
 {
     const WrSceneParam *param;
     if (!wr_gui_fold("MATERIAL", true)) return;
-    wr_panel_presets(app);
+    wr_material_grid(app);
     wr_gui_label("From a file");
     if (wr_gui_chip(WR_ICON_FOLDER, "glTF...")) wr_action_run(app, WR_ACT(gltf));
     wr_gui_tip("Material and pictures of a .gltf or .glb file, for the object at hand");

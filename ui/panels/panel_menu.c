@@ -30,6 +30,7 @@
 /* Names of actions; "-" is a separator, ">LABEL" a menu of submenus[]; "recent", "scale", "operations" and "filters" are
    generated below. No menu is longer than about 14 rows. */
 static const char *const file_menu[] = { WR_ACT(new),
+                                         WR_ACT(starters),
                                          WR_ACT(open),
                                          "recent",
                                          "-",

@@ -12,6 +12,7 @@
 #include "ui/panels/panel_scene.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/param_row.h"
+#include "ui/panels/picture_grid.h"
 
 #include "base/file.h"
 #include "base/memory.h"
@@ -324,6 +325,7 @@ static void surface(WrApp *app)
         wr_surface_run(app, &shape, NULL);
     }
     wr_gui_tip(wr_surfaces[kind]->help);
+    wr_model_grid(app);
     surface_params(app);
     if (wr_app_scene(app)->shape.kind == WR_SURFACE_revolution && wr_app_scene(app)->shape.data)
         wr_profile_row(app);

@@ -10,7 +10,7 @@
 #include "ui/app/state/registry.h"
 #include "ui/canvas/tools/thumbs.h"
 #include "ui/canvas/tools/tool.h"
-#include "ui/panels/panel_presets.h"
+#include "ui/panels/picture_grid.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 
@@ -84,7 +84,8 @@ static const char *icon_of(const WrApp *app, const WrSearchEntry *entry)
 static SDL_Texture *picture_of(WrApp *app, const WrSearchEntry *entry)
 {
     if (entry->kind == WR_SEARCH_BRUSH) return wr_thumb_of(app, entry->item, wr_gui_px(52));
-    if (entry->kind == WR_SEARCH_MATERIAL) return wr_presets_picture(app, entry->item);
+    if (entry->pictures)
+        return wr_picture_of(app, (WrPictureSet)(entry->pictures - 1), entry->item);
     return NULL;
 }
 

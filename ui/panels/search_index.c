@@ -1,6 +1,7 @@
 /* The index of the search. Rows come from drawing each place once off screen, so that a new row is found without a list;
    rows that are hidden at present come from the tables they are made of. */
 #include "ui/panels/search_index.h"
+#include "ui/panels/picture_grid.h"
 #include "ui/app/state/action.h"
 #include "ui/app/state/action_list.h"
 #include "ui/app/state/background_command.h"
@@ -32,8 +33,10 @@
 #include "command/session.h"
 #include "field/ops.h"
 #include "generate/generator.h"
+#include "scene/light_preset.h"
 #include "scene/material_preset.h"
 #include "scene/param.h"
+#include "scene/stock_model.h"
 #include "surface/surface.h"
 
 #include <SDL.h>
@@ -469,17 +472,36 @@ static void add_models(WrSearchIndex *index)
     }
 }
 
-static void add_materials(WrSearchIndex *index)
+/* A row of a table with pictures, set by a line. */
+static void add_picture(WrSearchIndex *index, WrSearchKind kind, WrPictureSet set, int i,
+                        const char *section, const char *title, const char *help, const char *name,
+                        const char *verb)
+{
+    const char *const where[3] = { "Scene", section };
+    char line[64];
+    snprintf(line, sizeof line, "%s%.40s", verb, name);
+    WrSearchEntry *entry = add(index, kind, title, where, help, name);
+    entry->item = i;
+    entry->pictures = set + 1;
+    finish(entry, line);
+}
+
+static void add_pictures(WrSearchIndex *index)
 {
     for (int i = 0; i < WR_MATERIAL_PRESETS; i++) {
         const WrMaterialPreset *preset = &wr_material_presets[i];
-        const char *const where[3] = { "Scene", "MATERIAL" };
-        char line[64];
-        snprintf(line, sizeof line, "material preset=%.40s", preset->name);
-        WrSearchEntry *entry =
-            add(index, WR_SEARCH_MATERIAL, preset->title, where, preset->help, preset->name);
-        entry->item = i;
-        finish(entry, line);
+        add_picture(index, WR_SEARCH_MATERIAL, WR_PICTURES_MATERIALS, i, "MATERIAL", preset->title,
+                    preset->help, preset->name, "material preset=");
+    }
+    for (int i = 0; i < WR_STOCK_MODELS; i++) {
+        const WrStockModel *model = &wr_stock_models[i];
+        add_picture(index, WR_SEARCH_MODEL, WR_PICTURES_MODELS, i, "SURFACE", model->title,
+                    model->help, model->name, "model ");
+    }
+    for (int i = 0; i < WR_LIGHT_PRESETS; i++) {
+        const WrLightPreset *preset = &wr_light_presets[i];
+        add_picture(index, WR_SEARCH_MATERIAL, WR_PICTURES_LIGHTS, i, "LIGHT", preset->title,
+                    preset->help, preset->name, "light preset ");
     }
 }
 
@@ -579,7 +601,7 @@ static void make_fixed(WrApp *app, WrSearchIndex *index)
     add_operations(index);
     add_generators(index);
     add_models(index);
-    add_materials(index);
+    add_pictures(index);
     list_tools(&d);
     list_dialogs(&d);
     add_brushes(app, index);

@@ -5,6 +5,7 @@
 /* Actions of the table in app/actions.c. */
 #define WR_ACTIONS(X)                                                                              \
     X(new, "Ctrl+N")                                                                               \
+    X(starters, "Ctrl+Alt+N")                                                                      \
     X(open, "Ctrl+O")                                                                              \
     X(save, "Ctrl+S")                                                                              \
     X(save_as, "Ctrl+Shift+S")                                                                     \

@@ -193,7 +193,7 @@ void wr_app_start_ahead(WrApp *app)
 {
     WrText path = { 0 };
     app->file->clean_revision = wr_session_saved_revision(app->session);
-    if (app->options->file_given || !wr_data_find("samples/bricks.wrinkle", &path)) {
+    if (app->options->file_given || !wr_data_find("starters/bricks.wrinkle", &path)) {
         wr_text_fini(&path);
         return;
     }

@@ -101,6 +101,16 @@ static void repeats(double surface, double cell, double down, WrText *out)
     wr_text_add(out, "\n");
 }
 
+#define OCCLUDED                                                                                   \
+    1024.0 /* texels on the longer side, up to which occlusion is made within a second */
+
+/* Studio light for documents that are made in the window. */
+static void studio_lines(double longer, WrText *out)
+{
+    wr_text_add(out, "light preset studio\ntone soft\ndials horizons=8 rays=4\n");
+    if (longer <= OCCLUDED) wr_text_add(out, "material occlusion=on\n");
+}
+
 /* A flat surface gets the cell's width; round surfaces keep their shape, and the number of repeats is adjusted. */
 static void surface_lines(int kind, double cell, WrText *out)
 {
@@ -152,9 +162,11 @@ void wr_new_document_lines(const WrNewForm *form, const char *wrap, WrText *out)
     wr_text_addf(out, "table %dx%d wrap=%s\n", (int)w, (int)h, wrap);
     if (line) starter_line(line, fmin(w, h) / LENGTHS_FOR, out);
     surface_lines(form->surface, w / h, out);
+    studio_lines(fmax(w, h), out);
 }
 
 void wr_new_picture_lines(int width, int height, WrText *out)
 {
     surface_lines(WR_SURFACE_plane, (double)width / height, out);
+    studio_lines(width > height ? width : height, out);
 }
