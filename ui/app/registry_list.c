@@ -22,6 +22,7 @@
 #include "ui/panels/panel_objects.h"
 #include "ui/panels/missing_files.h"
 #include "ui/panels/panels.h"
+#include "ui/panels/stock.h"
 #include "ui/panels/panel_presets.h"
 #include "ui/panels/panel_sheet.h"
 #include "ui/patch/patch.h"
@@ -83,7 +84,7 @@ static const WrTab tabs[] = { { "Brushes", NULL, wr_panel_brushes, false, false 
 static const WrPart *const parts[] = {
     &wr_part_hand,     &wr_part_tools,  &wr_part_strokes, &wr_part_select,   &wr_part_clone,
     &wr_part_canvas,   &wr_part_marks,  &wr_part_stamp,   &wr_part_generate, &wr_part_patch,
-    &wr_part_accuracy, &wr_part_layers, &wr_part_thumbs,  &wr_part_gallery,  &wr_part_font_choice,
+    &wr_part_accuracy, &wr_part_layers, &wr_part_thumbs,  &wr_part_stock,    &wr_part_font_choice,
     &wr_part_presets,  &wr_part_sheet,  &wr_part_adjust,  &wr_part_thrift,   NULL
 };
 
