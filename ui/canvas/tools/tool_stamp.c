@@ -182,7 +182,7 @@ static void stamps_free(WrApp *app)
 static uint64_t names_hash(const char *path, int depth)
 {
     Names names = list_folder(path);
-    uint64_t hash = (uint64_t)names.count;
+    uint64_t hash = 0xcbf29ce484222325u + (uint64_t)names.count;
     for (int i = 0; i < names.count; i++) {
         char *inner = wr_path_join(path, names.data[i]);
         for (const char *c = names.data[i]; *c; c++)
