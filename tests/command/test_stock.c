@@ -1,4 +1,4 @@
-/* What ships with the program: stamps end at height 0 and no two are alike; presets of generators and cells run, are not flat
+/* The stock of the program: stamps end at height 0 and no two are alike; presets of generators and cells run, are not flat
    and seamless. */
 #include "test.h"
 #include "session_help.h"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The stamps are what their script draws, and its list is theirs: a sample of them is drawn again.
+# The script of the stamps draws the committed files and their list: a sample of them is drawn again.
 # Usage: stock.sh SOURCE
 set -u
 source=$1
@@ -13,11 +13,11 @@ fail() {
 }
 names=(rivet paw-bear trefoil number-4 plate-arrow gouge)
 /usr/bin/python3 "$source/stamps/stamps.py" "$folder" "${names[@]}" || fail 'stamps.py failed'
-cmp "$folder/stamps.conf" "$source/stamps/stamps.conf" || fail 'stamps.conf is not what stamps.py writes'
+cmp "$folder/stamps.conf" "$source/stamps/stamps.conf" || fail 'stamps.conf differs from the one of stamps.py'
 for name in "${names[@]}"; do
     # Rounding may differ in the last of 12 bits from one processor to another.
     difference=$(compare -metric PAE "$folder/$name.png" "$source/stamps/$name.png" null: 2>&1 | sed -E 's/ .*//')
-    awk -v d="$difference" 'BEGIN { exit !(d != "" && d + 0 <= 16) }' || fail "$name.png is $difference off what stamps.py draws"
+    awk -v d="$difference" 'BEGIN { exit !(d != "" && d + 0 <= 16) }' || fail "$name.png is $difference off the one of stamps.py"
 done
 for file in "$source"/stamps/*.png; do
     grep -q "^$(basename "$file" .png): " "$source/stamps/stamps.conf" || fail "$file is not in stamps.conf"

@@ -57,8 +57,9 @@ typedef struct WrSettings {
     double mask_strength; /* brush strength on masks, 0..1 */
     /* strength of the opposite action (lower while raising, or the reverse); 0: the same */
     double other_strength;
-    bool lock_size;                      /* keep the size when the preset changes */
-    char *favourites[WR_FAVOURITES_MAX]; /* ids of presets, stamps and others, owned; NULL-terminated */
+    bool lock_size; /* keep the size when the preset changes */
+    char *favourites
+        [WR_FAVOURITES_MAX]; /* ids of presets, stamps and others, owned; NULL-terminated */
     /* recently used preset ids, newest first, owned; NULL-terminated; "round" is the brush without
        a preset */
     char *used[WR_USED_MAX];
