@@ -1,6 +1,5 @@
 /* Thumbnails, loaded, painted or generated on a separate thread, a few at a time. */
 #include "ui/canvas/tools/thumbs.h"
-#include "ui/canvas/canvas_colors.h"
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/registry.h"
 #include "ui/canvas/tools/preset_browser.h"
@@ -27,7 +26,8 @@
 #include <math.h>
 #include <string.h>
 
-#define BATCH 6 /* pictures per job */
+#define BATCH 6      /* pictures per job */
+#define SIDE_MAX 256 /* pixels; larger thumbnails are drawn enlarged */
 
 /* What to draw, with owned texts. */
 typedef struct Item {
@@ -314,14 +314,14 @@ static char *copy_of(const char *text)
     return text ? wr_strdup(text) : NULL;
 }
 
-/* A side between half the loaded one and the loaded one reuses its textures (drawn smaller), so that dragging the width of
-   the panel does not load everything again. */
+/* A smaller side reuses the textures (drawn smaller), so that dragging the width of the panel, or a list with large pictures
+   beside a small button, does not load everything again. */
 SDL_Texture *wr_thumb(WrApp *app, WrThumbKind kind, int index, int side, const WrThumbSource *of)
 {
     WrThumbs *thumbs = thumbs_of(app);
     const int place = index * WR_THUMB_KINDS + (int)kind;
-    side = side < 8 ? 8 : side > WR_THUMB_MAX ? WR_THUMB_MAX : side;
-    if (side > thumbs->side || side < thumbs->side / 2) { /* another scale */
+    side = side < 8 ? 8 : side > SIDE_MAX ? SIDE_MAX : side;
+    if (side > thumbs->side) { /* another scale */
         thumbs_forget(app);
         thumbs->side = side;
     }
