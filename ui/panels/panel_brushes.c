@@ -28,7 +28,8 @@
 #define TILE_UNITS 56
 #define PICTURE_UNITS 80 /* of the other lists */
 #define LARGE_UNITS 120
-#define BOTH_UNITS 460 /* least height for showing both parts */
+#define BOTH_UNITS 460  /* least height for showing both parts */
+#define KINDS_UNITS 262 /* least width for buttons of the four lists */
 #define GROUPS_MAX 64
 #define FIXED_GROUPS 3    /* all, favourites, recently used */
 #define CHECK_SECONDS 2.0 /* between two looks into the user's folder */
@@ -239,13 +240,17 @@ static void head(WrApp *app, const Groups *groups, bool both)
     static const char *const parts[] = { "Presets", "This brush" };
     const char *kinds[WR_STOCK_KINDS];
     WrPresetBrowser *shelf = app->shelf;
-    int *group = &shelf->group[shelf->kind];
+    const int before = shelf->kind;
     for (int i = 0; i < WR_STOCK_KINDS; i++) kinds[i] = wr_stock[i].label;
-    wr_gui_segments("kind", kinds, NULL, WR_STOCK_KINDS, &shelf->kind);
+    if (wr_gui_available() < wr_gui_px(KINDS_UNITS))
+        wr_gui_choice("kind", 0, kinds, WR_STOCK_KINDS, &shelf->kind);
+    else wr_gui_segments("kind", kinds, NULL, WR_STOCK_KINDS, &shelf->kind);
+    if (shelf->kind != before) return; /* the groups are those of the previous list */
     if (!both && shelf->kind == WR_STOCK_BRUSHES) {
         wr_gui_segments("part", parts, NULL, 2, &shelf->part);
         if (shelf->part == 1) return;
     }
+    int *group = &shelf->group[shelf->kind];
     double half = (wr_gui_available() - wr_gui_px(30)) / 2.0 - wr_gui_px(3);
     if (*group >= groups->count) *group = 0;
     wr_gui_hint_field("##search", list_now(app)->hint, half, shelf->search, sizeof shelf->search);
