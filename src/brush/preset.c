@@ -7,6 +7,7 @@
 #include "base/hash.h"
 #include "base/text.h"
 #include "brush/preset_internal.h"
+#include "system/path.h"
 
 #include <json-c/json.h>
 #include <math.h>
@@ -632,6 +633,20 @@ static bool read_relief(WrPreset *preset, json_object *relief, Place at, WrError
     return true;
 }
 
+/* The picture beside the preset, else the stamp of that name that ships with the program. The caller frees it. */
+static char *tip_path(const char *folder, const char *name)
+{
+    WrText stamp = { 0 };
+    char *path = wr_path_join(folder, name), *file = wr_path_join("stamps", name);
+    if (!wr_path_is_there(path) && wr_data_find(file, &stamp)) {
+        wr_free(path);
+        path = wr_strdup(wr_text_get(&stamp));
+    }
+    wr_text_fini(&stamp);
+    wr_free(file);
+    return path;
+}
+
 /* The tip's checksum is part of the preset: another picture under the same name would silently paint something else. */
 static bool load_tip(WrPreset *preset, const char *folder, WrError *err)
 {
@@ -639,7 +654,7 @@ static bool load_tip(WrPreset *preset, const char *folder, WrError *err)
     if (!folder)
         return wr_fail(err, "%.100s: wrinkle: tip: %.100s: a tip needs a preset that is a file",
                        preset->name, preset->tip_file);
-    char *path = wr_path_join(folder, preset->tip_file), hex[65];
+    char *path = tip_path(folder, preset->tip_file), hex[65];
     bool ok = wr_sha256_file(path, hex, err);
     if (ok && strcmp(hex, preset->tip_sha256) != 0)
         ok = wr_fail(err, "%s: its SHA-256 is %s: the preset was made for another file, %s", path,

@@ -13,7 +13,7 @@
                           "tip": FILE, "tip_sha256": HEX } }
    base_value is required, inputs are optional; an empty curve is none. "wrinkle" is our extension and
    optional, as are its members; other programs ignore it. Its radius is for values beyond the setting's
-   range (texels, outside e^-2 .. e^6). A tip is in the preset's folder, by a plain name; its hash is in
+   range (texels, outside e^-2 .. e^6). A tip is in the preset's folder or one of the program's stamps, by a plain name; its hash is in
    the preset, so that the preset's own hash identifies both. */
 #pragma once
 #include "brush/brush.h"

@@ -44,6 +44,7 @@
 #include "ui/panels/panel_tablet.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/picture_grid.h"
+#include "ui/panels/stock.h"
 #include "ui/panels/panel_sheet.h"
 #include "ui/patch/patch.h"
 #include "ui/patch/patch_paint.h"
@@ -171,6 +172,7 @@ void wr_app_end(WrApp *app)
     wr_patch_paint_free(app);
     if (app->renderer) wr_patch_free(app);
     wr_thumbs_free(app);
+    wr_stock_free(app);
     wr_preset_browser_free(app);
     wr_stamp_forget(app);
     wr_sheet_free(app);

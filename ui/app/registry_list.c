@@ -25,6 +25,7 @@
 #include "ui/panels/missing_files.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/picture_grid.h"
+#include "ui/panels/stock.h"
 #include "ui/panels/panel_sheet.h"
 #include "ui/patch/patch.h"
 #include "ui/canvas/tools/preset_browser.h"
@@ -95,7 +96,7 @@ static const WrPart *const parts[] = { &wr_part_hand,     &wr_part_tools,    &wr
                                        &wr_part_select,   &wr_part_clone,    &wr_part_canvas,
                                        &wr_part_marks,    &wr_part_stamp,    &wr_part_generate,
                                        &wr_part_patch,    &wr_part_accuracy, &wr_part_layers,
-                                       &wr_part_thumbs,   &wr_part_gallery,  &wr_part_font_choice,
+                                       &wr_part_thumbs,   &wr_part_stock,    &wr_part_font_choice,
                                        &wr_part_pictures, &wr_part_sheet,    &wr_part_adjust,
                                        &wr_part_thrift,   &wr_part_search,   NULL };
 

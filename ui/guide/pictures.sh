@@ -68,6 +68,9 @@ close
 settings 1200 760
 start "$source/samples/bricks.wrinkle"
 key F5
+click 1069 160 # stamps
+key Down
+key Return
 picture "$out/brushes.png" 250x700+950+30
 found 'Patterns: Scales'
 settle

@@ -1,37 +1,44 @@
-/* The Brushes tab: presets as pictures, by collection and group, with a search; below them the brush parameters.
-   Without room for both, one of them at a time. */
+/* The Brushes tab: brushes, stamps, presets of generators and cells as pictures, by group, with a search. Below the brushes
+   are the brush parameters; without room for both, one of them at a time. */
 #include "ui/app/state/action.h"
 #include "ui/app/state/action_list.h"
 #include "ui/app/state/app_state.h"
+#include "ui/app/state/layout.h"
+#include "ui/app/state/messages.h"
+#include "ui/app/state/registry.h"
 #include "ui/app/state/search_score.h"
 #include "ui/app/state/settings.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
 #include "ui/panels/panels.h"
+#include "ui/panels/stock.h"
+#include "ui/canvas/view.h"
+#include "ui/canvas/tools/tool_stamp.h"
 #include "ui/canvas/tools/preset_browser.h"
-#include "ui/canvas/tools/thumbs.h"
 
-#include "base/array.h"
-#include "base/memory.h"
-#include "brush/library.h"
 #include "brush/preset.h"
+#include "system/clock.h"
 
 #include <SDL.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#define TILE_UNITS 52
-#define BOTH_UNITS 460 /* least height for showing both parts */
+#define TILE_UNITS 56
+#define PICTURE_UNITS 80 /* of the other lists */
+#define LARGE_UNITS 120
+#define BOTH_UNITS 460  /* least height for showing both parts */
+#define KINDS_UNITS 262 /* least width for buttons of the four lists */
 #define GROUPS_MAX 64
-#define FIXED_GROUPS 3 /* all, favourites, recently used */
+#define FIXED_GROUPS 3    /* all, favourites, recently used */
+#define CHECK_SECONDS 2.0 /* between two looks into the user's folder */
 
 /* ---- filter ---- */
 
 typedef struct Groups {
     const char *labels[GROUPS_MAX];
-    char texts[GROUPS_MAX][64];
-    const char *collection[GROUPS_MAX], *group[GROUPS_MAX];
+    char texts[GROUPS_MAX][96];
     int count;
 } Groups;
 
@@ -40,70 +47,77 @@ static bool same(const char *a, const char *b)
     return strcmp(a, b) == 0;
 }
 
-static const char *collection_label(const char *collection)
+static const WrStockList *list_now(const WrApp *app)
 {
-    return same(collection, "user")       ? "My own"
-           : same(collection, "wrinkle")  ? "Relief"
-           : same(collection, "mypaint2") ? "MyPaint"
-           : same(collection, "mypaint1") ? "MyPaint 1"
-                                          : collection;
+    return &wr_stock[app->shelf->kind];
 }
 
-static void add_group(Groups *g, const char *collection, const char *group)
+static void add_group(Groups *g, const char *group)
 {
     for (int i = FIXED_GROUPS; i < g->count; i++)
-        if (same(g->collection[i], collection) && same(g->group[i], group)) return;
-    if (g->count >= GROUPS_MAX) return;
-    int at = g->count++;
-    g->collection[at] = collection;
-    g->group[at] = group;
-    const char *label = collection_label(collection);
-    if (group[0]) snprintf(g->texts[at], sizeof g->texts[at], "%.20s: %.38s", label, group);
-    else snprintf(g->texts[at], sizeof g->texts[at], "%.60s", label);
-    g->labels[at] = g->texts[at];
+        if (same(g->texts[i], group)) return;
+    if (g->count >= GROUPS_MAX || !group[0]) return;
+    snprintf(g->texts[g->count], sizeof g->texts[0], "%s", group);
+    g->labels[g->count] = g->texts[g->count];
+    g->count++;
 }
 
-static void find_groups(const WrLibrary *library, Groups *g)
+static void find_groups(WrApp *app, Groups *g)
 {
+    const WrStockList *list = list_now(app);
     g->labels[0] = "All";
     g->labels[1] = "Favourites";
     g->labels[2] = "Used last";
     g->count = FIXED_GROUPS;
-    for (int i = 0; i < wr_library_count(library); i++) {
-        const WrPresetEntry *e = wr_library_entry(library, i);
-        add_group(g, e->collection, e->group ? e->group : "");
+    for (int i = 0, count = list->count(app); i < count; i++) {
+        WrStockItem item = { "", "", "", "" };
+        list->item(app, i, &item);
+        add_group(g, item.group);
     }
 }
 
-static bool belongs(const WrApp *app, const Groups *g, const WrPresetEntry *entry)
+static bool belongs(const WrApp *app, const Groups *g, const WrStockItem *item)
 {
-    int group = app->shelf->group;
-    char text[200];
-    snprintf(text, sizeof text, "%.90s %.90s", entry->name, entry->group ? entry->group : "");
+    int group = app->shelf->group[app->shelf->kind];
+    char text[700];
+    snprintf(text, sizeof text, "%s %s %s", item->name, item->group, item->words);
     for (char *c = text; *c; c++)
         if (*c == '_' || *c == '-' || *c == '/') *c = ' ';
-    if (app->shelf->search[0] && wr_search_score(text, app->shelf->search) == 0) return false;
-    if (app->shelf->search[0] || group == 0) return true;
-    if (group == 1) return wr_settings_find_favourite(app->settings, entry->id) >= 0;
-    return group >= FIXED_GROUPS && group < g->count &&
-           same(g->collection[group], entry->collection) &&
-           same(g->group[group], entry->group ? entry->group : "");
+    if (app->shelf->search[0]) return wr_search_score(text, app->shelf->search) > 0;
+    if (group == 0) return true;
+    if (group == 1) return wr_settings_find_favourite(app->settings, item->id) >= 0;
+    return group >= FIXED_GROUPS && group < g->count && same(g->texts[group], item->group);
 }
 
-/* ---- context menu of a preset ---- */
+/* The index of an id in the list; -1: it is gone. */
+static int find(WrApp *app, const char *id)
+{
+    const WrStockList *list = list_now(app);
+    for (int i = 0, count = list->count(app); i < count; i++) {
+        WrStockItem item = { "", "", "", "" };
+        list->item(app, i, &item);
+        if (same(item.id, id)) return i;
+    }
+    return -1;
+}
 
-static void preset_menu(WrApp *app)
+/* ---- context menu of an entry ---- */
+
+static void entry_menu(WrApp *app)
 {
     WrPresetBrowser *shelf = app->shelf;
+    const WrStockList *list = list_now(app);
     char id[sizeof shelf->pressed];
     if (!wr_gui_popup_begin("preset")) return;
     memcpy(id, shelf->pressed, sizeof id);
+    int index = find(app, id);
     bool liked = wr_settings_find_favourite(app->settings, id) >= 0;
     if (wr_gui_menu_item(liked ? "No favourite any more" : "Favourite", NULL, liked, true))
         wr_settings_set_favourite(app->settings, id, !liked);
-    if (wr_gui_menu_item("Choose", NULL, false, true)) wr_preset_browser_choose(app, id);
-    bool own = strncmp(id, "user/", 5) == 0;
-    if (wr_gui_menu_item("Delete", NULL, false, own)) wr_preset_browser_delete(app, id);
+    if (wr_gui_menu_item("Choose", NULL, false, index >= 0)) list->choose(app, index);
+    if (list->remove && wr_gui_menu_item("Delete", NULL, false, index >= 0) &&
+        !list->remove(app, index))
+        wr_app_say(app, "Only presets of your own can be deleted");
     wr_gui_popup_end();
 }
 
@@ -112,6 +126,7 @@ static void preset_menu(WrApp *app)
 typedef struct Flow { /* layout of tiles in rows */
     double side;
     int columns, count;
+    bool held; /* the pointer holds the dragged tile */
 } Flow;
 
 static void next_place(Flow *flow)
@@ -121,67 +136,101 @@ static void next_place(Flow *flow)
     flow->count++;
 }
 
-/* id: WR_ROUND for index -1. */
-static void tile(WrApp *app, Flow *flow, int index, const char *id, const char *name)
+static void tile_tip(const WrStockList *list, const WrStockItem *item)
 {
-    const WrPresetEntry *entry = index < 0 ? NULL : wr_library_entry(app->shelf->library, index);
-    bool liked = wr_settings_find_favourite(app->settings, id) >= 0;
-    next_place(flow);
-    wr_gui_push_id(index + 2);
-    SDL_Texture *picture =
-        wr_gui_will_see(flow->side) ? wr_thumb_of(app, index, (int)flow->side) : NULL;
-    int pressed =
-        wr_gui_tile("tile", picture, flow->side, same(id, wr_preset_browser_chosen(app)), liked);
-    char tip[300];
-    snprintf(tip, sizeof tip, "%.200s%s%.60s", name, entry && entry->group ? "\n" : "",
-             entry && entry->group ? entry->group : "");
-    wr_gui_as_it_is(index >= 0);
+    char tip[400];
+    const char *help = list->drop_help ? wr_words(list->drop_help) : NULL;
+    snprintf(tip, sizeof tip, "%s%s%s%s%.150s", item->name, item->group[0] ? "\n" : "", item->group,
+             help ? "\n" : "", help ? help : "");
+    wr_gui_as_it_is(true);
     wr_gui_tip(tip);
     wr_gui_as_it_is(false);
+}
+
+static void tile(WrApp *app, Flow *flow, int index, const WrStockItem *item)
+{
+    WrPresetBrowser *shelf = app->shelf;
+    const WrStockList *list = list_now(app);
+    bool liked = wr_settings_find_favourite(app->settings, item->id) >= 0;
+    next_place(flow);
+    wr_gui_push_id(index + 1);
+    SDL_Texture *picture =
+        wr_gui_will_see(flow->side) ? list->picture(app, index, (int)flow->side) : NULL;
+    int pressed =
+        wr_gui_tile("tile", picture, flow->side, list->chosen && list->chosen(app, index), liked);
+    if (wr_gui_held()) {
+        shelf->dragged = index + 1;
+        flow->held = true;
+    }
+    tile_tip(list, item);
     wr_gui_pop_id();
-    if (pressed == 1) wr_preset_browser_choose(app, id);
+    if (pressed == 1) list->choose(app, index);
     if (pressed != 2) return;
-    snprintf(app->shelf->pressed, sizeof app->shelf->pressed, "%s", id);
+    snprintf(shelf->pressed, sizeof shelf->pressed, "%.250s", item->id);
     wr_gui_popup_open("preset");
 }
 
+/* Brushes only: the other lists note no uses. */
 static void used_last(WrApp *app, Flow *flow)
 {
     for (int i = 0; i < WR_USED_MAX && app->settings->used[i]; i++) {
-        char *id = wr_strdup(app->settings->used[i]); /* choosing a preset reorders the list */
-        int index = wr_preset_browser_find(app, id);
-        if (index >= 0 || same(id, WR_ROUND))
-            tile(app, flow, index, id, index < 0 ? "Round brush" : strchr(id, '/') + 1);
-        wr_free(id);
+        WrStockItem item = { "", "", "", "" };
+        int index = find(app, app->settings->used[i]);
+        if (index < 0) continue;
+        list_now(app)->item(app, index, &item);
+        tile(app, flow, index, &item);
     }
+}
+
+/* A held tile follows the pointer; over the canvas it shows its effect, and a release there applies it. */
+static void carry(WrApp *app, const Flow *flow)
+{
+    WrPresetBrowser *shelf = app->shelf;
+    const WrStockList *list = list_now(app);
+    double x, y, u, v;
+    int index = shelf->dragged - 1;
+    if (index < 0) return;
+    wr_gui_carry(NULL, 0, &x, &y);
+    bool over = wr_layout_inside(&app->layout->canvas, (int)x, (int)y);
+    wr_view_to_uv(app->view, x, y, &u, &v);
+    const bool cancelled = wr_gui_escape_pressed();
+    if (cancelled) wr_gui_let_go();
+    const bool held = flow->held && !cancelled;
+    if (held && !(over && list->hover))
+        wr_gui_carry(list->picture(app, index, (int)flow->side), flow->side, &x, &y);
+    if (list->hover && (over || !held)) list->hover(app, index, u, v, over && held);
+    if (held) return;
+    shelf->dragged = 0;
+    if (over && !cancelled) list->drop(app, index, u, v);
 }
 
 static void tiles(WrApp *app, const Groups *groups)
 {
-    const WrLibrary *library = wr_preset_browser_library(app);
+    const WrPresetBrowser *shelf = app->shelf;
+    const WrStockList *list = list_now(app);
     double gap = wr_gui_px(4), room = wr_gui_available() + gap;
-    Flow flow = { .columns = (int)(room / (wr_gui_px(TILE_UNITS) + gap) + 0.5) };
+    double units = shelf->large                      ? LARGE_UNITS
+                   : shelf->kind == WR_STOCK_BRUSHES ? TILE_UNITS
+                                                     : PICTURE_UNITS;
+    Flow flow = { .columns = (int)(room / (wr_gui_px(units) + gap) + 0.5) };
     flow.columns = flow.columns > 0 ? flow.columns : 1;
     flow.side = floor(room / flow.columns - gap); /* tiles are enlarged to fill the row */
-    if (app->shelf->group == 2 && !app->shelf->search[0]) {
+    if (shelf->group[shelf->kind] == 2 && !shelf->search[0]) {
         used_last(app, &flow);
     } else {
-        bool liked = wr_settings_find_favourite(app->settings, WR_ROUND) >= 0;
-        bool round = app->shelf->search[0] ? wr_search_score("round brush", app->shelf->search) > 0
-                                           : app->shelf->group != 1 || liked;
-        if (round) tile(app, &flow, -1, WR_ROUND, "Round brush: exact on every machine");
-        for (int i = 0; i < wr_library_count(library); i++) {
-            const WrPresetEntry *entry = wr_library_entry(library, i);
-            if (!belongs(app, groups, entry)) continue;
-            tile(app, &flow, i, entry->id, entry->name);
-            if (app->shelf->library != library) break; /* a preset was removed */
+        const int count = list->count(app);
+        for (int i = 0; i < count && i < list->count(app); i++) {
+            WrStockItem item = { "", "", "", "" };
+            list->item(app, i, &item);
+            if (belongs(app, groups, &item)) tile(app, &flow, i, &item);
         }
     }
     if (flow.count == 0)
         wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
-                            app->shelf->search[0] ? "No brush has these words."
-                                                  : "None yet: press one with the right button.");
-    preset_menu(app);
+                            shelf->search[0] ? "Nothing has these words."
+                                             : "None yet: press one with the right button.");
+    carry(app, &flow);
+    entry_menu(app);
 }
 
 /* ---- the tab ---- */
@@ -189,18 +238,29 @@ static void tiles(WrApp *app, const Groups *groups)
 static void head(WrApp *app, const Groups *groups, bool both)
 {
     static const char *const parts[] = { "Presets", "This brush" };
+    const char *kinds[WR_STOCK_KINDS];
     WrPresetBrowser *shelf = app->shelf;
-    if (!both) {
+    const int before = shelf->kind;
+    for (int i = 0; i < WR_STOCK_KINDS; i++) kinds[i] = wr_stock[i].label;
+    if (wr_gui_available() < wr_gui_px(KINDS_UNITS))
+        wr_gui_choice("kind", 0, kinds, WR_STOCK_KINDS, &shelf->kind);
+    else wr_gui_segments("kind", kinds, NULL, WR_STOCK_KINDS, &shelf->kind);
+    if (shelf->kind != before) return; /* the groups are those of the previous list */
+    if (!both && shelf->kind == WR_STOCK_BRUSHES) {
         wr_gui_segments("part", parts, NULL, 2, &shelf->part);
         if (shelf->part == 1) return;
     }
-    double half = wr_gui_available() / 2.0 - wr_gui_px(3);
-    if (shelf->group >= groups->count) shelf->group = 0;
-    wr_gui_hint_field("##search", "Search brushes", half, shelf->search, sizeof shelf->search);
+    int *group = &shelf->group[shelf->kind];
+    double half = (wr_gui_available() - wr_gui_px(30)) / 2.0 - wr_gui_px(3);
+    if (*group >= groups->count) *group = 0;
+    wr_gui_hint_field("##search", list_now(app)->hint, half, shelf->search, sizeof shelf->search);
     wr_gui_same_line(6);
     wr_gui_disable(shelf->search[0] != '\0');
-    wr_gui_choice("group", half, groups->labels, groups->count, &shelf->group);
+    wr_gui_choice("group", half, groups->labels, groups->count, group);
     wr_gui_disable_end();
+    wr_gui_same_line(6);
+    if (wr_gui_icon_button("large", WR_ICON_GRID, 24, shelf->large)) shelf->large = !shelf->large;
+    wr_gui_tip("Large pictures");
 }
 
 static SDL_Rect cut_top(SDL_Rect *room, int height)
@@ -239,16 +299,29 @@ static void foot(WrApp *app)
     wr_gui_tip(own ? "Delete this preset" : "Only presets of your own can be deleted");
 }
 
+/* New pictures and presets in the user's folder appear while the list is shown. */
+static void check_folder(WrApp *app)
+{
+    WrPresetBrowser *shelf = app->shelf;
+    const double now = wr_clock_seconds();
+    if (now - shelf->checked < CHECK_SECONDS) return;
+    shelf->checked = now;
+    if (wr_stamps_changed(app)) wr_preset_browser_refresh(app);
+}
+
 void wr_panel_brushes(WrApp *app, SDL_Rect room)
 {
     Groups groups = { .count = 0 };
-    find_groups(wr_preset_browser_library(app), &groups);
-    bool both = room.h >= wr_gui_px(BOTH_UNITS);
-    int part = both ? 0 : app->shelf->part;
-    SDL_Rect top = cut_top(&room, wr_gui_px(12) + (both || part == 1 ? 1 : 2) * wr_gui_px(34));
+    const bool brushes = app->shelf->kind == WR_STOCK_BRUSHES;
+    if (app->shelf->dragged == 0) check_folder(app);
+    find_groups(app, &groups);
+    bool both = brushes && room.h >= wr_gui_px(BOTH_UNITS);
+    int part = both || !brushes ? 0 : app->shelf->part;
+    int rows = 2 + (brushes && !both) - (part == 1);
+    SDL_Rect top = cut_top(&room, wr_gui_px(12) + rows * wr_gui_px(34));
     SDL_Rect list = both ? cut_top(&room, (int)(room.h * 0.44)) : room;
     SDL_Rect name = both ? cut_top(&room, wr_gui_px(38)) : (SDL_Rect){ 0 };
-    if (!both && part == 0 && list.h > wr_gui_px(120)) {
+    if (brushes && !both && part == 0 && list.h > wr_gui_px(120)) {
         name = list;
         name.h = wr_gui_px(38);
         list.h -= name.h;
@@ -257,7 +330,7 @@ void wr_panel_brushes(WrApp *app, SDL_Rect room)
     wr_gui_area_begin("##brushes_head", WR_AREA_PANEL, top, WR_COLOUR_PANEL);
     head(app, &groups, both);
     wr_gui_area_end();
-    if (both || part == 0) {
+    if (part == 0) {
         wr_gui_area_begin("##brushes", WR_AREA_PANEL, list, WR_COLOUR_LIST);
         tiles(app, &groups);
         wr_gui_area_end();
@@ -274,3 +347,18 @@ void wr_panel_brushes(WrApp *app, SDL_Rect room)
     wr_gui_pinnable(false);
     wr_gui_area_end();
 }
+
+/* Clock of the next look into the user's folder, while the tab is shown. */
+static double next_check(const WrApp *app)
+{
+    const WrSettings *s = app->settings;
+    bool shown = app->visible && s->panels && app->registry->tabs[s->tab].fill == wr_panel_brushes;
+    return shown ? app->shelf->checked + CHECK_SECONDS : 0.0;
+}
+
+static void look(WrApp *app)
+{
+    if (next_check(app) > 0.0) check_folder(app);
+}
+
+const WrPart wr_part_stock = { .update = look, .next_time = next_check };

@@ -312,6 +312,8 @@ void wr_gui_row_end(void);
 void wr_gui_drop_line(double x, double y);
 /* A frame around a row at y, into which a drag drops. */
 void wr_gui_drop_frame(double y, double height);
+/* A picture (NULL: none) beside the pointer, above all widgets. x, y: the pointer, pixels of the window. */
+void wr_gui_carry(SDL_Texture *texture, double side, double *x, double *y);
 /* The pointer holds the previous widget. */
 bool wr_gui_held(void);
 /* Ends the pointer's hold of a widget without effect. */

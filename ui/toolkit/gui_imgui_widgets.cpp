@@ -1022,6 +1022,19 @@ try {
 }
 WR_CAUGHT(0)
 
+extern "C" void wr_gui_carry(SDL_Texture *texture, double side, double *x, double *y)
+{
+    const ImVec2 at = ImGui::GetIO().MousePos;
+    const float gap = px(12);
+    const ImVec2 corner(at.x + gap, at.y + gap);
+    if (texture)
+        ImGui::GetForegroundDrawList()->AddImage(
+            wr_gui_texture_id(texture), corner,
+            ImVec2(corner.x + (float)side, corner.y + (float)side));
+    *x = (double)at.x;
+    *y = (double)at.y;
+}
+
 extern "C" void wr_gui_centre(double side)
 {
     float up = roundf(((float)side - ImGui::GetFrameHeight()) / 2.0f);

@@ -389,6 +389,18 @@ void wr_app_open_path(WrApp *app, const char *path)
     ask_first(app, WR_AFTER_PATH, path);
 }
 
+void wr_app_add_lines(WrApp *app, const char *lines)
+{
+    WrError err;
+    char *copy = wr_strdup(lines);
+    if (!wr_busy_run(app, WR_BUSY_EDIT, "Adding layers", lines_work, copy, &err))
+        wr_busy_fail(app, "adding layers", &err);
+    wr_free(copy);
+    wr_app_take_notes(app);
+    wr_app_title(app);
+    wr_app_redraw(app);
+}
+
 void wr_app_open_lines(WrApp *app, const char *lines)
 {
     ask_first(app, WR_AFTER_LINES, lines);

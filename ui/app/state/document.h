@@ -63,6 +63,8 @@ void wr_app_start_join(WrApp *app); /* wait for the thread; may be called at any
 void wr_app_new_document(WrApp *app);
 void wr_app_open(WrApp *app);
 void wr_app_open_path(WrApp *app, const char *path); /* with the question about unsaved work */
+/* Run command lines on the document, one step each; not inside a frame. A failure becomes a message. */
+void wr_app_add_lines(WrApp *app, const char *lines);
 /* New document by command lines, with the question about unsaved work. */
 void wr_app_open_lines(WrApp *app, const char *lines);
 /* New document by command lines, without the question. */

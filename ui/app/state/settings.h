@@ -14,7 +14,7 @@
 typedef struct WrText WrText;
 
 #define WR_RECENT_MAX 8
-#define WR_FAVOURITES_MAX 64
+#define WR_FAVOURITES_MAX 200
 #define WR_USED_MAX 12
 #define WR_FONTS_MAX 6
 #define WR_PENS_MAX 32
@@ -74,8 +74,9 @@ typedef struct WrSettings {
     double mask_strength; /* brush strength on masks, 0..1 */
     /* strength of the opposite action (lower while raising, or the reverse); 0: the same */
     double other_strength;
-    bool lock_size;                      /* keep the size when the preset changes */
-    char *favourites[WR_FAVOURITES_MAX]; /* preset ids, owned; NULL-terminated */
+    bool lock_size; /* keep the size when the preset changes */
+    char *favourites
+        [WR_FAVOURITES_MAX]; /* ids of presets, stamps and others, owned; NULL-terminated */
     /* recently used preset ids, newest first, owned; NULL-terminated; "round" is the brush without
        a preset */
     char *used[WR_USED_MAX];

@@ -281,8 +281,10 @@ static void thumbnail(WrApp *app)
     double side = wr_gui_px(32);
     wr_gui_same_line(12);
     wr_gui_centre(side);
-    if (wr_gui_tile("brush", wr_thumb_of(app, index, wr_gui_px(52)), side, false, false))
+    if (wr_gui_tile("brush", wr_thumb_of(app, index, wr_gui_px(52)), side, false, false)) {
+        app->shelf->kind = WR_STOCK_BRUSHES;
         wr_action_run(app, WR_ACT(brushes));
+    }
     wr_gui_centre_end(side);
     char tip[200];
     snprintf(tip, sizeof tip, wr_words("%.160s\nClick for the brushes"),

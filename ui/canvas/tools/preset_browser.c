@@ -32,8 +32,7 @@ const WrLibrary *wr_preset_browser_library(WrApp *app)
     return app->shelf->library;
 }
 
-/* Scan again after presets were saved or removed. */
-static void preset_browser_refresh(WrApp *app)
+void wr_preset_browser_refresh(WrApp *app)
 {
     wr_library_free(app->shelf->library);
     app->shelf->library = NULL;
@@ -188,9 +187,14 @@ void wr_preset_browser_last(WrApp *app)
 
 void wr_preset_browser_step(WrApp *app, int by)
 {
-    char *const *list = app->settings->favourites;
-    int count = 0, at = wr_settings_find_favourite(app->settings, wr_preset_browser_chosen(app));
-    while (count < WR_FAVOURITES_MAX && list[count]) count++;
+    const char *list[WR_FAVOURITES_MAX], *chosen = wr_preset_browser_chosen(app);
+    int count = 0, at = -1;
+    for (int i = 0; i < WR_FAVOURITES_MAX && app->settings->favourites[i]; i++) {
+        const char *id = app->settings->favourites[i];
+        if (strchr(id, ':')) continue; /* of another list */
+        if (strcmp(id, chosen) == 0) at = count;
+        list[count++] = id;
+    }
     if (count == 0) {
         wr_app_say(app, "No favourites yet: the star in the Brushes tab makes them");
         return;
@@ -302,7 +306,7 @@ static bool preset_browser_save(WrApp *app, const char *name)
     if (!ok) return false;
     WrText id = { 0 };
     wr_text_addf(&id, "user/%s", name);
-    preset_browser_refresh(app);
+    wr_preset_browser_refresh(app);
     ok = wr_preset_browser_choose(app, wr_text_get(&id));
     if (ok) wr_app_say(app, "Saved the brush as %s", name);
     wr_text_fini(&id);
@@ -329,7 +333,7 @@ bool wr_preset_browser_delete(WrApp *app, const char *id)
     wr_app_say(app, "Removed %s", entry->name);
     wr_settings_set_favourite(app->settings, id, false);
     if (strcmp(id, wr_preset_browser_chosen(app)) == 0) wr_preset_browser_choose(app, WR_ROUND);
-    preset_browser_refresh(app);
+    wr_preset_browser_refresh(app);
     return true;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "ui/app/state/app_state.h"
 
+#include "base/array.h"
 #include "brush/brush.h"
 #include "brush/library.h"
 #include "brush/tip.h"
@@ -23,6 +24,20 @@ typedef struct WrBrushSources {
     char *set;    /* "name=value;...", owned; NULL: the preset's own settings */
 } WrBrushSources;
 
+/* Lists of the browser. */
+typedef enum WrStockKind {
+    WR_STOCK_BRUSHES,
+    WR_STOCK_STAMPS,
+    WR_STOCK_PRESETS, /* of generators */
+    WR_STOCK_CELLS,
+    WR_STOCK_KINDS
+} WrStockKind;
+
+/* A finished cell; texts are owned. */
+typedef struct WrCell {
+    char *path, *picture, *title, *words;
+} WrCell;
+
 /* State of the preset browser. */
 typedef struct WrPresetBrowser {
     WrLibrary *library; /* owned; NULL until first used */
@@ -34,16 +49,24 @@ typedef struct WrPresetBrowser {
     WrBrushMode kept;   /* the brush's mode while a tool uses another one */
     WrThumbs *thumbs;   /* owned */
     uint64_t serial;    /* number of library scans */
+    WR_ARRAY(WrCell) cells;
+    bool cells_known;
     /* the tab */
+    int kind; /* WrStockKind */
     char search[80];
-    int group;         /* 0 all, 1 favourites, 2 recently used, 3.. groups of the library */
-    int part;          /* 0 presets, 1 brush parameters, if there is room for only one */
-    char pressed[256]; /* id of the preset with the open menu */
-    char name[80];     /* name of a new preset */
+    int group[WR_STOCK_KINDS]; /* 0 all, 1 favourites, 2 recently used, 3.. groups of the list */
+    int part;                  /* 0 presets, 1 brush parameters, if there is room for only one */
+    bool large;                /* larger pictures */
+    char pressed[256];         /* id of the entry with the open menu */
+    int dragged;               /* index + 1 of the entry that is dragged to the canvas; 0: none */
+    double checked;            /* clock: when the user's folder was compared */
+    char name[80];             /* name of a new preset */
 } WrPresetBrowser;
 
 /* The library; scans the folders at the first call. */
 const WrLibrary *wr_preset_browser_library(WrApp *app);
+/* Scan again after presets were saved or removed. */
+void wr_preset_browser_refresh(WrApp *app);
 /* Index in the library, or -1: the round brush, or missing. */
 int wr_preset_browser_find(WrApp *app, const char *id);
 /* Id of the chosen preset, WR_ROUND without one. */

@@ -1,11 +1,9 @@
-/* Thumbnails of presets, loaded and scaled on a separate thread, a few at a time; presets without a picture paint a
-   sample. */
+/* Thumbnails, loaded, painted or generated on a separate thread, a few at a time. */
 #include "ui/canvas/tools/thumbs.h"
-#include "ui/canvas/canvas_colors.h"
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/registry.h"
 #include "ui/canvas/tools/preset_browser.h"
-#include "ui/canvas/tools/tool_stamp.h"
+#include "ui/app/jobs/edit_preview.h"
 #include "ui/app/jobs/job.h"
 #include "ui/toolkit/gui_sdl_renderer.h"
 
@@ -14,11 +12,13 @@
 #include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"
+#include "base/text.h"
 #include "brush/brush.h"
 #include "brush/library.h"
 #include "brush/preset.h"
-#include "brush/symmetry.h"
 #include "brush/tip.h"
+#include "command/brush_sample.h"
+#include "document/document.h"
 #include "field/field.h"
 #include "image/image.h"
 
@@ -26,14 +26,15 @@
 #include <math.h>
 #include <string.h>
 
-#define BATCH 6           /* pictures per job */
-#define PAINTED_TEXELS 96 /* side of the table for painted samples */
+#define BATCH 6      /* pictures per job */
+#define SIDE_MAX 256 /* pixels; larger thumbnails are drawn enlarged */
 
+/* What to draw, with owned texts. */
 typedef struct Item {
-    int slot;                  /* that it is for */
-    char *id, *path, *picture; /* owned; picture may be NULL, path too: the round brush */
-    char *stamp;               /* path of a stamp, owned; alternative to these */
-    uint32_t *argb;            /* [side * side], owned; NULL: failed */
+    int slot; /* that it is for */
+    char *id, *path, *picture, *stamp, *line, *ground;
+    bool lower, placed;
+    uint32_t *argb; /* [side * side], owned; NULL: failed */
 } Item;
 
 typedef struct Batch {
@@ -49,8 +50,8 @@ typedef struct Slot {
 
 struct WrThumbs {
     WrJob *job;
-    WR_ARRAY(Slot) slots; /* presets at 2 (index + 1), stamps at 2 index + 1 */
-    WR_ARRAY(int) wishes; /* slots visible in this frame that have no picture yet */
+    WR_ARRAY(Slot) slots;  /* at index * WR_THUMB_KINDS + kind */
+    WR_ARRAY(Item) wishes; /* of slots visible in this frame that have no picture yet */
     int side;
     uint64_t round;
     uint64_t of; /* serial number of the slots */
@@ -58,17 +59,21 @@ struct WrThumbs {
 
 /* ---- on the worker thread ---- */
 
+static void drop_item(Item *item)
+{
+    wr_free(item->id);
+    wr_free(item->path);
+    wr_free(item->picture);
+    wr_free(item->stamp);
+    wr_free(item->line);
+    wr_free(item->ground);
+    wr_free(item->argb);
+}
+
 static void drop(void *arg)
 {
     Batch *batch = arg;
-    for (int i = 0; i < batch->count; i++) {
-        Item *item = &batch->items[i];
-        wr_free(item->id);
-        wr_free(item->path);
-        wr_free(item->picture);
-        wr_free(item->stamp);
-        wr_free(item->argb);
-    }
+    for (int i = 0; i < batch->count; i++) drop_item(&batch->items[i]);
     wr_free(batch);
 }
 
@@ -77,11 +82,10 @@ static uint32_t code(double x)
     return (uint32_t)(x < 0.0 ? 0.0 : x > 1.0 ? 255.0 : floor(x * 255.0 + 0.5));
 }
 
-/* Mean grey of a box of pixels, since a brush paints heights, not colours; composited over the background of
-   fields. */
+/* Mean of a box of pixels, composited over the background of fields. */
 static uint32_t box_mean(const WrImage *image, int x0, int y0, int x1, int y1)
 {
-    double sum[3] = { 0 };
+    double sum[3] = { 0 }, n = (double)(x1 - x0) * (y1 - y0);
     int c = image->channels;
     for (int y = y0; y < y1; y++)
         for (int x = x0; x < x1; x++) {
@@ -91,9 +95,7 @@ static uint32_t box_mean(const WrImage *image, int x0, int y0, int x1, int y1)
             for (int k = 0; k < 3; k++)
                 sum[k] += alpha * (double)p[c >= 3 ? k : 0] + (1.0 - alpha) * (0x1f / 255.0);
         }
-    double n = (double)(x1 - x0) * (y1 - y0);
-    const uint32_t grey = code((0.2126 * sum[0] + 0.7152 * sum[1] + 0.0722 * sum[2]) / n);
-    return 0xff000000u | grey << 16 | grey << 8 | grey;
+    return 0xff000000u | code(sum[0] / n) << 16 | code(sum[1] / n) << 8 | code(sum[2] / n);
 }
 
 /* The middle square of a picture, scaled to side x side. */
@@ -111,106 +113,143 @@ static void shrink(const WrImage *image, int side, uint32_t *argb)
         }
 }
 
-/* Provide heights for modes that only change existing ones. */
-static void prepare_ground(const WrBrush *brush, WrField *field)
+/* Grey codes [side * side], opaque. */
+static void grey_to_argb(const uint8_t *grey, int width, int side, uint32_t *argb)
 {
-    const WrBrushModeInfo *mode = &wr_brush_modes[brush->mode];
-    if (mode->uses & WR_USES_STRENGTH && !mode->moves) return;
-    for (int j = 0; j < PAINTED_TEXELS; j++)
-        for (int i = 0; i < PAINTED_TEXELS; i++) {
-            double a = sin(i * 0.26) * sin(j * 0.26);
-            wr_field_set(field, i, j, (float)(0.05 * a));
-        }
-}
-
-/* An S on a flat table, from left to right, with more pressure in its middle. */
-static void paint_sample(const WrBrush *of, WrField *field)
-{
-    WrBrush brush = *of;
-    double most = PAINTED_TEXELS / 8.0;
-    brush.radius = brush.radius > most || !(brush.radius > 0.0) ? most : brush.radius;
-    brush.radius = brush.radius < 4.0 ? 4.0 : brush.radius;
-    brush.symmetry = (WrSymmetry){ 0 };
-    WrStroke *stroke = wr_stroke_new(field, &brush);
-    for (int i = 0; i <= 32; i++) {
-        double t = i / 32.0;
-        WrSample sample = { .u = 0.14 + 0.72 * t,
-                            .v = 0.5 + 0.2 * sin(6.283185307179586 * t),
-                            .pressure = sin(3.141592653589793 * t) * 0.8 + 0.2,
-                            .seconds = t };
-        wr_stroke_add(stroke, sample);
-    }
-    wr_stroke_finish(stroke);
-}
-
-/* Shading from the upper left, to show the relief. */
-static void emboss(const WrField *field, int side, uint32_t *argb)
-{
-    float low, high;
-    wr_field_range(field, &low, &high);
-    double range = fmax((double)high - (double)low, 1e-9);
     for (int y = 0; y < side; y++)
-        for (int x = 0; x < side; x++) {
-            int i = (int)((x + 0.5) * PAINTED_TEXELS / side), di = i > 0 ? i - 1 : 0;
-            int j = (int)((y + 0.5) * PAINTED_TEXELS / side), dj = j > 0 ? j - 1 : 0;
-            double f = (double)wr_field_get(field, i, j), g = (double)wr_field_get(field, di, dj);
-            uint32_t c = code(0.33 + 1.6 * (f - g) / range);
-            argb[y * side + x] = 0xff000000u | c << 16 | c << 8 | c;
-        }
+        for (int x = 0; x < side; x++)
+            argb[y * side + x] = 0xff000000u | 0x010101u * grey[y * width + x];
 }
 
-static bool paint(const Item *item, int side, uint32_t *argb)
+/* A stroke of the preset; samples are 4:3, of which the middle is kept. */
+static bool paint(const Item *item, int side, WrPool *pool, uint32_t *argb)
 {
     WrError err;
-    int n = PAINTED_TEXELS;
-    WrField *field = wr_field_new(n, n, WR_WRAP_CLAMP, WR_WRAP_CLAMP, 0.0f, &err);
-    if (!field) return false;
+    const int width = (side * 4 + 2) / 3;
     WrPreset *preset = item->path ? wr_preset_read(item->path, item->id, &err) : NULL;
-    WrBrush brush = preset ? wr_preset_brush(preset) : wr_brush_default();
-    bool ok = preset || !item->path;
-    if (ok) prepare_ground(&brush, field);
-    if (ok) paint_sample(&brush, field);
-    if (ok) emboss(field, side, argb);
+    if (item->path && !preset) return false;
+    WrBrushSample *sample = wr_brush_sample_new(pool, NULL, width, side, &err);
+    uint8_t *grey = wr_alloc((size_t)width * (size_t)side, 1);
+    bool ok = sample && wr_brush_sample_paint(sample, preset, grey, &err);
+    if (ok) grey_to_argb(grey + (width - side) / 2, width, side, argb);
+    wr_free(grey);
+    wr_brush_sample_free(sample);
     wr_preset_free(preset);
-    wr_field_free(field);
     return ok;
 }
 
-/* The first cell, bright where it paints. */
-static bool print_stamp(const char *path, int side, uint32_t *argb)
+/* Light from the upper left on a texel; steep: slope of one unit of height in a texel. */
+static double light(const WrField *field, int i, int j, double steep)
+{
+    int w = wr_field_width(field), h = wr_field_height(field);
+    double east = (double)wr_field_get(field, (i + 1) % w, j);
+    double west = (double)wr_field_get(field, (i + w - 1) % w, j);
+    double south = (double)wr_field_get(field, i, (j + 1) % h);
+    double north = (double)wr_field_get(field, i, (j + h - 1) % h);
+    double x = -(east - west) * steep, y = -(south - north) * steep;
+    double facing = (-0.5 * x - 0.5 * y + 0.7071067811865476) / sqrt(x * x + y * y + 1.0);
+    return 0.08 + 0.92 * (facing > 0.0 ? facing : 0.0);
+}
+
+/* The relief of a table whose side is a multiple of the picture's; its range becomes `relief` of the side. */
+static void shade(const WrField *field, double relief, int side, uint32_t *argb)
+{
+    int texels = wr_field_width(field), step = texels / side;
+    float low, high;
+    wr_field_range(field, &low, &high);
+    double steep = 0.5 * relief * texels / ((double)high - (double)low);
+    for (int y = 0; y < side; y++)
+        for (int x = 0; x < side; x++) {
+            double sum = 0.0;
+            for (int j = 0; j < step; j++)
+                for (int i = 0; i < step; i++)
+                    sum += light(field, x * step + i, y * step + j, steep);
+            argb[y * side + x] = 0xff000000u | 0x010101u * code(sum / (step * step));
+        }
+}
+
+#define STAMP_RELIEF 0.1    /* height range divided by the side */
+#define TABLE_RELIEF 0.07   /* for tables */
+#define TEXELS 512.0        /* approximate side of the table of a generator */
+#define PLACED_TEXELS 192.0 /* for generators of one placed object */
+
+/* The first cell of a picture, as it stands out of the ground, or is sunk into it. */
+static bool print_stamp(const Item *item, int side, uint32_t *argb)
 {
     WrError err;
     WrTipView view;
-    int w, h;
-    WrTip *tip = wr_tip_read(path, &err);
-    if (!tip) return false;
-    wr_tip_size(tip, 0, &w, &h);
-    double longer = w > h ? w : h, over = 1.0 - 2.0 / side; /* leaves a margin */
-    wr_tip_view(tip, 0, side / longer, &view);
-    for (int y = 0; y < side; y++)
-        for (int x = 0; x < side; x++) {
-            double s = ((x + 0.5) / side - 0.5) * longer / w / over + 0.5;
-            double t = ((y + 0.5) / side - 0.5) * longer / h / over + 0.5;
-            uint32_t c = code(0.12 + 0.82 * (double)wr_tip_value(&view, s, t));
-            argb[y * side + x] = 0xff000000u | c << 16 | c << 8 | c;
-        }
+    int w, h, n = 2 * side;
+    float low, high;
+    WrTip *tip = wr_tip_read(item->stamp, &err);
+    WrField *field =
+        tip ? wr_field_new(n, n, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.0f, &err) : NULL;
+    if (field) {
+        wr_tip_size(tip, 0, &w, &h);
+        double longer = w > h ? w : h, over = 1.0 - 4.0 / n; /* leaves a margin */
+        wr_tip_view(tip, 0, n / longer, &view);
+        for (int y = 0; y < n; y++)
+            for (int x = 0; x < n; x++) {
+                double s = ((x + 0.5) / n - 0.5) * longer / w / over + 0.5;
+                double t = ((y + 0.5) / n - 0.5) * longer / h / over + 0.5;
+                float up = wr_tip_value(&view, s, t);
+                wr_field_set(field, x, y, item->lower ? -up : up);
+            }
+        wr_field_range(field, &low, &high);
+        if (low < high) shade(field, STAMP_RELIEF, side, argb);
+    }
+    bool ok = field && low < high;
+    wr_field_free(field);
     wr_tip_free(tip);
+    return ok;
+}
+
+/* Run a line on a flat table, or on the result of `first`; NULL if the result is flat. */
+static WrDocument *made(const Item *item, const char *first, int texels, WrPool *pool,
+                        const WrProgress *progress)
+{
+    WrError err;
+    WrText notes = { 0 };
+    float low = 0.0f, high = 0.0f;
+    WrField *level = wr_field_new(texels, texels, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.0f, &err);
+    if (!level) return NULL;
+    WrDocument *document = wr_document_new();
+    wr_field_free(document->layers[0].heights);
+    document->layers[0].heights = level;
+    bool good = (!first || wr_edit_preview_generate(document, first, WR_LINE_INTO_ACTIVE, true,
+                                                    pool, progress, &notes, &err)) &&
+                wr_edit_preview_generate(document, item->line, WR_LINE_INTO_ACTIVE, true, pool,
+                                         progress, &notes, &err);
+    if (good) wr_field_range(document->layers[0].heights, &low, &high);
+    wr_text_fini(&notes);
+    if (good && low < high) return document;
+    wr_document_free(document);
+    return NULL;
+}
+
+static bool generate(const Item *item, int side, WrPool *pool, const WrProgress *progress,
+                     uint32_t *argb)
+{
+    double step = floor((item->placed ? PLACED_TEXELS : TEXELS) / side + 0.5);
+    int texels = side * (step > 1.0 ? (int)step : 1);
+    WrDocument *document = made(item, NULL, texels, pool, progress);
+    if (!document && item->ground) /* it may modify existing heights */
+        document = made(item, item->ground, texels, pool, progress);
+    if (!document) return false;
+    shade(document->layers[0].heights, TABLE_RELIEF, side, argb);
+    wr_document_free(document);
     return true;
 }
 
-static void make(Item *item, int side)
+static void make(Item *item, int side, WrPool *pool, const WrProgress *progress)
 {
     WrError err;
     uint32_t *argb = wr_alloc((size_t)side * (size_t)side, sizeof *argb);
-    if (item->stamp) {
-        if (print_stamp(item->stamp, side, argb)) item->argb = argb;
-        else wr_free(argb);
-        return;
-    }
     WrImage *image = item->picture ? wr_image_read(item->picture, &err) : NULL;
     bool ok = image != NULL;
     if (image) shrink(image, side, argb);
-    else ok = paint(item, side, argb);
+    else if (item->stamp) ok = print_stamp(item, side, argb);
+    else if (item->line) ok = generate(item, side, pool, progress, argb);
+    else ok = paint(item, side, pool, argb);
     wr_image_free(image);
     if (ok) item->argb = argb;
     else wr_free(argb);
@@ -219,12 +258,17 @@ static void make(Item *item, int side)
 static void run(void *arg, WrPool *pool, const WrProgress *progress)
 {
     Batch *batch = arg;
-    (void)pool;
     for (int i = 0; i < batch->count && !wr_progress_cancelled(progress); i++)
-        make(&batch->items[i], batch->side);
+        make(&batch->items[i], batch->side, pool, progress);
 }
 
 /* ---- on the window's thread ---- */
+
+static void drop_wishes(WrThumbs *thumbs)
+{
+    for (int i = 0; i < thumbs->wishes.count; i++) drop_item(&thumbs->wishes.data[i]);
+    thumbs->wishes.count = 0;
+}
 
 static void thumbs_forget(WrApp *app)
 {
@@ -232,7 +276,8 @@ static void thumbs_forget(WrApp *app)
     if (!thumbs) return;
     for (int i = 0; i < thumbs->slots.count; i++)
         if (thumbs->slots.data[i].texture) SDL_DestroyTexture(thumbs->slots.data[i].texture);
-    thumbs->slots.count = thumbs->wishes.count = 0;
+    thumbs->slots.count = 0;
+    drop_wishes(thumbs);
     thumbs->round++;
     wr_job_cancel(thumbs->job);
 }
@@ -264,32 +309,49 @@ void wr_thumbs_free(WrApp *app)
     app->shelf->thumbs = NULL;
 }
 
-/* Slots are numbered by two interleaved sequences, so that both lists can grow: slot 0 is the brush without a preset, 2 (k +
-   1) preset k, 2 k + 1 stamp k. A side between half the loaded one and the loaded one
-   reuses its textures (drawn smaller), so that
-   dragging the width of the panel does not load everything again. */
-static SDL_Texture *picture_of(WrApp *app, int place, int side)
+static char *copy_of(const char *text)
+{
+    return text ? wr_strdup(text) : NULL;
+}
+
+/* A smaller side reuses the textures (drawn smaller), so that dragging the width of the panel, or a list with large pictures
+   beside a small button, does not load everything again. */
+SDL_Texture *wr_thumb(WrApp *app, WrThumbKind kind, int index, int side, const WrThumbSource *of)
 {
     WrThumbs *thumbs = thumbs_of(app);
-    side = side < 8 ? 8 : side > WR_THUMB_MAX ? WR_THUMB_MAX : side;
-    if (side > thumbs->side || side < thumbs->side / 2) { /* another scale */
+    const int place = index * WR_THUMB_KINDS + (int)kind;
+    side = side < 8 ? 8 : side > SIDE_MAX ? SIDE_MAX : side;
+    if (side > thumbs->side) { /* another scale */
         thumbs_forget(app);
         thumbs->side = side;
     }
     while (thumbs->slots.count <= place) wr_array_push(&thumbs->slots, ((Slot){ 0 }));
     const Slot *slot = &thumbs->slots.data[place];
-    if (!slot->texture && !slot->asked && !slot->failed) wr_array_push(&thumbs->wishes, place);
+    if (!slot->texture && !slot->asked && !slot->failed)
+        wr_array_push(&thumbs->wishes, ((Item){ .slot = place,
+                                                .id = copy_of(of->id),
+                                                .path = copy_of(of->path),
+                                                .picture = copy_of(of->picture),
+                                                .stamp = copy_of(of->stamp),
+                                                .line = copy_of(of->line),
+                                                .ground = copy_of(of->ground),
+                                                .lower = of->lower,
+                                                .placed = of->placed }));
     return slot->texture;
 }
 
+/* MyPaint's own pictures show colours, so its presets are painted. */
 SDL_Texture *wr_thumb_of(WrApp *app, int index, int side)
 {
-    return picture_of(app, 2 * (index + 1), side);
-}
-
-SDL_Texture *wr_thumb_of_stamp(WrApp *app, int index, int side)
-{
-    return picture_of(app, 2 * index + 1, side);
+    const WrLibrary *library = wr_preset_browser_library(app);
+    WrThumbSource of = { 0 };
+    if (index >= 0) {
+        const WrPresetEntry *entry = wr_library_entry(library, index);
+        of.id = entry->id;
+        of.path = entry->path;
+        of.picture = strncmp(entry->id, "mypaint", 7) == 0 ? NULL : entry->picture;
+    }
+    return wr_thumb(app, WR_THUMB_BRUSH, index + 1, side, &of);
 }
 
 /* Textures belong to the window's thread and are therefore created here, not in the job. A batch of an older round belongs to
@@ -310,28 +372,8 @@ static void take(WrApp *app, Batch *batch)
     wr_app_redraw(app);
 }
 
-/* Describe the work for a slot; false if the slot is gone. */
-static bool describe(WrApp *app, int place, Item *item)
-{
-    const WrLibrary *library = wr_preset_browser_library(app);
-    int index = place / 2 - (place % 2 ? 0 : 1);
-    if (place % 2) {
-        if (index >= app->stamp->stamps.count) return false;
-        item->stamp = wr_strdup(app->stamp->stamps.data[index]);
-    } else if (index >= 0) {
-        if (index >= wr_library_count(library)) return false;
-        const WrPresetEntry *entry = wr_library_entry(library, index);
-        item->id = wr_strdup(entry->id);
-        item->path = wr_strdup(entry->path);
-        item->picture = entry->picture ? wr_strdup(entry->picture) : NULL;
-    }
-    item->slot = place;
-    return true;
-}
-
-/* Wishes are those of the last frame only: a thumbnail that was scrolled out of view before its turn is not loaded. The job
-   owns copies of all paths, because the library may be replaced meanwhile. `asked` stays set after a failure, so a broken
-   file is read once. */
+/* Wishes are those of the last frame only: a thumbnail that was scrolled out of view before its turn is not loaded.
+   `asked` stays set after a failure, so a broken file is read once. A generator is slow, so it has a batch of its own. */
 static void ask(WrApp *app)
 {
     WrThumbs *thumbs = app->shelf->thumbs;
@@ -339,10 +381,12 @@ static void ask(WrApp *app)
     batch->side = thumbs->side;
     batch->round = thumbs->round;
     for (int i = 0; i < thumbs->wishes.count && batch->count < BATCH; i++) {
-        int place = thumbs->wishes.data[i];
-        if (thumbs->slots.data[place].asked) continue;
-        thumbs->slots.data[place].asked = true;
-        if (describe(app, place, &batch->items[batch->count])) batch->count++;
+        Item *item = &thumbs->wishes.data[i];
+        if (thumbs->slots.data[item->slot].asked || (item->line && batch->count > 0)) continue;
+        thumbs->slots.data[item->slot].asked = true;
+        batch->items[batch->count++] = *item;
+        *item = (Item){ 0 };
+        if (batch->items[0].line) break;
     }
     wr_job_start(thumbs->job, batch);
 }
@@ -354,7 +398,7 @@ void wr_thumbs_update(WrApp *app)
     Batch *done = wr_job_take(thumbs->job);
     if (done) take(app, done);
     if (thumbs->wishes.count > 0 && !wr_job_busy(thumbs->job, NULL, NULL)) ask(app);
-    thumbs->wishes.count = 0;
+    drop_wishes(thumbs);
 }
 
 const WrPart wr_part_thumbs = { .forget = thumbs_forget };

@@ -82,6 +82,12 @@ static bool is_thumbnail(const char *folder, const char *name)
     return there;
 }
 
+static void add_stamp(WrApp *app, const char *path, const char *group, const char *words)
+{
+    wr_array_push(&app->stamp->stamps,
+                  ((WrStamp){ wr_strdup(path), wr_strdup(group), wr_strdup(words) }));
+}
+
 static int by_name(const void *a, const void *b)
 {
     char *const *x = a, *const *y = b;
@@ -101,42 +107,104 @@ static Names list_folder(const char *path)
     return names;
 }
 
-static void search(WrApp *app, const char *folder, int depth)
+static void search(WrApp *app, const char *folder, const char *group, int depth)
 {
     Names names = list_folder(folder);
     for (int i = 0; i < names.count; i++) {
         const char *name = names.data[i];
         char *path = wr_path_join(folder, name);
         bool folder_too = wr_path_is_folder(path);
-        if (folder_too && depth < DEPTH_MAX) search(app, path, depth + 1);
+        if (folder_too && depth < DEPTH_MAX) search(app, path, group, depth + 1);
         bool takes = !folder_too && is_picture(name) && !is_thumbnail(folder, name) &&
                      app->stamp->stamps.count < STAMPS_MAX;
-        if (takes) wr_array_push(&app->stamp->stamps, path);
-        else wr_free(path);
+        if (takes) add_stamp(app, path, group, "");
+        wr_free(path);
         wr_free(names.data[i]);
     }
     wr_array_free(&names);
 }
 
-/* Scan the folders at the first call; the paths are in stamp.stamps. */
-static void stamps_find(WrApp *app)
+/* Groups of stamps and words for their search: lines "Group: NAME" and "STAMP: WORDS". */
+static void search_shipped(WrApp *app)
+{
+    WrText place = { 0 };
+    char *text = NULL, *group = NULL;
+    size_t length;
+    bool there = wr_data_find("stamps/stamps.conf", &place) &&
+                 wr_file_read(wr_text_get(&place), 1u << 20, &text, &length, NULL);
+    for (char *line = there ? text : NULL; line && *line;) {
+        char *end = line + strcspn(line, "\n"), *next = end + (*end != '\0');
+        *end = '\0';
+        char *words = line[0] != '#' ? strchr(line, ':') : NULL;
+        if (words) {
+            *words++ = '\0';
+            words += *words == ' ';
+            WrText file = { 0 };
+            wr_text_addf(&file, "%.*s/%s.png", (int)(place.length - strlen("/stamps.conf")),
+                         wr_text_get(&place), line);
+            if (strcmp(line, "Group") == 0) group = words;
+            else add_stamp(app, wr_text_get(&file), group ? group : "", words);
+            wr_text_fini(&file);
+        }
+        line = next;
+    }
+    wr_free(text);
+    wr_text_fini(&place);
+}
+
+void wr_stamps_find(WrApp *app)
 {
     WrText ours = { 0 };
     WrError err;
     if (app->stamp->stamps_known) return;
     app->stamp->stamps_known = true;
     char *user = wr_library_user_folder(&err);
-    if (user) search(app, user, 0);
+    if (user) search(app, user, "My own", 0);
     wr_free(user);
-    if (wr_data_find("brushes", &ours)) search(app, wr_text_get(&ours), 0);
+    search_shipped(app);
+    if (wr_data_find("brushes", &ours)) search(app, wr_text_get(&ours), "Tips of brushes", 0);
     wr_text_fini(&ours);
-    search(app, "/usr/share/gimp/2.0/brushes", 0);
+    search(app, "/usr/share/gimp/2.0/brushes", "GIMP", 0);
 }
 
 static void stamps_free(WrApp *app)
 {
-    for (int i = 0; i < app->stamp->stamps.count; i++) wr_free(app->stamp->stamps.data[i]);
+    for (int i = 0; i < app->stamp->stamps.count; i++) {
+        wr_free(app->stamp->stamps.data[i].path);
+        wr_free(app->stamp->stamps.data[i].group);
+        wr_free(app->stamp->stamps.data[i].words);
+    }
     wr_array_free(&app->stamp->stamps);
+    app->stamp->stamps_known = false;
+}
+
+/* A hash of the names of the pictures and presets in the user's folder. */
+static uint64_t names_hash(const char *path, int depth)
+{
+    Names names = list_folder(path);
+    uint64_t hash = 0xcbf29ce484222325u + (uint64_t)names.count;
+    for (int i = 0; i < names.count; i++) {
+        char *inner = wr_path_join(path, names.data[i]);
+        for (const char *c = names.data[i]; *c; c++)
+            hash = (hash ^ (unsigned char)*c) * 0x100000001b3u;
+        if (depth < DEPTH_MAX && wr_path_is_folder(inner)) hash ^= names_hash(inner, depth + 1);
+        wr_free(inner);
+        wr_free(names.data[i]);
+    }
+    wr_array_free(&names);
+    return hash;
+}
+
+bool wr_stamps_changed(WrApp *app)
+{
+    WrError err;
+    char *user = wr_library_user_folder(&err);
+    uint64_t now = user ? names_hash(user, 0) : 0;
+    bool changed = app->stamp->folder != 0 && app->stamp->folder != now;
+    app->stamp->folder = now;
+    wr_free(user);
+    if (changed) stamps_free(app);
+    return changed;
 }
 
 /* ---- the stamp ---- */
@@ -167,7 +235,7 @@ static WrBrush brush_of(const WrApp *app)
 }
 
 /* Use that picture, NULL: the round brush. False: unreadable, with a message. */
-static bool stamp_choose(WrApp *app, const char *path)
+static bool use_picture(WrApp *app, const char *path)
 {
     WrStampState *draw = app->stamp;
     WrError err;
@@ -480,17 +548,15 @@ const WrTool wr_tool_stamp = {
 
 void wr_stamp_file_chosen(WrApp *app, const char *path)
 {
-    stamp_choose(app, path);
+    use_picture(app, path);
 }
 
 const WrPart wr_part_stamp = { .update = update };
 
 /* ---- choice of the stamp tool's picture ---- */
 
-#define TILE_UNITS 64
-
 /* Readable form of a file name: "wood-grain_2.png" is Wood grain 2. */
-static void name_of(const char *path, WrText *out)
+void wr_stamp_name(const char *path, WrText *out)
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
     const char *dot = strrchr(name, '.');
@@ -505,7 +571,7 @@ static void name_of(const char *path, WrText *out)
 static int index_of(const WrApp *app, const char *path)
 {
     for (int i = 0; path && i < app->stamp->stamps.count; i++)
-        if (strcmp(app->stamp->stamps.data[i], path) == 0) return i;
+        if (strcmp(app->stamp->stamps.data[i].path, path) == 0) return i;
     return -1;
 }
 
@@ -514,49 +580,58 @@ static int offer(WrApp *app, const char *path)
 {
     int index = index_of(app, path);
     if (index >= 0 || !path) return index;
-    wr_array_push(&app->stamp->stamps, wr_strdup(path));
+    add_stamp(app, path, "My own", "");
     return app->stamp->stamps.count - 1;
 }
 
-static void all(WrApp *app)
+int wr_stamp_chosen(const WrApp *app)
 {
-    int columns = 6, count = app->stamp->stamps.count, chosen = index_of(app, app->stamp->tip_path);
-    double side = wr_gui_px(TILE_UNITS);
-    int rows = (count + 1 + columns - 1) / columns;
-    WrText name = { 0 };
-    wr_gui_width_at_least(columns * (TILE_UNITS + 4) + 24);
-    wr_gui_list_begin("stamps", (rows < 5 ? rows : 5) * (side + wr_gui_px(6)) + wr_gui_px(16));
-    for (int i = -1; i < count; i++) {
-        if ((i + 1) % columns) wr_gui_same_line(4);
-        else if (i >= 0) wr_gui_space(-4);
-        wr_gui_push_id(i + 1);
-        SDL_Texture *picture = !wr_gui_will_see(side) ? NULL
-                               : i < 0                ? wr_thumb_of(app, -1, wr_gui_px(52))
-                                                      : wr_thumb_of_stamp(app, i, wr_gui_px(52));
-        bool pressed = wr_gui_tile("stamp", picture, side, i == chosen, false) == 1;
-        wr_gui_as_it_is(i >= 0);
-        if (i >= 0) name_of(app->stamp->stamps.data[i], &name);
-        wr_gui_tip(i < 0 ? "The round brush" : wr_text_get(&name));
-        wr_gui_as_it_is(false);
-        wr_gui_pop_id();
-        if (pressed) stamp_choose(app, i < 0 ? NULL : app->stamp->stamps.data[i]);
-    }
-    wr_gui_list_end();
-    wr_text_fini(&name);
+    return index_of(app, app->stamp->tip_path);
+}
+
+static bool is_carved(const WrApp *app, int index)
+{
+    return strncmp(app->stamp->stamps.data[index].words, "lower", 5) == 0;
+}
+
+SDL_Texture *wr_stamp_picture(WrApp *app, int index, int side)
+{
+    const WrThumbSource of = { .stamp = app->stamp->stamps.data[index].path,
+                               .lower = is_carved(app, index) };
+    return wr_thumb(app, WR_THUMB_STAMP, index, side, &of);
+}
+
+bool wr_stamp_choose(WrApp *app, int index)
+{
+    WrBrush *brush = &app->settings->brush;
+    int tool = wr_tool_find(app, WR_ACT(stamp));
+    if (app->tool != tool) wr_tool_choose(app, tool);
+    if (!use_picture(app, index < 0 ? NULL : app->stamp->stamps.data[index].path)) return false;
+    bool either = brush->mode == WR_BRUSH_RAISE || brush->mode == WR_BRUSH_LOWER;
+    if (index >= 0 && either) brush->mode = is_carved(app, index) ? WR_BRUSH_LOWER : WR_BRUSH_RAISE;
+    return true;
+}
+
+void wr_stamp_hover(WrApp *app, double u, double v, bool over)
+{
+    app->stamp->placed = over;
+    app->stamp->u = u;
+    app->stamp->v = v;
+    wr_app_redraw(app);
 }
 
 /* a picture in the option row that opens the list */
 static void stamp_picker(WrApp *app)
 {
-    stamps_find(app);
+    wr_stamps_find(app);
     int chosen = offer(app, app->stamp->tip_path);
     SDL_Texture *picture = chosen < 0 ? wr_thumb_of(app, -1, wr_gui_px(52))
-                                      : wr_thumb_of_stamp(app, chosen, wr_gui_px(52));
+                                      : wr_stamp_picture(app, chosen, wr_gui_px(52));
     wr_gui_same_line(12);
     wr_gui_centre(wr_gui_px(32));
     if (wr_gui_tile("picture", picture, wr_gui_px(32), false, false)) {
-        wr_gui_popup_open("stamps");
-        app->redraw = 4; /* a list in a popup needs several frames for its layout */
+        app->shelf->kind = WR_STOCK_STAMPS;
+        wr_action_run(app, WR_ACT(brushes));
     }
     wr_gui_centre_end(wr_gui_px(32));
     wr_gui_tip("Click to choose a picture; the wheel sizes the stamp");
@@ -566,7 +641,4 @@ static void stamp_picker(WrApp *app)
         wr_action_run(app, WR_ACT(stamp_open));
     wr_gui_centre_end(wr_gui_px(28));
     wr_gui_tip("Open a picture, a .gbr or a .gih as a stamp");
-    if (!wr_gui_popup_begin("stamps")) return;
-    all(app);
-    wr_gui_popup_end();
 }

@@ -24,7 +24,7 @@ typedef struct WrText WrText;
 
 #define WR_GENERATE_WAKE 8      /* frames in which focusing a new field is tried */
 #define WR_GENERATE_TEXT 4096   /* size limit in bytes of a text, a file name, a list of points */
-#define WR_GENERATE_PRESETS 500 /* limit of user presets */
+#define WR_GENERATE_PRESETS 600 /* limit of presets */
 #define WR_GENERATE_NAME 64     /* size limit of a preset's name in bytes */
 
 typedef struct WrGenerateValue {
@@ -37,6 +37,8 @@ typedef struct WrGenerateValue {
 typedef struct WrGeneratePreset {
     char *name, *line;            /* owned */
     const WrGenerator *generator; /* NULL: an unknown line, which is kept */
+    char
+        *words; /* owned; for the search, of presets that ship with the program; NULL: the user's */
 } WrGeneratePreset;
 
 /* Handles on the canvas. */
@@ -143,6 +145,8 @@ void wr_generate_presets_find(WrApp *app); /* loads them at the first call */
 bool wr_generate_preset_taken(const WrApp *app, const char *name); /* true if that name exists */
 bool wr_generate_preset_save(WrApp *app, const char *name);
 bool wr_generate_preset_delete(WrApp *app, int index);
+void wr_generate_preset_open(WrApp *app, int index); /* choose its generator with its values */
+SDL_Texture *wr_generate_preset_picture(WrApp *app, int index, int side); /* as wr_thumb */
 
 /* ---- panel_generate.c ---- */
 void wr_panel_generate(WrApp *app, SDL_Rect room);

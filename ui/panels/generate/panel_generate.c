@@ -406,15 +406,11 @@ static void save_popup(WrApp *app)
 
 static void take_preset(WrApp *app, int preset)
 {
-    WrGenerateState *hand = app->generate;
-    if (preset < 0) {
-        wr_generate_defaults(app);
-    } else {
-        char *line = wr_strdup(hand->presets.data[preset].line);
-        wr_generate_load(app, line);
-        hand->preset = preset;
-        wr_free(line);
+    if (preset >= 0) {
+        wr_generate_preset_open(app, preset);
+        return;
     }
+    wr_generate_defaults(app);
     wr_generate_changed(app);
 }
 
@@ -451,7 +447,7 @@ static void presets(WrApp *app)
     }
     wr_gui_tip("Save these values as a preset");
     wr_gui_same_line(4);
-    bool own = hand->preset >= 0;
+    bool own = hand->preset >= 0 && !hand->presets.data[hand->preset].words;
     wr_gui_disable(!own);
     if (wr_gui_glyph("delete", WR_ICON_DELETE, 24, own ? WR_COLOUR_LABEL : WR_COLOUR_OFF))
         wr_generate_preset_delete(app, hand->preset);
