@@ -232,7 +232,7 @@ static const char *const side_words[] = { WR_LIMIT_SIDES(WR_WORD) NULL };
         .high = WR_FIELD_MAX, .soft_low = -WR_FIELD_MAX, .soft_high = WR_FIELD_MAX, .whole = true, \
         .share = true                                                                              \
     }
-#define SEED WHOLE("seed", "Seed", "another number, another noise", 1, 0, 4294967295.0, 100)
+#define SEED WHOLE("seed", "Seed", "seed of the random numbers", 1, 0, 4294967295.0, 100)
 #define WORDS(name_, label_, help_, fallback_, words)                                              \
     {                                                                                              \
         .name = name_, .label = label_, .help = help_, .unit = "", .fallback = fallback_,          \
@@ -326,7 +326,7 @@ const WrOpInfo wr_ops[] = {
       .label = "Invert",
       .help = "turn bumps into dents",
       .run = wr_op_invert,
-      .params = { WORDS("about", "About",
+      .params = { WORDS("about", "Pivot",
                         "range: the lowest and the highest change places; zero: "
                         "the sign changes",
                         WR_INVERT_RANGE, invert_words) } },
@@ -432,7 +432,7 @@ const WrOpInfo wr_ops[] = {
                     .whole = true,
                     .choices = wr_op_noise_kinds },
                   { .name = "mode",
-                    .label = "Sum of",
+                    .label = "Fractal type",
                     .help = "fbm: the noises; turbulence: their amounts; billow: these about 0; "
                             "ridged: crests where they are 0",
                     .unit = "",

@@ -37,18 +37,19 @@ static const char *const sources[] = { SOURCES(WR_WORD) NULL };
                    "and up; 0: cells as square as can be"),                                        \
         WR_P_WHOLE("octaves", "Octaves", 5, 1, WR_OCTAVES_MAX, 12,                                 \
                    "at most; those finer than two texels a cell are left out"),                    \
-        WR_P_ABOVE("ratio", "Fall", 2, 1, 64, 4, "",                                               \
-                   "each octave is so many times lower than the one before"),                      \
-        WR_P_ABOVE("step", "Step", 2, 1, 64, 4, "",                                                \
-                   "each octave has so many times more cells; rounded to whole cells"),            \
-        WR_P_CHOICE("mode", "Sum", WR_OCTAVES_FBM, wr_octaves_words, "how octaves are summed"),    \
+        WR_P_ABOVE("ratio", "Falloff", 2, 1, 64, 4, "",                                            \
+                   "amplitude ratio of successive octaves: higher is smoother"),                   \
+        WR_P_ABOVE("step", "Lacunarity", 2, 1, 64, 4, "",                                          \
+                   "frequency ratio of successive octaves; rounded to whole cells"),               \
+        WR_P_CHOICE("mode", "Fractal type", WR_OCTAVES_FBM, wr_octaves_words,                      \
+                    "how octaves are summed"),                                                     \
         WR_P_SEED,                                                                                 \
-        WR_P_SWITCH("scatter", "Scattered", 1,                                                     \
+        WR_P_SWITCH("scatter", "Random octaves", 1,                                                \
                     "each octave has random numbers and an offset of its own; off: all have the "  \
                     "same, g(s^k t)/r^k literally"),                                               \
         WR_P_NUMBER("warp", "Warp", 0, -64, 64, 1, "cells",                                        \
-                    "how far places are moved by a noise of their own"),                           \
-        WR_P_WHOLE("warp_cells", "Cells of the warp", 0, 0, 8192, 32, "0: as many as cells"),      \
+                    "domain warping: distortion of the noise by another noise"),                   \
+        WR_P_WHOLE("warp_cells", "Warp cells", 0, 0, 8192, 32, "0: as many as cells"),             \
         WR_P_NUMBER("ridge_offset", "Ridge offset", 1, 0, 10, 2, "", "mode=ridged: their height"), \
         WR_P_NUMBER("ridge_gain", "Ridge gain", 2, 0, 100, 4, "",                                  \
                     "mode=ridged: how soon fine octaves show beside the ridges"),                  \
@@ -64,7 +65,7 @@ static const char *const sources[] = { SOURCES(WR_WORD) NULL };
 
 static const WrParam cell_params[] = {
     NOISE_PARAMS(4),
-    WR_P_CHOICE("fade", "Fade", WR_FADE_QUINTIC, wr_fade_words, "how cells are blended"),
+    WR_P_CHOICE("fade", "Interpolation", WR_FADE_QUINTIC, wr_fade_words, "how cells are blended"),
     WR_P_CHOICE("domain", "Domain", DOMAIN_PLANE, domains,
                 "the plane, a slice through space, or one coordinate alone"),
     SLICE,
@@ -74,7 +75,7 @@ static const WrParam cell_params[] = {
 };
 static const WrParam simplex_params[] = {
     NOISE_PARAMS(6),
-    WR_P_CHOICE("way", "Way to tile", 2, ways,
+    WR_P_CHOICE("way", "Tiling", 2, ways,
                 "on a sheared lattice, on a torus in space of 4D, or as a slice through 3D"),
     SLICE, WR_P_END
 };

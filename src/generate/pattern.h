@@ -114,9 +114,10 @@ typedef struct WrPieces {
 } WrPieces;
 
 #define WR_P_PIECES(uneven, tilt, pillow, rough)                                                   \
-    WR_P_PART("uneven", "Uneven", uneven, "how much lower some lie, as a part of the height"),     \
-        WR_P_PART("tilt", "Tilt", tilt, "how far they lean, as a part of the height"),             \
-        WR_P_PART("pillow", "Pillow", pillow, "how far their middle bulges"),                      \
+    WR_P_PART("uneven", "Height variation", uneven,                                                \
+              "random height of the pieces, as a share of the height"),                            \
+        WR_P_PART("tilt", "Tilt", tilt, "tilt of each piece, as a share of the height"),           \
+        WR_P_PART("pillow", "Pillow", pillow, "bulge of the middle"),                              \
         WR_P_PART("rough", "Roughness", rough, "of their surface, as a part of the height"),       \
         WR_P_SEED
 

@@ -48,8 +48,9 @@
 #define WR_S_PLACE                                                                                 \
     WR_P_NUMBER("sink", "Sink", 0, -16384, 16384, 64, "texels",                                    \
                 "depth of its part below the ground, which is hidden"),                            \
-        WR_P_TEXELS("deep", "Deeper", 0, 64, "random further depth, up to that"),                  \
-        WR_P_TEXELS("soft", "Soft", 0, 16, "height over the ground up to which its edge fades"),   \
+        WR_P_TEXELS("deep", "Random depth", 0, 64, "random further depth, up to that"),            \
+        WR_P_TEXELS("soft", "Edge fade", 0, 16,                                                    \
+                    "height over the ground up to which its edge fades"),                          \
         WR_P_WHOLE("across", "Across", 1, 1, WR_SOLID_MAX, 32, "how many side by side"),           \
         WR_P_WHOLE("rows", "Rows", 1, 1, WR_SOLID_MAX, 32, "how many above one another"),          \
         WR_S_TUPLE("spacing", "Spacing", 0, 0, 16384, 0, 256, "texels", "x,y",                     \
@@ -75,9 +76,10 @@
           .low = -64,                                                                              \
           .high = 64 },                                                                            \
         WR_P_SWITCH("closed", "Closed", 0, "the path ends where it begins"),                       \
-        WR_P_CHOICE("join", "Join", JOIN_MAX, joins,                                               \
+        WR_P_CHOICE("join", "Overlap", JOIN_MAX, joins,                                            \
                     "where they overlap: the highest, melted into each other, or added up"),       \
-        WR_P_ABOVE("melt", "Melt", 4, 0, 16384, 64, "texels", "of join=smooth: how far they melt")
+        WR_P_ABOVE("melt", "Smoothing", 4, 0, 16384, 64, "texels",                                 \
+                   "of join=smooth: how far they melt")
 static const char *const layouts[] = { WR_LAYOUTS(WR_WORD) NULL };
 #define JOINS(X) X(JOIN_MAX, "max") X(JOIN_SMOOTH, "smooth") X(JOIN_ADD, "add")
 enum { JOINS(WR_WORD_ID) };

@@ -23,8 +23,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FOUND_MAX 40 /* listed results */
-#define ROWS 12      /* that are seen without scrolling */
+#define ROWS 12 /* seen without scrolling */
 #define ROW_UNITS 28
 
 /* The command whose line is being typed: the text starts with its verb and a space. */
@@ -188,13 +187,25 @@ static int step_chosen(WrFinder *finder, int count)
     return finder->chosen;
 }
 
+/* Updates the results if the text or the index has changed. */
+static void answer(WrFinder *finder)
+{
+    if (finder->found_at == finder->index.made && strcmp(finder->found_for, finder->text) == 0)
+        return;
+    finder->found_count =
+        wr_search_index_find(&finder->index, finder->text, finder->found, WR_SEARCH_SHOWN);
+    finder->found_at = finder->index.made;
+    memcpy(finder->found_for, finder->text, sizeof finder->found_for);
+}
+
 /* The entry that was chosen, or -1. */
 static int results(WrApp *app, bool enter)
 {
-    WrSearchHit found[FOUND_MAX];
     WrFinder *finder = app->finder;
     const WrSearchEntry *entries = finder->index.entries.data;
-    const int count = wr_search_index_find(&finder->index, finder->text, found, FOUND_MAX);
+    answer(finder);
+    const WrSearchHit *found = finder->found;
+    const int count = finder->found_count;
     const int chosen = step_chosen(finder, count);
     int go = -1;
     wr_gui_list_begin("found", ROW_UNITS * ROWS * wr_gui_scale() + wr_gui_px(12));

@@ -4,6 +4,8 @@
 #include "ui/app/state/registry.h"
 #include "ui/panels/search_index.h"
 
+#define WR_SEARCH_SHOWN 40 /* listed results */
+
 typedef struct WrFinder { /* the search */
     char text[600];
     /* a command was just chosen: the field contains its verb and needs the keyboard focus */
@@ -12,6 +14,11 @@ typedef struct WrFinder { /* the search */
     int chosen;
     bool empty; /* Return in an empty field: restore the keyboard focus */
     WrSearchIndex index;
+    /* results for a text, and the state of the index then */
+    WrSearchHit found[WR_SEARCH_SHOWN];
+    int found_count;
+    char found_for[600];
+    uint64_t found_at;
 } WrFinder;
 
 void wr_dialog_search(WrApp *app);

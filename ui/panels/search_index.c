@@ -139,7 +139,7 @@ void wr_search_index_free(WrSearchIndex *index)
 {
     for (int i = 0; i < index->entries.count; i++) entry_fini(&index->entries.data[i]);
     wr_array_free(&index->entries);
-    *index = (WrSearchIndex){ 0 };
+    *index = (WrSearchIndex){ .made = index->made + 1 };
 }
 
 /* ---- rows as they are drawn ---- */
@@ -631,6 +631,7 @@ void wr_search_index_update(WrApp *app)
         if (e->row && e->help && !e->field[WR_SEARCH_HELP]) fold_help(e);
     }
     index->revision = revision;
+    index->made++;
     app->accuracy->error_open = error_open;
     app->accuracy->plot_open = plot_open;
     app->redraw = redraw;

@@ -47,6 +47,7 @@ typedef struct WrSearchIndex {
     char language[8];
     const void *library; /* of brushes */
     uint64_t revision;   /* of the document */
+    uint64_t made;       /* number of changes of the index */
 } WrSearchIndex;
 
 typedef struct WrSearchHit {
