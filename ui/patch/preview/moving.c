@@ -38,7 +38,6 @@ void wr_moving_dials(WrMovingWay way, WrDials *dials)
     dials->spread = WR_SPREAD_REGULAR;
     dials->refine = WR_REFINE_CONTRAST;
     dials->contrast = 0.05;
-    if (dials->rays > 1) dials->rays = 1; /* shadows have hard edges */
 }
 
 static void follow(double *known, double measured)

@@ -14,6 +14,7 @@
 #include "field/scheme.h"
 #include "render/frame/frame.h"
 #include "scene/dials.h"
+#include "scene/objects.h"
 #include "scene/scene.h"
 #include "shade/bump.h"
 #include "system/clock.h"
@@ -156,6 +157,9 @@ static WrDials dials_for(const Wish *wish, WrPreviewLevel level, WrMovingWay way
     dials.samples = 1;
     if (level == WR_PREVIEW_MOVING) {
         wr_moving_dials(way, &dials);
+        /* Shadows among objects have hard edges, and those of an object on itself wait for rest. */
+        const int rays = wr_scene_object_count(wish->scene) > 1 ? 1 : 0;
+        if (dials.rays > rays) dials.rays = rays;
         dials.arithmetic = WR_ARITHMETIC_FAST;
         dials.shading = WR_SHADING_FLOAT;
     }
