@@ -171,7 +171,7 @@ static void steady(WrApp *app, double width)
 {
     WR_ROWS(names);
     static const char *const names[WR_SMOOTHING_COUNT] = {
-        [WR_ROW(WR_SMOOTHING_OFF)] = "as it is",
+        [WR_ROW(WR_SMOOTHING_OFF)] = "off",
         [WR_ROW(WR_SMOOTHING_SMOOTH)] = "smooth",
         [WR_ROW(WR_SMOOTHING_STRING)] = "on a string",
     };
