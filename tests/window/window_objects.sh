@@ -111,7 +111,7 @@ for grey in '#999999' '#656565'; do
     seen=$(convert bare.ppm -fill black +opaque "$grey" -fill white -opaque "$grey" -format '%[fx:int(mean*w*h)]' info:)
     [[ $seen -gt 20000 ]] || complain "nothing behind the vase: only $seen pixels of $grey"
 done
-drag 1127 402 -3 1 10
+drag 1127 440 -3 1 10
 becomes 'surface revolution profile=*' "a point of the profile was dragged"
 read -r r < <(newest | sed -E 's/[^;]*;[^;]*;[^;]*;([-0-9.]+),.*/\1/')
 awk -v r="$r" 'BEGIN { exit !(r > 0.2 && r < 0.32) }' || complain "the point's r is $r, not about 0.26"
