@@ -17,7 +17,7 @@ save_as() { answer_file "$1" ctrl+shift+s; }
 
 start two.wrinkle
 # The patch's middle lies about here at this size of the window; a unit of the scene is about 340 pixels.
-mx=726 my=422
+mx=722 my=422
 click $((mx - 100)) $my
 becomes 'layer use 1' "a click on the left one"
 click $((mx + 100)) $((my - 30))
