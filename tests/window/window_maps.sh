@@ -11,7 +11,10 @@ source "$source/tests/window/window_help.sh"
 serve
 "$program" export --do 'table 64x64' --do 'noise perlin cells=6' --do 'bump height=0.3' --as normal-y -o n.png >log || complain "$(cat log)"
 printf '%s\n' 'table 64x64' 'surface sphere' 'camera orthographic eye=0,0,5 size=2.2' >plain.wrinkle
-printf '%s\n' 'width 1200' 'height 860' 'turning 0' 'ants 0' 'tab 1' 'lower 0.15' >config/wrinkle/window.conf
+printf '%s\n' 'width 1200' 'height 860' 'turning 0' 'ants 0' 'tab 1' 'lower 0' 'fold +Scene/PICTURES' >config/wrinkle/window.conf
+for section in OBJECTS SURFACE BUMP RELIEF LIGHT SURROUNDINGS; do
+    echo "fold -Scene/$section" >>config/wrinkle/window.conf
+done
 
 # choose FILE Y: by the folder in that row.
 choose() {
@@ -30,16 +33,14 @@ start plain.wrinkle
 patch=400x400+526+200
 xdotool mousemove $((X + 1000)) $((Y + 300))
 rest
-for _ in 1 2 3 4; do xdotool click 5 && rest; done
 # The list of materials, and its second from the right below: gold.
-click 1075 201
+click 1075 312
 rest
-click 1045 450
+click 1045 561
 becomes 'material preset=gold' "a material that was chosen by its picture"
 key ctrl+z
 rest
-xdotool mousemove $((X + 1000)) $((Y + 300)) click 5 && rest
-xdotool click 5
+xdotool mousemove $((X + 1000)) $((Y + 300))
 rest
 shot before
 # The folders of the two rows: eleven bright pixels above one another, where no other row has as many or as few.
@@ -115,7 +116,7 @@ shot turned
 kill -KILL "$pid"
 wait "$pid" 2>/dev/null
 rm -rf state/wrinkle/journals/*
-printf '%s\n' 'width 1200' 'height 800' 'turning 0' 'ants 0' 'tab 2' 'lower 0.1' >config/wrinkle/window.conf
+printf '%s\n' 'width 1200' 'height 800' 'turning 0' 'ants 0' 'tab 2' 'lower 0.3' >config/wrinkle/window.conf
 start sky.wrinkle
 home
 shot with

@@ -17,7 +17,7 @@ save_as() { answer_file "$1" ctrl+shift+s; }
 
 start two.wrinkle
 # The patch's middle lies about here at this size of the window; a unit of the scene is about 340 pixels.
-mx=726 my=422
+mx=722 my=422
 click $((mx - 100)) $my
 becomes 'layer use 1' "a click on the left one"
 click $((mx + 100)) $((my - 30))
@@ -111,7 +111,7 @@ for grey in '#999999' '#656565'; do
     seen=$(convert bare.ppm -fill black +opaque "$grey" -fill white -opaque "$grey" -format '%[fx:int(mean*w*h)]' info:)
     [[ $seen -gt 20000 ]] || complain "nothing behind the vase: only $seen pixels of $grey"
 done
-drag 1127 402 -3 1 10
+drag 1127 440 -3 1 10
 becomes 'surface revolution profile=*' "a point of the profile was dragged"
 read -r r < <(newest | sed -E 's/[^;]*;[^;]*;[^;]*;([-0-9.]+),.*/\1/')
 awk -v r="$r" 'BEGIN { exit !(r > 0.2 && r < 0.32) }' || complain "the point's r is $r, not about 0.26"

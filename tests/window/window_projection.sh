@@ -33,7 +33,7 @@ numbers() {
 start block.wrinkle
 search 'projection handle'
 # The patch's middle, as in window_objects.sh; the mesh's middle 5,6,8 is there, and a unit is about 68 pixels.
-mx=726 my=422
+mx=722 my=422
 drag $mx $my 3 -2 20
 becomes 'surface mesh at=*' "the disc moves the projection"
 numbers 5.84 5.93 6.55 6.62 8 8

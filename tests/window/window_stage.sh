@@ -10,7 +10,11 @@ source "$source/tests/window/window_help.sh"
 
 serve
 cp "$source/samples/cube.bpt" .
-printf '%s\n' 'width 1200' 'height 860' 'turning 0' 'ants 0' 'tab 1' 'lower 0.1' >config/wrinkle/window.conf
+printf '%s\n' 'width 1200' 'height 860' 'turning 0' 'ants 0' 'tab 1' 'lower 0' 'fold +Scene/CAMERA' 'fold +Scene/BACKGROUND' \
+    'fold +Scene/EXPOSURE' 'fold +Scene/REAL SIZE OF THE CELL' >config/wrinkle/window.conf
+for section in OBJECTS BUMP MATERIAL RELIEF LIGHT SURROUNDINGS; do
+    echo "fold -Scene/$section" >>config/wrinkle/window.conf
+done
 # pick X Y ROW: open a list, and the row of it.
 pick() {
     click "$1" "$2"
@@ -28,13 +32,13 @@ closed() {
 printf '%s\n' 'table 96x96' 'layer add form' 'noise perlin cells=4' 'surface terrain layer=form cells=9' \
     'camera orthographic eye=0,0,5 size=2' 'dials aa=point' >hills.wrinkle
 start hills.wrinkle
-click 1110 419
+click 1110 369
 xdotool type --delay 20 0.375
 rest
 xdotool key Return
 rest
 becomes 'surface terrain * height=0.375 cells=9 layer=form' "another height of the ground"
-pick 1110 537 2
+pick 1110 489 2
 becomes 'surface terrain * height=0.375 cells=9 layer=1' "the ground of another layer"
 
 # ---- a view is kept, used again and forgotten; the background; near the panel's end ----
@@ -43,34 +47,34 @@ for _ in $(seq 24); do xdotool click 5; done
 rest
 xdotool click 4
 rest
-click 1050 240
+click 1050 508
 becomes 'camera save "view 1"' "a view that is kept"
 xdotool mousemove $((X + 760)) $((Y + 700))
 key KP_Next
 becomes 'camera from right' "another view"
-click 1000 272
+click 1000 540
 becomes 'camera use "view 1"' "the view that was kept"
-xdotool mousemove $((X + 1172)) $((Y + 272))
+xdotool mousemove $((X + 1172)) $((Y + 540))
 rest # with the icon's tip, which lies over a row
 xdotool click 1
 becomes 'camera forget "view 1"' "the view forgotten"
-pick 1110 301 2
+pick 1110 569 2
 becomes 'background gradient' "a gradient behind"
-pick 1110 301 3
+pick 1110 569 3
 becomes 'background none' "nothing behind"
 closed
 
 # ---- patches: which part of the table each has ----
 printf '%s\n' 'table 96x96' 'surface patches file=cube.bpt' 'dials aa=point' >patches.wrinkle
 start patches.wrinkle
-pick 1110 361 4
+pick 1110 313 4
 becomes 'surface patches *table=own' "a cell for each patch"
 closed
 
 # ---- the ground is a plane to the horizon, and one that ends ----
 printf '%s\n' 'table 96x96' 'surface plane endless=1' 'dials aa=point' >plane.wrinkle
 start plane.wrinkle
-pick 1110 391 1
+pick 1110 339 1
 becomes 'surface plane a=1 b=1 endless=0' "a plane that ends"
 xdotool key ctrl+q
 sleep 0.5

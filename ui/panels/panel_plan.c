@@ -45,7 +45,10 @@ static void effect(WrApp *app, int i, const WrPlanRow *e)
     WR_ROWS_END(proofs, WR_PROOF_COUNT);
     char text[240];
     if (has_eye(e, &wr_effects[i])) eye(app, i, e->run);
-    wr_gui_text(WR_FONT_TEXT, e->run ? WR_COLOUR_STRONG : WR_COLOUR_MUTED, e->name);
+    const double room = wr_gui_available() - wr_gui_px(76); /* beside its time */
+    const bool wide = wr_gui_text_width(WR_FONT_TEXT, e->name) > room;
+    wr_gui_text(wide ? WR_FONT_SMALL : WR_FONT_TEXT, e->run ? WR_COLOUR_STRONG : WR_COLOUR_MUTED,
+                e->name);
     if (e->run && e->ns_per_pixel > 0.0) {
         snprintf(text, sizeof text, "%.3g ns", e->ns_per_pixel);
         wr_gui_same_line(8);

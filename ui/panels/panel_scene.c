@@ -364,7 +364,6 @@ static void sections(WrApp *app, Section *const *draw, int count, int first)
         draw[i](app);
         wr_gui_pop_id();
     }
-    wr_gui_space(8);
 }
 
 void wr_panel_scene(WrApp *app)
@@ -378,4 +377,5 @@ void wr_panel_scene_second(WrApp *app)
     static Section *const list[] = { wr_panel_solid, wr_panel_lights, wr_panel_camera,
                                      wr_panel_cell };
     sections(app, list, WR_LENGTH(list), 100);
+    wr_gui_space(8);
 }

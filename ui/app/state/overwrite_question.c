@@ -132,7 +132,6 @@ void wr_dialog_replace(WrApp *app)
                                 : "Keys: R replaces, Escape goes back to the name.");
     if (key && wr_gui_letter_pressed(SDL_SCANCODE_R)) replaces = true;
     if (key && changed && wr_gui_letter_pressed(SDL_SCANCODE_S)) other = true;
-    if (key && wr_gui_return_pressed()) other = true;
     if (key && wr_gui_escape_pressed()) go_back(app);
     else if (replaces) go_ahead(app);
     else if (other && changed) {
