@@ -22,7 +22,7 @@ layers_of() { "$program" inspect "$1" --json | grep -o '"blend"' | wc -l; }
 start
 shot start
 [[ $WIDTH == 1200 && $HEIGHT == 800 ]] || complain "the window is $WIDTH x $HEIGHT"
-colours=$(convert start.ppm -crop "$patch" -unique-colors -format '%w' info:)
+colours=$(convert start.ppm -crop "$patch" -format '%k' info:)
 [[ $colours -gt 250 ]] || complain "the patch has only $colours colours"
 title_is 'bricks (starter)' || complain "the title is $(xdotool getwindowname "$window")"
 
