@@ -26,7 +26,7 @@ typedef enum WrCommandClass {
     /* changes the view: no edit step, but a step of the view history; journaled, saved with the
        document */
     WR_CLASS_VIEW,
-    /* chooses what edits apply to: no edit step; journaled, in scripts, saved with the document */
+    /* chooses the layer of later edits: no edit step; journaled, in scripts, saved with the document */
     WR_CLASS_CHOICE,
     WR_CLASS_OUTPUT,  /* writes files: never in a journal, never in a document */
     WR_CLASS_HISTORY, /* moves through the history: no step of its own; journaled as such */

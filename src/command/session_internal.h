@@ -133,7 +133,7 @@ bool wr_session_make_composite(WrSession *session, WrError *err);
 bool wr_session_go_to(WrSession *session, int state, WrError *err);
 /* Goes `steps` back (negative) or forward, over revisions too. False: not so many. */
 bool wr_session_travel(WrSession *session, int steps);
-/* The next line of the journal cannot be replayed on what is in it: the journal starts again after this command. */
+/* The next line of the journal cannot be replayed on its lines: the journal starts again after this command. */
 void wr_session_journal_cut(WrSession *session);
 /* Restore the document to the history's present state. */
 void wr_session_restore(WrSession *session);

@@ -324,7 +324,7 @@ static bool step_on(WrSession *session, const WrCall *call, WrError *err)
     return switch_steps(session, call, false, err);
 }
 
-/* Take line i out. The choices of layers around it stay for what follows. */
+/* Take line i out. The choices of layers around it stay for the next lines. */
 static Line take_out(Lines *lines, int i)
 {
     Line line = lines->of[i];
@@ -616,7 +616,7 @@ const WrCommand wr_command_step = {
     .after_journal = true,
     .help = "change earlier steps of the history",
     .details =
-        "The steps after a changed one run again; one `undo` takes the change back. If one of "
+        "The steps after a changed one run again; one `undo` reverts the change. If one of "
         "them cannot run any more, nothing changes and the error names it. A step that is off "
         "is left out of scripts.",
     .example = "step set 1 change=\"width=512\""

@@ -86,6 +86,7 @@ static const char *const instant[] = {
     "sculpt",
     "project", /* test_sculpt.c */
     "macro",   /* test_steps.c */
+    "model",   /* a small mesh */
 };
 
 /* Arguments that generators need besides their defaults; generators that read files are tested elsewhere. */

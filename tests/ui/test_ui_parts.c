@@ -291,18 +291,20 @@ static void more_favourites_than_there_are_places_are_left_out(void **state)
 {
     (void)state;
     WrSettings s = wr_settings_default();
-    char name[32];
+    char name[32], last[32];
     for (int i = 0; i < WR_FAVOURITES_MAX + 5; i++) {
         snprintf(name, sizeof name, "user/%d", i);
         wr_settings_set_favourite(&s, name, true);
         wr_settings_note_used(&s, name);
     }
-    assert_int_equal(wr_settings_find_favourite(&s, "user/63"), 63);
-    assert_int_equal(wr_settings_find_favourite(&s, "user/64"), -1);
+    snprintf(last, sizeof last, "user/%d", WR_FAVOURITES_MAX - 1);
+    assert_int_equal(wr_settings_find_favourite(&s, last), WR_FAVOURITES_MAX - 1);
+    assert_int_equal(wr_settings_find_favourite(&s, name), -1);
     wr_settings_set_favourite(&s, "user/0", false);
-    assert_int_equal(wr_settings_find_favourite(&s, "user/63"), 62);
+    assert_int_equal(wr_settings_find_favourite(&s, last), WR_FAVOURITES_MAX - 2);
     assert_string_equal(s.used[0], name);
-    assert_string_equal(s.used[WR_USED_MAX - 1], "user/57");
+    snprintf(last, sizeof last, "user/%d", WR_FAVOURITES_MAX + 5 - WR_USED_MAX);
+    assert_string_equal(s.used[WR_USED_MAX - 1], last);
     wr_settings_fini(&s);
 }
 

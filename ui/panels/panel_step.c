@@ -94,7 +94,7 @@ static void heading(const char *line)
     wr_text_fini(&words);
 }
 
-/* What a change costs: measured when the steps ran. One line, so that the buttons stay in place. */
+/* Cost of a change: measured when the steps ran. One line, so that the buttons stay in place. */
 static void cost(const WrApp *app, int step)
 {
     char text[120];

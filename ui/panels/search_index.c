@@ -592,7 +592,7 @@ static void add_commands(WrSearchIndex *index)
     }
 }
 
-/* What depends on the language and the library alone. */
+/* The part that depends on the language and the library alone. */
 static void make_fixed(WrApp *app, WrSearchIndex *index)
 {
     Drawing d = { .app = app, .index = index };
@@ -639,7 +639,7 @@ void wr_search_index_update(WrApp *app)
 
 /* ---- the answer ---- */
 
-/* Added to the rank: what does something at once comes before what explains. Commands come last. */
+/* Added to the rank: entries that act at once come before those that explain. Commands come last. */
 static int bias_of(WrSearchKind kind)
 {
     switch (kind) {

@@ -38,7 +38,7 @@ static void set_pinned(WrGui *gui, const char *name, bool pinned)
     gui->pins[count - 1] = nullptr;
 }
 
-/* While rows are skipped, widgets neither work nor move the place of the next one; what they draw is clipped. */
+/* While rows are skipped, widgets neither work nor move the place of the next one; their drawing is clipped. */
 static void skip(WrGui *gui, bool skips)
 {
     ImGuiWindow *window = ImGui::GetCurrentWindow();

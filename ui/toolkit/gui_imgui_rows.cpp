@@ -10,7 +10,7 @@
 #define LIT_MS 2000
 #define PATIENCE 4 /* frames in which a row must appear */
 
-/* The name of a label "12 changed###NAME" or "NAME##7" is what stays the same while its text changes. */
+/* The name of a label "12 changed###NAME" or "NAME##7" stays the same while its text changes. */
 static const char *name_of(const char *label, size_t *length)
 {
     const char *id = strstr(label, "###");

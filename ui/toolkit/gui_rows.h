@@ -28,7 +28,7 @@ void wr_gui_list_rows(WrGui *gui, int width, int height, void (*draw)(void *ctx)
 /* A row whose label is not a widget's own: its name before it, and the last item after it. */
 void wr_gui_name_row(const char *label);
 void wr_gui_name_item(const char *label);
-/* True while rows are listed: no background work should be started for what is drawn. */
+/* True while rows are listed: no background work should be started for them. */
 bool wr_gui_lists_rows(void);
 
 /* Unfold the section, scroll to the first row of that label in it, and frame the row for some seconds. section: "" for any.
@@ -38,7 +38,7 @@ void wr_gui_light_row(WrGui *gui, const char *section, const char *label);
 double wr_gui_light_left(const WrGui *gui);
 /* The framed row of the last picture, as x, y, width, height in pixels; false: there is none. For tests. */
 bool wr_gui_lit_row(const WrGui *gui, float place[4]);
-/* True if the highlight waits for a row of that label, so that what hides it can open. */
+/* True if the highlight waits for a row of that label, so that its section can open. */
 bool wr_gui_light_waits(const char *label);
 
 #ifdef __cplusplus

@@ -50,8 +50,10 @@ void wr_chosen_follow(WrChosenLayers *chosen, const WrDocument *document, const 
     uint64_t names[WR_LAYERS_MAX];
     const int count = document->layer_count, active = document->active;
     for (int i = 0; i < count; i++) names[i] = name_of(&document->layers[i]);
-    if (chosen->count != count || memcmp(chosen->name, names, (size_t)count * sizeof *names) != 0)
+    if (chosen->count != count || memcmp(chosen->name, names, (size_t)count * sizeof *names) != 0) {
         follow_names(chosen, names, count);
+        chosen->awaited = 0; /* its layers have other numbers */
+    }
     if (chosen->awaited == names[active] ||
         (chosen->line && strcmp(chosen->line, last_line) == 0)) {
         memcpy(chosen->chosen, chosen->next, sizeof chosen->chosen);

@@ -29,7 +29,7 @@
 #define BATCH 6      /* pictures per job */
 #define SIDE_MAX 256 /* pixels; larger thumbnails are drawn enlarged */
 
-/* What to draw, with owned texts. */
+/* The texts are owned. */
 typedef struct Item {
     int slot; /* that it is for */
     char *id, *path, *picture, *stamp, *line, *ground;

@@ -15,7 +15,7 @@ typedef enum WrThumbKind {
     WR_THUMB_KINDS
 } WrThumbKind;
 
-/* What a thumbnail shows, the first that is not NULL; all texts are borrowed. None: the round brush. */
+/* The first that is not NULL is shown; all texts are borrowed. None: the round brush. */
 typedef struct WrThumbSource {
     const char *picture; /* path of a finished picture */
     const char *stamp;   /* path of a picture, shown as a relief */

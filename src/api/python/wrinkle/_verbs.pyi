@@ -356,6 +356,11 @@ class Verbs:
     ) -> None:
         """The surface that the table wrinkles."""
 
+    def model(
+        self, *_values: Any
+    ) -> None:
+        """A stock model as the object's surface."""
+
     def rotate(
         self, *_values: Any, pose: Literal['own'] | None = ...
     ) -> None:
@@ -380,12 +385,12 @@ class Verbs:
 
     def material(
         self, *, preset: Literal['usual', 'clay', 'brick', 'stone', 'wood', 'leather', 'skin', 'plastic', 'porcelain',
-        'metal', 'gold', 'copper'] | None = ..., model: Literal['blinn-phong', 'phong', 'torrance-sparrow',
-        'oren-nayar', 'ggx'] | None = ..., energy: Literal['kept', 'published'] | None = ..., ambient: float | None =
-        ..., diffuse: float | None = ..., specular: float | None = ..., shininess: float | None = ..., colour:
-        Sequence[float] | None = ..., gate: bool | str | None = ..., roughness: float | None = ..., metalness: float |
-        None = ..., ior: float | None = ..., tint: float | None = ..., shadow: bool | str | None = ..., occlusion: bool
-        | str | None = ...
+        'metal', 'gold', 'copper', 'plaster', 'steel', 'bronze', 'rubber', 'wax', 'ice'] | None = ..., model:
+        Literal['blinn-phong', 'phong', 'torrance-sparrow', 'oren-nayar', 'ggx'] | None = ..., energy: Literal['kept',
+        'published'] | None = ..., ambient: float | None = ..., diffuse: float | None = ..., specular: float | None =
+        ..., shininess: float | None = ..., colour: Sequence[float] | None = ..., gate: bool | str | None = ...,
+        roughness: float | None = ..., metalness: float | None = ..., ior: float | None = ..., tint: float | None = ...,
+        shadow: bool | str | None = ..., occlusion: bool | str | None = ...
     ) -> None:
         """The reflectance of the surface."""
 
@@ -446,9 +451,9 @@ class Verbs:
         """Relief and other maps of a detailed mesh, for the object's mesh."""
 
     def light(
-        self, _form: Literal['directional', 'point', 'clear'], /, *, to: Sequence[float] | None = ..., colour:
-        Sequence[float] | None = ..., strength: float | None = ..., size: float | None = ..., shadow: Any | None = ...,
-        index: float | None = ..., at: Sequence[float] | None = ...
+        self, _form: Literal['directional', 'point', 'clear', 'preset'], /, *_values: Any, to: Sequence[float] | None =
+        ..., colour: Sequence[float] | None = ..., strength: float | None = ..., size: float | None = ..., shadow: Any |
+        None = ..., index: float | None = ..., at: Sequence[float] | None = ...
     ) -> None:
         """Add, replace or remove lights."""
 
