@@ -77,19 +77,21 @@ static void twelve_materials_are_there_and_keep_the_reliefs_occlusion(void **sta
                                           "wax",     "ice",    "usual",   "brick",   "skin",
                                           "plastic", "metal",  "copper" };
     assert_int_equal(sizeof wanted / sizeof *wanted, WR_MATERIAL_PRESETS);
+    WrSession *session = session_of(
+        (const char *const[]){ "table 5x3", "surface sphere", "light preset studio",
+                               "material occlusion=on", "dials gloss=4 samples=1", NULL });
     for (int i = 0; i < WR_MATERIAL_PRESETS; i++) {
         char line[64];
         snprintf(line, sizeof line, "material preset=%s", wanted[i]);
-        WrSession *session =
-            session_of((const char *const[]){ "table 5x3", "surface sphere", "light preset studio",
-                                              "material occlusion=on", line, NULL });
+        must_run(session, line);
         const WrMaterial *m = &doc(session)->scene->material;
         assert_true(m->occlusion && !m->shadow);
         assert_true(m->colour.x <= 1 && m->colour.y <= 1 && m->colour.z <= 1);
-        Light light = light_of(session, 41, 41);
+        if (i % test_step(3, 9) != 0) continue; /* blurred surroundings are dear */
+        Light light = light_of(session, 21, 23);
         if (light.mean < 0.015) fail_msg("%s: %.4f: black", wanted[i], light.mean);
-        wr_session_free(session);
     }
+    wr_session_free(session);
 }
 
 static void light_presets_replace_all_light_and_keep_a_readable_dark_side(void **state)
@@ -115,7 +117,7 @@ static void a_stock_model_is_one_step_about_two_units_wide(void **state)
 {
     (void)state;
     Said said = { "" };
-    for (int i = 0; i < WR_STOCK_MODELS; i++) {
+    for (int i = 0; i < WR_STOCK_MODELS; i += test_step(1, 4)) {
         char line[64];
         WrSession *session = listening(&said);
         must_run(session, "surface torus");
@@ -130,9 +132,10 @@ static void a_stock_model_is_one_step_about_two_units_wide(void **state)
         const double radius = wr_shape_radius(&scene->shape);
         if (radius < 0.9 || radius > 2.6) fail_msg("%s: radius %g", line, radius);
         must_run(session, "light preset studio");
-        Light light = light_of(session, 47, 53);
+        must_run(session, "dials rays=0");
+        Light light = light_of(session, 37, 41);
         check_light(&light, 0.08, 0.01, line);
-        must_run(session, "undo 2");
+        must_run(session, "undo 3");
         assert_int_equal(doc(session)->scene->shape.kind, WR_SURFACE_torus);
         assert_true(doc(session)->scene->replicate_u == 5);
         wr_session_free(session);
@@ -193,8 +196,8 @@ static double shown_mean(WrSession *session)
     WrFrame frame;
     double sum = 0;
     const WrScene *scene = doc(session)->scene;
-    assert_true(wr_session_frame(session, 61, 61, 0, &frame, NULL));
-    for (int i = 0; i < 61 * 61; i++) {
+    assert_true(wr_session_frame(session, 41, 41, 0, &frame, NULL));
+    for (int i = 0; i < 41 * 41; i++) {
         float rgb[3];
         for (int c = 0; c < 3; c++)
             rgb[c] = frame.rgba[4 * i + c] +
@@ -202,7 +205,7 @@ static double shown_mean(WrSession *session)
         wr_tone_colour(&scene->tone, rgb);
         sum += luma(rgb);
     }
-    return sum / (61 * 61);
+    return sum / (41 * 41);
 }
 
 static void one_starter(const char *path)
@@ -210,13 +213,13 @@ static void one_starter(const char *path)
     Said said = { "" };
     WrSession *session = listening(&said);
     run_half(session, path);
-    must_run(session, "dials rays=0 horizons=4");
+    must_run(session, "dials rays=0 horizons=4 samples=1 gloss=4");
     assert_int_equal(wr_light_preset_now(doc(session)->scene), 0);
     const WrLayer *top = &doc(session)->layers[doc(session)->active];
     if (top->line) fail_msg("%s: its active layer cannot be painted on", path);
     assert_int_equal(doc(session)->active, doc(session)->layer_count - 1);
     assert_in_range(doc(session)->layer_count, 4, 20);
-    Light light = light_of(session, 61, 61);
+    Light light = light_of(session, 41, 41);
     check_light(&light, 0.2, 0.003, path);
     check_picture(path, shown_mean(session));
     wr_session_free(session);
@@ -236,9 +239,8 @@ static void every_starter_opens_and_looks_like_its_picture(void **state)
         char ending[16];
         if (strcmp(wr_path_ending(name, ending), "wrinkle") != 0) continue;
         char *script = wr_path_join(wr_text_get(&path), name);
-        one_starter(script);
+        if (count++ % test_step(1, 4) == 0) one_starter(script);
         wr_free(script);
-        count++;
     }
     wr_folder_close(folder);
     wr_text_fini(&path);
