@@ -174,10 +174,10 @@ near "$left" "$right" || complain "at the left the height is $left, at the right
 key u
 
 # ---- a preset is found by its name, chosen by a click, and named in the stroke ----
-click 1000 189
+click 1000 218
 xdotool type --delay 30 rivet
 rest
-click 987 255
+click 987 289
 xdotool mousemove $((X + cx)) $((Y + cy))
 rest
 drag $((cx - 80)) $((cy + 30)) 5 0 30
