@@ -92,7 +92,7 @@ void wr_dialog_starters(WrApp *app)
     const WrStarterList *list = starters_of(app);
     if (!wr_gui_dialog_begin("New from a starter", 4 * (TILE + 6) + 50)) return;
     const int pressed =
-        wr_picture_grid(app, WR_PICTURES_STARTERS, list->count, TILE, -1, starter_item);
+        wr_picture_grid(app, WR_PICTURES_STARTERS, "Starters", list->count, TILE, -1, starter_item);
     if (!list->count)
         wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
                             "The starters were not found: set WRINKLE_DATA to the folder that "

@@ -3,6 +3,7 @@
 #include "ui/app/state/scene_line.h"
 #include "ui/app/state/session_view.h"
 #include "ui/toolkit/gui.h"
+#include "ui/toolkit/gui_rows.h"
 #include "ui/toolkit/gui_sdl_renderer.h"
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
@@ -209,13 +210,14 @@ static bool tile(SDL_Texture *texture, const WrPictureItem *item, double side, b
     return pressed;
 }
 
-int wr_picture_grid(WrApp *app, WrPictureSet set, int count, double units, int chosen,
-                    void (*item)(const WrApp *app, int i, WrPictureItem *out))
+int wr_picture_grid(WrApp *app, WrPictureSet set, const char *name, int count, double units,
+                    int chosen, void (*item)(const WrApp *app, int i, WrPictureItem *out))
 {
     const int side = wr_gui_px(units), gap = wr_gui_px(GAP);
     const int room = ((int)wr_gui_available() + gap) / (side + gap), columns = room < 1 ? 1 : room;
     WrPictures *pictures = pictures_of(app, set, side);
     int pressed = -1;
+    wr_gui_name_row(name);
     for (int i = 0; i < count && i < WR_PICTURES_MAX; i++) {
         WrPictureItem one = { 0 };
         item(app, i, &one);
@@ -228,6 +230,7 @@ int wr_picture_grid(WrApp *app, WrPictureSet set, int count, double units, int c
         wr_text_fini(&one.lines);
         wr_text_fini(&one.path);
     }
+    wr_gui_name_item(name);
     return pressed;
 }
 
@@ -275,8 +278,9 @@ static int material_now(const WrMaterial *material)
 
 void wr_material_grid(WrApp *app)
 {
-    const int pressed = wr_picture_grid(app, WR_PICTURES_MATERIALS, WR_MATERIAL_PRESETS, TILE,
-                                        material_now(&wr_app_scene(app)->material), material_item);
+    const int pressed =
+        wr_picture_grid(app, WR_PICTURES_MATERIALS, "Material", WR_MATERIAL_PRESETS, TILE,
+                        material_now(&wr_app_scene(app)->material), material_item);
     if (pressed >= 0) set_line(app, "material preset=", wr_material_presets[pressed].name);
 }
 
@@ -306,7 +310,7 @@ static int model_now(const WrScene *scene)
 
 void wr_model_grid(WrApp *app)
 {
-    const int pressed = wr_picture_grid(app, WR_PICTURES_MODELS, WR_STOCK_MODELS, TILE,
+    const int pressed = wr_picture_grid(app, WR_PICTURES_MODELS, "Models", WR_STOCK_MODELS, TILE,
                                         model_now(wr_app_scene(app)), model_item);
     if (pressed >= 0) set_line(app, "model ", wr_stock_models[pressed].name);
 }
@@ -321,7 +325,7 @@ static void light_item(const WrApp *app, int i, WrPictureItem *out)
 
 void wr_light_grid(WrApp *app)
 {
-    const int pressed = wr_picture_grid(app, WR_PICTURES_LIGHTS, WR_LIGHT_PRESETS, TILE,
+    const int pressed = wr_picture_grid(app, WR_PICTURES_LIGHTS, "Presets", WR_LIGHT_PRESETS, TILE,
                                         wr_light_preset_now(wr_app_scene(app)), light_item);
     if (pressed >= 0) set_line(app, "light preset ", wr_light_presets[pressed].name);
 }

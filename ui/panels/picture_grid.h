@@ -24,10 +24,10 @@ typedef enum WrPictureSet {
 
 #define WR_PICTURES_MAX 32 /* of a set */
 
-/* Draws the grid of `count` pictures of `units` width; picture `chosen` has a frame, -1: none. item: fills in
+/* Draws the grid of `count` pictures of `units` width, which the search finds as `name`; picture `chosen` has a frame, -1: none. item: fills in
    picture i, whose texts the grid frees. Returns the clicked one, or -1. */
-int wr_picture_grid(WrApp *app, WrPictureSet set, int count, double units, int chosen,
-                    void (*item)(const WrApp *app, int i, WrPictureItem *out));
+int wr_picture_grid(WrApp *app, WrPictureSet set, const char *name, int count, double units,
+                    int chosen, void (*item)(const WrApp *app, int i, WrPictureItem *out));
 /* Picture i of materials, models or lights as in the scene tab; NULL while it is not made: it is requested. */
 SDL_Texture *wr_picture_of(WrApp *app, WrPictureSet set, int i);
 void wr_pictures_free(WrApp *app);
