@@ -231,6 +231,8 @@ static const Need needs[] = {
     UNKNOWN("bake", NULL, BY_FILE),
     UNKNOWN("bake-tiles", NULL, BY_FILE),
     UNKNOWN("open", NULL, BY_FILE),
+    UNKNOWN("macro", NULL, BY_FILE),
+    UNKNOWN("model", NULL, BY_FILE),
     { "adjust", NULL, filter, .bytes = 4.5 },
     { "adjust", "blur", filter, .bytes = 8.5 },
     { "adjust", "sharpen", filter, .bytes = 8.5 },

@@ -152,7 +152,6 @@ static void the_hash_covers_everything_that_is_saved(void **state)
         "layer set 2 radius=0.4",
         "layer set 2 visible=off",
         "layer set 2 lock=on",
-        "layer use 2",
         "layer solo off",
         "layer move 2 to=3",
         "layer mask 1 from=white",
@@ -180,6 +179,12 @@ static void the_hash_covers_everything_that_is_saved(void **state)
         must_run(s, "undo");
         assert_true(wr_hash_equal(before, wr_session_hash(s)));
     }
+    char back[32];
+    snprintf(back, sizeof back, "layer use %d", doc(s)->active + 1);
+    must_run(s, doc(s)->active == 1 ? "layer use 1" : "layer use 2"); /* no step */
+    assert_false(wr_hash_equal(before, wr_session_hash(s)));
+    must_run(s, back);
+    assert_true(wr_hash_equal(before, wr_session_hash(s)));
     wr_session_free(s);
     wr_text_fini(&notes.text);
 }
