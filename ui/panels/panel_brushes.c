@@ -318,7 +318,7 @@ void wr_panel_brushes(WrApp *app, SDL_Rect room)
     bool both = brushes && room.h >= wr_gui_px(BOTH_UNITS);
     int part = both || !brushes ? 0 : app->shelf->part;
     int rows = 2 + (brushes && !both) - (part == 1);
-    SDL_Rect top = cut_top(&room, wr_gui_px(12) + rows * wr_gui_px(34));
+    SDL_Rect top = cut_top(&room, wr_gui_px(18) + rows * wr_gui_px(29));
     SDL_Rect list = both ? cut_top(&room, (int)(room.h * 0.44)) : room;
     SDL_Rect name = both ? cut_top(&room, wr_gui_px(38)) : (SDL_Rect){ 0 };
     if (brushes && !both && part == 0 && list.h > wr_gui_px(120)) {
