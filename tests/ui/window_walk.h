@@ -34,6 +34,7 @@
 #include "ui/toolkit/words.h"
 #include "ui/app/jobs/files.h"
 #include "ui/panels/panel_dynamics.h"
+#include "ui/panels/panel_history.h"
 #include "ui/app/state/background_command.h"
 #include "ui/panels/panel_layers.h"
 #include "ui/panels/panel_status.h"
@@ -295,6 +296,16 @@ static inline bool walk_open_link(Walk *walk, int which)
     return walk_name(walk, "dialog of a %s", "linked copy");
 }
 
+/* It needs a step, whose other values are shown too. */
+static inline bool walk_open_step(Walk *walk, int which)
+{
+    if (which > 0) return false;
+    walk_run(walk, "pattern bricks across=3");
+    wr_step_edit(walk->app, wr_session_history_position(walk->session) - 1);
+    assert_int_equal(walk->app->dialog->now, WR_DIALOG_STEP);
+    return walk_name(walk, "dialog of a %s", "step");
+}
+
 /* It needs an object with a mesh. */
 static inline bool walk_open_bake(Walk *walk, int which)
 {
@@ -327,6 +338,8 @@ static inline void walk_dialogs(Walk *walk)
     walk_each(walk, walk_open_bake, walk_close_dialog);
     walk_run(walk, "undo");
     walk_each(walk, walk_open_link, walk_close_dialog);
+    walk_run(walk, "undo");
+    walk_each(walk, walk_open_step, walk_close_dialog);
     walk_run(walk, "undo");
 }
 
