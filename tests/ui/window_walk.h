@@ -306,6 +306,21 @@ static inline bool walk_open_step(Walk *walk, int which)
     return walk_name(walk, "dialog of a %s", "step");
 }
 
+/* It needs a file, in the test's folder. */
+static inline bool walk_open_macro(Walk *walk, int which)
+{
+    char path[600];
+    if (which > 0) return false;
+    snprintf(path, sizeof path, "%.500s/macro.wrinkle", getenv("XDG_STATE_HOME"));
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs("fill 0.5\n", file);
+    fclose(file);
+    wr_macro_chosen(walk->app, path);
+    assert_int_equal(walk->app->dialog->now, WR_DIALOG_MACRO);
+    return walk_name(walk, "dialog of a %s", "macro");
+}
+
 /* It needs an object with a mesh. */
 static inline bool walk_open_bake(Walk *walk, int which)
 {
@@ -341,6 +356,7 @@ static inline void walk_dialogs(Walk *walk)
     walk_run(walk, "undo");
     walk_each(walk, walk_open_step, walk_close_dialog);
     walk_run(walk, "undo");
+    walk_each(walk, walk_open_macro, walk_close_dialog);
 }
 
 static inline bool walk_open_generator(Walk *walk, int which)
