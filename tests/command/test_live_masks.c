@@ -333,9 +333,9 @@ static void masks_follow_the_layers_below(void **state)
         assert_int_not_equal(wr_field_key(mask(s, 1)), first);
         is_up_to_date(s, 1);
         const WrHash after = wr_session_hash(s);
-        must_run(s, "undo 5");
+        must_run(s, "undo 4");
         assert_true(wr_hash_equal(wr_session_hash(s), before));
-        must_run(s, "redo 5");
+        must_run(s, "redo 4");
         assert_true(wr_hash_equal(wr_session_hash(s), after));
         wr_session_free(s);
     }
