@@ -537,6 +537,7 @@ static void no_action_is_answered_by_an_error(void **state)
 {
     (void)state;
     Walk walk;
+    const int step = test_step(3, 6); /* each action in some of the documents */
     int count = 0;
     complaints = 0;
     walk_open(&walk, "en");
@@ -546,6 +547,7 @@ static void no_action_is_answered_by_an_error(void **state)
         take_state(&walk, i);
         Base base = base_of(&walk);
         for (const WrAction *a = walk.app->registry->actions; a->name; a++) {
+            if ((a - walk.app->registry->actions + i) % step != 0) continue;
             if (wr_session_history_count(walk.session) < base.position) take_state(&walk, i);
             if (!wr_action_can(walk.app, a)) continue;
             run_action(&walk, a->name, &base);
