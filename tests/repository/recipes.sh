@@ -170,11 +170,11 @@ pristine "$kinds" "$count"
 
 # ---- a panel ----
 registry=ui/app/registry_list.c panels=ui/panels/panels.h
-edit "$registry" 's/(\{ "History", )/{ "Dummy", wr_panel_dummy, NULL, false, false },\n$1/'
+edit "$registry" 's/(\{ "Plan", )/{ "Dummy", .draw = wr_panel_dummy },\n$1/'
 stops 'panel with its row alone' 'wr_panel_dummy' "$registry"
-edit "$panels" 's/(void wr_panel_history\()/void wr_panel_dummy(WrApp *app);\n$1/'
-sed 's/wr_panel_history/wr_panel_dummy/' "$source/ui/panels/panel_history.c" >"$tree/ui/panels/panel_dummy.c"
-like ui/panels/panel_history.c ui/panels/panel_dummy.c
+edit "$panels" 's/(void wr_panel_plan\()/void wr_panel_dummy(WrApp *app);\n$1/'
+sed 's/wr_panel_plan/wr_panel_dummy/' "$source/ui/panels/panel_plan.c" >"$tree/ui/panels/panel_dummy.c"
+like ui/panels/panel_plan.c ui/panels/panel_dummy.c
 compile 'panel' "$registry" ui/panels/panel_dummy.c
 links 'panel whose file is in no list' 'undefined.*wr_panel_dummy' "$registry"
 links 'panel' '' "$registry" ui/panels/panel_dummy.c
