@@ -300,7 +300,7 @@ static inline bool walk_open_link(Walk *walk, int which)
 static inline bool walk_open_step(Walk *walk, int which)
 {
     if (which > 0) return false;
-    walk_run(walk, "pattern bricks across=3");
+    walk_run(walk, "bump height=0.31 scheme=bspline");
     wr_step_edit(walk->app, wr_session_history_position(walk->session) - 1);
     assert_int_equal(walk->app->dialog->now, WR_DIALOG_STEP);
     return walk_name(walk, "dialog of a %s", "step");
