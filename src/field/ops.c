@@ -193,6 +193,8 @@ bool wr_filter_parse(const char *text, WrFilter *filter, WrError *err)
     }
 
 static const char *const invert_words[] = { WR_INVERT_ABOUTS(WR_WORD) NULL };
+static const char *const repeat_words[] = { WR_REPEAT_WAYS(WR_WORD) NULL };
+static const char *const ramp_words[] = { WR_RAMPS(WR_WORD) NULL };
 static const char *const angle_words[] = { "90", "180", "270", NULL };
 static const char *const filter_words[] = { WR_RESIZE_FILTERS(WR_WORD) NULL };
 static const char *const window_words[] = { WR_WINDOWS(WR_WORD) NULL };
@@ -231,6 +233,11 @@ static const char *const side_words[] = { WR_LIMIT_SIDES(WR_WORD) NULL };
         .name = name_, .label = label_, .help = help_, .unit = "texels", .low = -WR_FIELD_MAX,     \
         .high = WR_FIELD_MAX, .soft_low = -WR_FIELD_MAX, .soft_high = WR_FIELD_MAX, .whole = true, \
         .share = true                                                                              \
+    }
+#define EDGE_WIDTH(help_)                                                                          \
+    {                                                                                              \
+        .name = "width", .label = "Width", .help = help_, .unit = "texels", .low = 0,              \
+        .high = WR_FIELD_MAX, .soft_high = 256, .whole = true                                      \
     }
 #define SEED WHOLE("seed", "Seed", "seed of the random numbers", 1, 0, 4294967295.0, 100)
 #define WORDS(name_, label_, help_, fallback_, words)                                              \
@@ -289,6 +296,32 @@ const WrOpInfo wr_ops[] = {
                         "box: mean over a texel; linear, catmull, lanczos3: "
                         "ever sharper, the last two with overshoot",
                         WR_RESIZE_CATMULL, filter_words) } },
+    { .name = "seamless",
+      .label = "Make seamless",
+      .help = "make opposite edges fit, so that the table tiles",
+      .run = wr_op_seamless,
+      .params = { WORDS(
+                      "how", "Method",
+                      "blend: fade to the table's middle at the edges, with its contrast; patches: "
+                      "cut where both differ least; mirror: repeat the top left quarter mirrored; "
+                      "frequency: remove slopes across the table, keep detail",
+                      WR_REPEAT_BLEND, repeat_words),
+                  EDGE_WIDTH(
+                      "changed strip at each edge, for blend and patches; 0: an eighth of the "
+                      "side; at most a quarter") } },
+    { .name = "match-edges",
+      .label = "Match edges",
+      .help = "raise and lower the edges until opposite ones have equal heights",
+      .run = wr_op_match_edges,
+      .params = { EDGE_WIDTH(
+                      "changed strip at each edge; 0: an eighth of the side; at most a half"),
+                  WORDS("ramp", "Ramp", "how the change fades inwards", WR_RAMP_SMOOTH,
+                        ramp_words) } },
+    { .name = "even-light",
+      .label = "Even out light",
+      .help = "flatten shading and slopes wider than a Gaussian: detail and mean height stay",
+      .run = wr_op_even_light,
+      .params = { SIGMA(32) } },
     { .name = "levels",
       .label = "Levels",
       .help = "bring in-low to out-low and in-high to out-high, with a curve between them",

@@ -7,7 +7,8 @@
    - Periodic axes wrap; on a clamped axis the edge texel is repeated outwards.
    - The same bits on every processor and for any number of threads, however the heights are distributed
      over tiles. If texels move only by whole texels, op(roll(F)) is roll(op(F)), bit for bit; except
-     noise and warp, which depend on a texel's position.
+     noise and warp, which depend on a texel's position, and seamless and match-edges, which change the
+     edges.
    - Tiles whose texels are unchanged are shared with the input; NULL tiles stay NULL. (If the table's
      level changes too, as when a constant is added to a table with NULL tiles, these stay NULL at the
      new level, and all others are new.)

@@ -310,10 +310,11 @@ static WrField *run_blur(WrOpJob *job, double sigma, double amount)
     Wide wide = { &plane, (float)amount };
     WrOpWork work = { .make = make_wide, .ctx = &wide, .reach = -1 };
     WrField *out = NULL;
-    job->to = 0.8;
+    const double to = job->to;
+    job->to = job->from + 0.8 * (to - job->from);
     if (op_blur_wide(job, sigma, &plane)) {
-        job->from = 0.8;
-        job->to = 1.0;
+        job->from = job->to;
+        job->to = to;
         out = wr_op_build_same(job, &work);
     }
     wr_op_plane_fini(&plane);

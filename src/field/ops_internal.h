@@ -25,6 +25,15 @@ enum { WR_WINDOWS(WR_WORD_ID) };
     X(WR_SIDE_BELOW, "below") X(WR_SIDE_ABOVE, "above") X(WR_SIDE_MEAN, "mean")
 enum { WR_LIMIT_SIDES(WR_WORD_ID) };
 
+/* Values of seamless' `how`. */
+#define WR_REPEAT_WAYS(X)                                                                          \
+    X(WR_REPEAT_BLEND, "blend")                                                                    \
+    X(WR_REPEAT_PATCHES, "patches")                                                                \
+    X(WR_REPEAT_MIRROR, "mirror")                                                                  \
+    X(WR_REPEAT_FREQUENCY, "frequency")
+enum { WR_REPEAT_WAYS(WR_WORD_ID) };
+#define WR_RAMPS(X) X(WR_RAMP_SMOOTH, "smooth") X(WR_RAMP_LINEAR, "linear")
+enum { WR_RAMPS(WR_WORD_ID) };
 #define WR_WARP_BETWEENS(X) X(WR_WARP_CUBIC, "catmull") X(WR_WARP_LINEAR, "linear")
 enum { WR_WARP_BETWEENS(WR_WORD_ID) };
 /* Noises that tile, by their names in noise/noise.h. */
@@ -125,6 +134,9 @@ static inline float wr_op_float(double x)
 
 /* The operations; parameters as in their rows, checked. */
 WrField *wr_op_offset(WrOpJob *job, const double *param);
+WrField *wr_op_seamless(WrOpJob *job, const double *param);
+WrField *wr_op_match_edges(WrOpJob *job, const double *param);
+WrField *wr_op_even_light(WrOpJob *job, const double *param);
 WrField *wr_op_flip_u(WrOpJob *job, const double *param);
 WrField *wr_op_flip_v(WrOpJob *job, const double *param);
 WrField *wr_op_rotate(WrOpJob *job, const double *param);

@@ -3,7 +3,7 @@
    Private to this module. */
 #pragma once
 #include "base/enum_rows.h"
-#include "generate/fft_plane.h"
+#include "field/fft_plane.h"
 #include "generate/sheet.h"
 #include "image/normal_encoding.h"
 

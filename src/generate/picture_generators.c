@@ -1,9 +1,10 @@
 #include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
+#include "field/fft_plane.h"
 #include "field/field.h"
+#include "field/least_path.h"
 #include "field/ops.h"
-#include "generate/fft_plane.h"
 #include "generate/picture.h"
 #include "generate/tile_builder.h"
 #include "generate/transform_piece.h"
@@ -138,38 +139,16 @@ static WrPlane plane_of(const WrSheet *sheet, double *z, const WrGenerateJob *jo
                       .progress = job->progress };
 }
 
-/* ---- blend ---- With L = Du^T Du + Dv^T Dv on the torus, L p should equal that of the picture without
-   the steps at its edges; so for s = z - p, L s consists of these steps, on both sides of the edges. */
-
 static bool solve_steps(WrPlane *plane, WrError *err)
 {
     static const WrSlopes steps[] = { WR_SLOPES_STEP, WR_SLOPES_STEP };
     return wr_plane_solve(plane, steps, err);
 }
 
-/* Poisson blending: the Laplacian of the result equals that of the picture, without the jump across the edges. Only the jump
-   is solved for, and its solution subtracted, so that a picture that tiles already stays bit for bit. */
 bool wr_picture_blend(WrSheet *sheet, const WrGenerateJob *job, WrError *err)
 {
-    size_t w = (size_t)sheet->width, h = (size_t)sheet->height;
-    double *s = wr_try_alloc(w * h, sizeof *s, "a seamless picture", err);
-    if (!s) return false;
-    const double *z = sheet->z;
-    for (size_t j = 0; j < h && sheet->wrap[0] == WR_WRAP_PERIODIC; j++) {
-        double jump = z[j * w] - z[j * w + w - 1];
-        s[j * w] += jump;
-        s[j * w + w - 1] -= jump;
-    }
-    for (size_t i = 0; i < w && sheet->wrap[1] == WR_WRAP_PERIODIC; i++) {
-        double jump = z[i] - z[(h - 1) * w + i];
-        s[i] += jump;
-        s[(h - 1) * w + i] -= jump;
-    }
-    WrPlane plane = plane_of(sheet, s, job);
-    bool good = solve_steps(&plane, err);
-    for (size_t k = 0; good && k < w * h; k++) sheet->z[k] -= s[k];
-    wr_free(s);
-    return good;
+    const WrPlane plane = plane_of(sheet, sheet->z, job);
+    return wr_plane_make_periodic(&plane, err);
 }
 
 /* ---- cut ---- */
@@ -224,7 +203,6 @@ typedef struct Cutting {
     bool ring; /* the other axis is already closed */
     int *cut;  /* [lines] 1..overlap - 1: texels before it come from the far end, texels from it on
                 from the near end */
-    double *sum; /* [lines][overlap] least sum of squares up to here */
 } Cutting;
 
 static size_t place(const Steps *s, int axis, int along, int line)
@@ -233,47 +211,12 @@ static size_t place(const Steps *s, int axis, int along, int line)
                      : (size_t)along * (size_t)s->size[0] + (size_t)line;
 }
 
-static double mismatch(const Cutting *c, int along, int line)
+static double mismatch(const void *ctx, int along, int line)
 {
+    const Cutting *c = ctx;
     double d = c->from->z[place(c->from, c->axis, along, line)] -
                c->from->z[place(c->from, c->axis, c->n + along, line)];
     return d * d;
-}
-
-/* The path of least sum, from `start` (0: any) at line 0; on a ring it must return beside it. Minimum error boundary cut by
-   dynamic programming (Efros and Freeman 2001, image quilting): sum[line][a] = mismatch(a) + the least of sum[line - 1][a - 1
-   .. a + 1]. A closed cut on a ring fixes its start to the best open cut's and requires that it ends beside it; this is not
-   always the optimum, but needs two passes instead of one for each start. */
-static void find_way(Cutting *c, int start)
-{
-    int o = c->overlap, last = c->lines - 1, best = 0;
-    for (int line = 0; line <= last; line++) {
-        double *now = c->sum + (size_t)line * (size_t)o;
-        const double *before = line > 0 ? now - o : now;
-        for (int a = 1; a < o; a++) {
-            double least = 0.0;
-            if (line == 0) least = start == 0 || a == start ? 0.0 : 1e300;
-            else {
-                least = before[a];
-                if (a > 1 && before[a - 1] < least) least = before[a - 1];
-                if (a + 1 < o && before[a + 1] < least) least = before[a + 1];
-            }
-            now[a] = least + mismatch(c, a, line);
-        }
-    }
-    const double *end = c->sum + (size_t)last * (size_t)o;
-    for (int a = 1; a < o; a++) {
-        if (start && (a < start - 1 || a > start + 1)) continue;
-        if (!best || end[a] < end[best]) best = a;
-    }
-    for (int line = last; line >= 0; line--) {
-        c->cut[line] = best;
-        if (line == 0) break;
-        const double *before = c->sum + (size_t)(line - 1) * (size_t)o;
-        int a = best;
-        if (a > 1 && before[a - 1] < before[best]) best = a - 1;
-        if (a + 1 < o && before[a + 1] < before[best]) best = a + 1;
-    }
 }
 
 static bool far_end(const Cutting *c, int along, int line)
@@ -319,13 +262,11 @@ static bool close_axis(Steps *steps, int axis, int n, bool ring, WrError *err)
     size_t lines = (size_t)c.lines;
     if (c.overlap < 2) return true;
     c.cut = wr_try_alloc(lines, sizeof *c.cut, "a cut", err);
-    c.sum = wr_try_alloc(lines * (size_t)c.overlap, sizeof *c.sum, "a cut", err);
+    const WrOverlap overlap = { c.overlap, c.lines, ring, mismatch, &c };
     bool good =
-        c.cut && c.sum &&
+        c.cut && wr_least_path(&overlap, c.cut, err) &&
         steps_new(&made, axis == 0 ? n : steps->size[0], axis == 1 ? n : steps->size[1], err);
     if (good) {
-        find_way(&c, 0);
-        if (ring && lines > 1) find_way(&c, c.cut[0]);
         for (int line = 0; line < c.lines; line++) join_line(&c, line, &made);
         steps_fini(steps);
         *steps = made;
@@ -333,7 +274,6 @@ static bool close_axis(Steps *steps, int axis, int n, bool ring, WrError *err)
         steps_fini(&made);
     }
     wr_free(c.cut);
-    wr_free(c.sum);
     return good;
 }
 

@@ -99,7 +99,7 @@ typedef struct OpCall {
 } OpCall;
 
 /* Calls of all operations that keep the table's size; filters first, then moves. */
-enum { FILTER_CALLS = 17, MOVE_CALLS = 26, SAME_SIZE_CALLS = 31 };
+enum { FILTER_CALLS = 26, MOVE_CALLS = 35, SAME_SIZE_CALLS = 40 };
 static const OpCall same_size_calls[SAME_SIZE_CALLS] = {
     { "blur", { 0.0 } },
     { "blur", { 0.7 } },
@@ -118,6 +118,15 @@ static const OpCall same_size_calls[SAME_SIZE_CALLS] = {
     { "invert", { 0 } },
     { "warp", { 7.3, 3, 2, 0, 5 } },
     { "warp", { 3.6, 2, 1, 1, 77 } },
+    { "seamless", { 0, 0 } },
+    { "seamless", { 0, 23 } },
+    { "seamless", { 1, 0 } },
+    { "seamless", { 1, 2 } },
+    { "seamless", { 2, 0 } },
+    { "seamless", { 3, 0 } },
+    { "match-edges", { 0, 0 } },
+    { "match-edges", { 7, 1 } },
+    { "even-light", { 20.0 } },
     /* from here on, flat tables change too */
     { "invert", { 1 } },
     { "levels", { -0.4, 0.4, 1.0, 0.0, 2.0 } },

@@ -3,7 +3,7 @@
 
 #include "base/memory.h"
 #include "base/pool.h"
-#include "generate/fft_plane.h"
+#include "field/fft_plane.h"
 
 static const double tau = 6.283185307179586;
 

@@ -136,7 +136,7 @@ static const Wanted in_english[] = {
     { "invert mask", "Invert mask", NULL },
     { "canvas size", "New table...", NULL },
     { "texture size", "New table...", NULL },
-    { "make seamless", "Offset by half a cell", NULL },
+    { "make seamless", "Make seamless", NULL },
     { "seam view", "Offset by half a cell", NULL },
     { "import obj", "Import mesh...", NULL },
     { "load model", "Import mesh...", NULL },

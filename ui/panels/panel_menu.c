@@ -355,6 +355,7 @@ void wr_menu_item(WrApp *app, const char *name)
 static const struct {
     const char *label, *first;
 } operation_groups[] = { { "Move and resize", "offset" },
+                         { "Seamless", "seamless" },
                          { "Heights", "levels" },
                          { "Smooth and distort", "blur" } };
 

@@ -1,6 +1,5 @@
 /* fft_plane.h - Fourier methods (base/fft.h) on a plane of heights: differential equations on a torus,
-   on a plane with free edges, or with one axis of each.
-   Private to this module. */
+   on a plane with free edges, or with one axis of each. */
 #pragma once
 #include "base/fft.h"
 
@@ -42,3 +41,9 @@ bool wr_plane_slope_adjoint(const WrPlane *plane, int axis, WrSlopes slopes, WrE
  * (for WR_SLOPES_SMOOTH always, for WR_SLOPES_CENTRAL if the other axis determines it too weakly). So z
  * = Du^T p + Dv^T q yields the heights whose slopes are nearest to (p, q) in the least-squares sense. */
 bool wr_plane_solve(const WrPlane *plane, const WrSlopes slopes[2], WrError *err);
+
+/* Subtracts from z the smooth component: its steps are the jumps across the edges of ring axes, and no
+ * others, in the least-squares sense. So z becomes periodic and keeps its mean and, as nearly as a
+ * periodic plane can, its steps inside. A plane without jumps keeps its bits. Source: L. Moisan,
+ * Periodic plus smooth image decomposition, J. Math. Imaging Vis. 39, 2011. */
+bool wr_plane_make_periodic(const WrPlane *plane, WrError *err);

@@ -1,6 +1,6 @@
 /* Transforms of real planes, line by line. Columns are gathered a few at a time, so that whole cache
    lines are used. */
-#include "generate/fft_plane.h"
+#include "field/fft_plane.h"
 
 #include "base/error.h"
 #include "base/exactmath.h"
@@ -205,5 +205,31 @@ bool wr_plane_solve(const WrPlane *plane, const WrSlopes slopes[2], WrError *err
     }
     wr_free(u);
     wr_free(v);
+    return good;
+}
+
+/* With L = Du^T Du + Dv^T Dv on the torus, L of the result should equal that of z without the jumps at its
+   edges; so L s of the smooth component s consists of these jumps, on both sides of the edges. */
+bool wr_plane_make_periodic(const WrPlane *plane, WrError *err)
+{
+    size_t w = (size_t)plane->width, h = (size_t)plane->height;
+    double *s = wr_try_alloc(w * h, sizeof *s, "a seamless picture", err);
+    if (!s) return false;
+    const double *z = plane->z;
+    for (size_t j = 0; j < h && plane->ends[0] == WR_ENDS_RING; j++) {
+        double jump = z[j * w] - z[j * w + w - 1];
+        s[j * w] += jump;
+        s[j * w + w - 1] -= jump;
+    }
+    for (size_t i = 0; i < w && plane->ends[1] == WR_ENDS_RING; i++) {
+        double jump = z[i] - z[(h - 1) * w + i];
+        s[i] += jump;
+        s[(h - 1) * w + i] -= jump;
+    }
+    WrPlane smooth = *plane;
+    smooth.z = s;
+    bool good = wr_plane_solve(&smooth, (WrSlopes[]){ WR_SLOPES_STEP, WR_SLOPES_STEP }, err);
+    for (size_t k = 0; good && k < w * h; k++) plane->z[k] -= s[k];
+    wr_free(s);
     return good;
 }
