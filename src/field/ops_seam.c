@@ -25,13 +25,14 @@ typedef struct Axis {
     double *z;
     int n, lines;
     size_t step, across; /* doubles to the next texel, to the next line */
+    const double *shift; /* [lines]: difference in level of the edges and the middle */
 } Axis;
 
 static Axis axis_of(const Plane *p, int axis)
 {
     const size_t row = (size_t)p->width;
-    return axis == 0 ? (Axis){ p->job, p->z, p->width, p->height, 1, row }
-                     : (Axis){ p->job, p->z, p->height, p->width, row, 1 };
+    return axis == 0 ? (Axis){ p->job, p->z, p->width, p->height, 1, row, NULL }
+                     : (Axis){ p->job, p->z, p->height, p->width, row, 1, NULL };
 }
 
 /* Texel k of line 0, counted from the near edge (side 0) or the far edge (side 1). */
@@ -41,10 +42,11 @@ static double *texel(const Axis *a, int side, int k)
 }
 
 /* The same texel of the table offset by half: opposite edges of that table are neighbours in the middle
-   of this one. */
-static const double *half_texel(const Axis *a, int side, int k)
+   of this one. Its level is that of both edges. */
+static double half_height(const Axis *a, int side, int k, int line)
 {
-    return a->z + (size_t)(side ? a->n / 2 - 1 - k : a->n / 2 + k) * a->step;
+    const int at = side ? a->n / 2 - 1 - k : a->n / 2 + k;
+    return a->z[(size_t)at * a->step + (size_t)line * a->across] + a->shift[line];
 }
 
 static void load_row(int index, int worker, void *ctx)
@@ -95,15 +97,16 @@ static int width_of(const Axis *a, double width, int parts)
  *   gain = sqrt(((1 - s) v(F) + s v(G)) / v(L)),  1 .. sqrt(2) for F and G without correlation,
  *
  * which is 1 where F and G agree, so that slopes and flat places are not amplified. */
-static void mix_lines(const Axis *a, double *f, const double *g, double s)
+static void mix_lines(const Axis *a, int side, int k, double s)
 {
-    double mean_f = 0.0, mean_g = 0.0, ff = 0.0, gg = 0.0, fg = 0.0;
+    double *f = texel(a, side, k), mean_f = 0.0, mean_g = 0.0, ff = 0.0, gg = 0.0, fg = 0.0;
     for (int l = 0; l < a->lines; l++) {
         mean_f += f[(size_t)l * a->across] / a->lines;
-        mean_g += g[(size_t)l * a->across] / a->lines;
+        mean_g += half_height(a, side, k, l) / a->lines;
     }
     for (int l = 0; l < a->lines; l++) {
-        const double x = f[(size_t)l * a->across] - mean_f, y = g[(size_t)l * a->across] - mean_g;
+        const double x = f[(size_t)l * a->across] - mean_f;
+        const double y = half_height(a, side, k, l) - mean_g;
         ff += x * x;
         gg += y * y;
         fg += x * y;
@@ -113,7 +116,7 @@ static void mix_lines(const Axis *a, double *f, const double *g, double s)
     const double gain = mixed > 0.0 ? fmin(sqrt(wanted / mixed), sqrt(2.0)) : 1.0;
     for (int l = 0; l < a->lines; l++) {
         double *to = f + (size_t)l * a->across;
-        const double linear = *to + s * (g[(size_t)l * a->across] - *to);
+        const double linear = *to + s * (half_height(a, side, k, l) - *to);
         *to = linear + (gain - 1.0) * (linear - mean);
     }
 }
@@ -122,8 +125,7 @@ static bool blend_edges(const Axis *a, int width)
 {
     for (int side = 0; side < 2; side++)
         for (int k = 0; k < width && !wr_progress_cancelled(a->job->progress); k++)
-            mix_lines(a, texel(a, side, k), half_texel(a, side, k),
-                      1.0 - smooth_step((double)k / width));
+            mix_lines(a, side, k, 1.0 - smooth_step((double)k / width));
     return true;
 }
 
@@ -140,8 +142,8 @@ static double mismatch(const void *ctx, int along, int line)
 {
     const Cut *cut = ctx;
     const int k = along + cut->reach - 1;
-    const size_t at = (size_t)line * cut->a->across;
-    const double d = texel(cut->a, cut->side, k)[at] - half_texel(cut->a, cut->side, k)[at];
+    const double d = texel(cut->a, cut->side, k)[(size_t)line * cut->a->across] -
+                     half_height(cut->a, cut->side, k, line);
     return d * d;
 }
 
@@ -152,8 +154,7 @@ static void join_at_cut(const Cut *cut)
         for (int k = 0; k < cut->path[l] + 2 * cut->reach; k++) {
             const double t = cut->reach ? (k - cut->path[l]) / (2.0 * cut->reach) : 0.0;
             double *to = texel(a, cut->side, k) + (size_t)l * a->across;
-            const double g = half_texel(a, cut->side, k)[(size_t)l * a->across];
-            *to += (1.0 - smooth_step(t)) * (g - *to);
+            *to += (1.0 - smooth_step(t)) * (half_height(a, cut->side, k, l) - *to);
         }
 }
 
@@ -186,12 +187,40 @@ static bool mirror_half(const Axis *a)
 
 /* ---- the operations ---- */
 
-static bool seamless_axis(const Axis *a, const double *param)
+/* shift[line]: by how much both edges, `width` texels wide, are higher than the middle, as the mean over `width`
+   lines on either side. Without it a strip of another level would remain along the edge. differences:
+   [lines] of scratch. */
+static void measure_shift(const Axis *a, int width, double *differences, double *shift)
 {
-    const int how = (int)param[0];
-    if (how == WR_REPEAT_MIRROR) return mirror_half(a);
-    const int width = width_of(a, param[1], 4);
-    return (how == WR_REPEAT_BLEND ? blend_edges : cut_edges)(a, width);
+    const int reach = width < a->lines / 2 ? width : (a->lines - 1) / 2;
+    for (int l = 0; l < a->lines; l++)
+        for (int side = 0; side < 2; side++)
+            for (int k = 0; k < width; k++)
+                differences[l] +=
+                    (texel(a, side, k)[(size_t)l * a->across] - half_height(a, side, k, l)) /
+                    (2.0 * width);
+    for (int l = 0; l < a->lines && !wr_progress_cancelled(a->job->progress); l++) {
+        double sum = 0.0;
+        for (int k = l - reach; k <= l + reach; k++)
+            sum += differences[k < 0 ? k + a->lines : k < a->lines ? k : k - a->lines];
+        shift[l] = sum / (2 * reach + 1);
+    }
+}
+
+static bool seamless_axis(const Axis *whole, const double *param)
+{
+    Axis a = *whole;
+    const int how = (int)param[0], width = width_of(&a, param[1], 4);
+    if (how == WR_REPEAT_MIRROR) return mirror_half(&a);
+    const size_t lines = (size_t)a.lines;
+    double *shift = wr_try_alloc(2 * lines, sizeof *shift, a.job->name, a.job->err);
+    if (!shift) return false;
+    double *made = shift + lines;
+    a.shift = made; /* zeros while it is measured */
+    measure_shift(&a, width, shift, made);
+    const bool good = (how == WR_REPEAT_BLEND ? blend_edges : cut_edges)(&a, width);
+    wr_free(shift);
+    return good;
 }
 
 static bool match_axis(const Axis *a, const double *param)

@@ -142,6 +142,23 @@ static void a_blend_of_slopes_does_not_overshoot(void **state)
     wr_field_free(out);
 }
 
+/* The middle of a dome is copied to its edges, but not its height. */
+static void edges_keep_their_level(void **state)
+{
+    (void)state;
+    WrField *in = flat_table(91, 73, P, P, 0.0f);
+    for (int j = 0; j < 73; j++)
+        for (int i = 0; i < 91; i++)
+            wr_field_set(in, i, j, (float)(10 * sin(M_PI * i / 90) * sin(M_PI * j / 72)));
+    for (int how = BLEND; how <= PATCHES; how++) {
+        WrField *out = run("seamless", in, how, 8);
+        for (int j = 0; j < 73; j++) assert_true(fabs((double)wr_field_get(out, 0, j)) < 2.0);
+        for (int i = 0; i < 91; i++) assert_true(fabs((double)wr_field_get(out, i, 72)) < 2.0);
+        wr_field_free(out);
+    }
+    wr_field_free(in);
+}
+
 /* Heights times a power of two give the result times it, bit for bit. */
 static void huge_and_tiny_heights_are_handled_alike(void **state)
 {
@@ -240,6 +257,7 @@ int main(void)
         cmocka_unit_test(blend_and_patches_change_only_the_edges),
         cmocka_unit_test(a_blend_keeps_the_variance),
         cmocka_unit_test(a_blend_of_slopes_does_not_overshoot),
+        cmocka_unit_test(edges_keep_their_level),
         cmocka_unit_test(huge_and_tiny_heights_are_handled_alike),
         cmocka_unit_test(mirror_repeats_the_top_left_quarter),
         cmocka_unit_test(matched_edges_are_equal),

@@ -295,32 +295,36 @@ class Verbs:
         """Move, turn, scale and mirror the selection, or a whole layer."""
 
     def adjust(
-        self, _form: Literal['offset', 'flip-u', 'flip-v', 'rotate', 'crop', 'resize', 'levels', 'curves', 'invert',
-        'normalise', 'add', 'multiply', 'clamp', 'blur', 'sharpen', 'median', 'dilate', 'erode', 'slope-limit', 'noise',
-        'warp'], /, *, du: float | None = ..., dv: float | None = ..., layers: Literal['active', 'all'] | None = ...,
-        angle: Literal['90', '180', '270'] | None = ..., x: float | None = ..., y: float | None = ..., width: float |
-        None = ..., height: float | None = ..., filter: Literal['box', 'linear', 'catmull', 'lanczos3'] | None = ...,
-        in_low: float | None = ..., in_high: float | None = ..., gamma: float | None = ..., out_low: float | None = ...,
-        out_high: float | None = ..., points: Any | None = ..., about: Literal['range', 'zero'] | None = ..., low: float
-        | None = ..., high: float | None = ..., amount: float | None = ..., factor: float | None = ..., sigma: float |
-        None = ..., radius: float | None = ..., window: Literal['round', 'square'] | None = ..., limit: float | None =
-        ..., side: Literal['below', 'above', 'mean'] | None = ..., cells: float | None = ..., octaves: float | None =
-        ..., kind: Literal['perlin', 'gradient', 'value', 'sheared'] | None = ..., mode: Literal['fbm', 'turbulence',
-        'billow', 'ridged'] | None = ..., seed: float | None = ..., between: Literal['catmull', 'linear'] | None = ...
+        self, _form: Literal['offset', 'flip-u', 'flip-v', 'rotate', 'crop', 'resize', 'seamless', 'match-edges',
+        'even-light', 'levels', 'curves', 'invert', 'normalise', 'add', 'multiply', 'clamp', 'blur', 'sharpen',
+        'median', 'dilate', 'erode', 'slope-limit', 'noise', 'warp'], /, *, du: float | None = ..., dv: float | None =
+        ..., layers: Literal['active', 'all'] | None = ..., angle: Literal['90', '180', '270'] | None = ..., x: float |
+        None = ..., y: float | None = ..., width: float | None = ..., height: float | None = ..., filter: Literal['box',
+        'linear', 'catmull', 'lanczos3'] | None = ..., how: Literal['blend', 'patches', 'mirror', 'frequency'] | None =
+        ..., ramp: Literal['smooth', 'linear'] | None = ..., sigma: float | None = ..., in_low: float | None = ...,
+        in_high: float | None = ..., gamma: float | None = ..., out_low: float | None = ..., out_high: float | None =
+        ..., points: Any | None = ..., about: Literal['range', 'zero'] | None = ..., low: float | None = ..., high:
+        float | None = ..., amount: float | None = ..., factor: float | None = ..., radius: float | None = ..., window:
+        Literal['round', 'square'] | None = ..., limit: float | None = ..., side: Literal['below', 'above', 'mean'] |
+        None = ..., cells: float | None = ..., octaves: float | None = ..., kind: Literal['perlin', 'gradient', 'value',
+        'sheared'] | None = ..., mode: Literal['fbm', 'turbulence', 'billow', 'ridged'] | None = ..., seed: float | None
+        = ..., between: Literal['catmull', 'linear'] | None = ...
     ) -> None:
         """Change a whole table: blur, levels, resize and the like."""
 
     def filter(
-        self, _form: Literal['offset', 'flip-u', 'flip-v', 'levels', 'curves', 'invert', 'normalise', 'add', 'multiply',
-        'clamp', 'blur', 'sharpen', 'median', 'dilate', 'erode', 'slope-limit', 'noise', 'warp'], /, *, du: float | None
-        = ..., dv: float | None = ..., layer: Any | None = ..., name: str | None = ..., in_low: float | None = ...,
-        in_high: float | None = ..., gamma: float | None = ..., out_low: float | None = ..., out_high: float | None =
-        ..., points: Any | None = ..., about: Literal['range', 'zero'] | None = ..., low: float | None = ..., high:
-        float | None = ..., amount: float | None = ..., factor: float | None = ..., sigma: float | None = ..., radius:
-        float | None = ..., window: Literal['round', 'square'] | None = ..., limit: float | None = ..., side:
-        Literal['below', 'above', 'mean'] | None = ..., cells: float | None = ..., octaves: float | None = ..., kind:
-        Literal['perlin', 'gradient', 'value', 'sheared'] | None = ..., mode: Literal['fbm', 'turbulence', 'billow',
-        'ridged'] | None = ..., seed: float | None = ..., between: Literal['catmull', 'linear'] | None = ...
+        self, _form: Literal['offset', 'flip-u', 'flip-v', 'seamless', 'match-edges', 'even-light', 'levels', 'curves',
+        'invert', 'normalise', 'add', 'multiply', 'clamp', 'blur', 'sharpen', 'median', 'dilate', 'erode',
+        'slope-limit', 'noise', 'warp'], /, *, du: float | None = ..., dv: float | None = ..., layer: Any | None = ...,
+        name: str | None = ..., how: Literal['blend', 'patches', 'mirror', 'frequency'] | None = ..., width: float |
+        None = ..., ramp: Literal['smooth', 'linear'] | None = ..., sigma: float | None = ..., in_low: float | None =
+        ..., in_high: float | None = ..., gamma: float | None = ..., out_low: float | None = ..., out_high: float | None
+        = ..., points: Any | None = ..., about: Literal['range', 'zero'] | None = ..., low: float | None = ..., high:
+        float | None = ..., amount: float | None = ..., factor: float | None = ..., radius: float | None = ..., window:
+        Literal['round', 'square'] | None = ..., limit: float | None = ..., side: Literal['below', 'above', 'mean'] |
+        None = ..., cells: float | None = ..., octaves: float | None = ..., kind: Literal['perlin', 'gradient', 'value',
+        'sheared'] | None = ..., mode: Literal['fbm', 'turbulence', 'billow', 'ridged'] | None = ..., seed: float | None
+        = ..., between: Literal['catmull', 'linear'] | None = ...
     ) -> None:
         """A layer that is an operation over the layers below: blur, levels and the like."""
 
