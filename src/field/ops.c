@@ -237,7 +237,7 @@ static const char *const side_words[] = { WR_LIMIT_SIDES(WR_WORD) NULL };
 #define EDGE_WIDTH(help_)                                                                          \
     {                                                                                              \
         .name = "width", .label = "Width", .help = help_, .unit = "texels", .low = 0,              \
-        .high = WR_FIELD_MAX, .soft_high = 256, .whole = true                                      \
+        .high = WR_FIELD_MAX / 2, .soft_high = 256, .whole = true                                  \
     }
 #define SEED WHOLE("seed", "Seed", "seed of the random numbers", 1, 0, 4294967295.0, 100)
 #define WORDS(name_, label_, help_, fallback_, words)                                              \

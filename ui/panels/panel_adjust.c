@@ -48,12 +48,12 @@ static bool is_named(const WrOpParam *param, const char *name)
     return strcmp(param->name, name) == 0;
 }
 
-/* Size parameters start with the table's size. */
-static double beginning(const WrApp *app, const WrOpParam *param)
+/* The sizes of a new table start with the table's size. */
+static double beginning(const WrApp *app, const WrOpInfo *op, const WrOpParam *param)
 {
     const WrField *field = wr_app_field(app);
-    if (is_named(param, "width")) return wr_field_width(field);
-    if (is_named(param, "height")) return wr_field_height(field);
+    if (op->reshapes && is_named(param, "width")) return wr_field_width(field);
+    if (op->reshapes && is_named(param, "height")) return wr_field_height(field);
     return param->fallback;
 }
 
@@ -105,7 +105,7 @@ static void dialog_adjust_open(WrApp *app, const WrOpInfo *op)
     if (wr_busy_refuse(app)) return;
     WrFilter filter = wr_filter_of(op);
     for (int i = 0; i < wr_op_param_count(op); i++)
-        if (!op->params[i].points) filter.param[i] = beginning(app, &op->params[i]);
+        if (!op->params[i].points) filter.param[i] = beginning(app, op, &op->params[i]);
     ask_values(app, &filter, false, -1);
 }
 
@@ -159,7 +159,7 @@ static WrNumber spec_of(const WrApp *app, int index)
                       .high = param->soft_high,
                       .hard_low = param->low,
                       .hard_high = param->high,
-                      .reset = beginning(app, param),
+                      .reset = beginning(app, app->adjust->op, param),
                       .decimals = param->whole ? 0 : 3,
                       .unit =
                           strlen(param->unit) > 0 && strlen(param->unit) < 8 ? param->unit : NULL,
