@@ -42,6 +42,12 @@ static const char *const kinds[] = {
     "flip-u",
     "flip-v",
     "blur sigma=17.%0.f",
+    "seamless how=blend",
+    "seamless how=patches width=4",
+    "seamless how=mirror",
+    "seamless how=frequency",
+    "match-edges width=9",
+    "even-light sigma=%.3f",
 };
 enum {
     KINDS = sizeof kinds / sizeof *kinds,
