@@ -314,7 +314,7 @@ static inline bool walk_open_macro(Walk *walk, int which)
     snprintf(path, sizeof path, "%.500s/macro.wrinkle", getenv("XDG_STATE_HOME"));
     FILE *file = fopen(path, "w");
     assert_non_null(file);
-    fputs("fill 0.5\n", file);
+    fputs("bump height=0.27\n", file);
     fclose(file);
     wr_macro_chosen(walk->app, path);
     assert_int_equal(walk->app->dialog->now, WR_DIALOG_MACRO);
