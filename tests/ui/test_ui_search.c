@@ -65,6 +65,7 @@ static const Wanted in_english[] = {
     { "brush size up", "Larger brush", NULL },
     { "eraser", "Erase", NULL },
     { "erasor", "Erase", NULL },
+    { "copy", "Copy", NULL },
     { "rubber", "Rubber", NULL },
     { "undo", "Undo", NULL },
     { "redo", "Redo", NULL },

@@ -12,14 +12,14 @@ serve
 "$program" export --do 'table 64x64' --do 'noise perlin cells=6' --do 'bump height=0.3' --as normal-y -o n.png >log || complain "$(cat log)"
 printf '%s\n' 'table 64x64' 'surface sphere' 'camera orthographic eye=0,0,5 size=2.2' >plain.wrinkle
 printf '%s\n' 'width 1200' 'height 860' 'turning 0' 'ants 0' 'tab 1' 'lower 0' 'fold +Scene/PICTURES' >config/wrinkle/window.conf
-for section in OBJECTS SURFACE BUMP RELIEF LIGHT SURROUNDINGS; do
+for section in OBJECTS SURFACE BUMP RELIEF LIGHT ENVIRONMENT; do
     echo "fold -Scene/$section" >>config/wrinkle/window.conf
 done
 
 # choose FILE Y: by the folder in that row.
 choose() {
     shot unasked
-    xdotool mousemove $((X + 1167)) $((Y + $2)) click 1
+    xdotool mousemove $((X + 1177)) $((Y + $2)) click 1
     until_true 120 "the question for a file" shows_dialog || return
     rest
     key ctrl+a
@@ -33,18 +33,18 @@ start plain.wrinkle
 patch=400x400+526+200
 xdotool mousemove $((X + 1000)) $((Y + 300))
 rest
-# The list of materials, and its second from the right below: gold.
-click 1075 312
-rest
-click 1045 561
+# The pictures of materials, three in a row: gold is the second of the fourth row. Then the heading folds them.
+click 1070 562
 becomes 'material preset=gold' "a material that was chosen by its picture"
 key ctrl+z
+rest
+click 1005 281
 rest
 xdotool mousemove $((X + 1000)) $((Y + 300))
 rest
 shot before
 # The folders of the two rows: eleven bright pixels above one another, where no other row has as many or as few.
-read -r colours normals < <(convert before.ppm -crop 1x860+1167+0 +repage -colorspace gray -depth 8 txt:- |
+read -r colours normals < <(convert before.ppm -crop 1x860+1177+0 +repage -colorspace gray -depth 8 txt:- |
     awk -F '[,: ()]+' 'NR > 1 { if ($4 > 100) run++; else { if (run >= 10 && run <= 13) printf "%d ", $2 - 6; run = 0 } } END { print "" }')
 [[ -n ${normals:-} ]] || { complain "the rows of pictures are not seen"; exit 1; }
 choose n.png "$normals"
@@ -82,7 +82,7 @@ key ctrl+z
 rest
 mv gone.png n.png
 
-click 1167 "$normals"
+click 1177 "$normals"
 becomes 'normalmap off' "the normal map taken off"
 home
 shot after

@@ -270,7 +270,7 @@ END
 configure 'mode 0'
 start masked.wrinkle
 key alt+m
-becomes 'layer use 2 part=mask' "the mask is painted on"
+rest
 drag $((cx - 50)) $((cy - 60)) 5 0 20
 becomes 'stroke *mode=raise*' "a stroke on the mask"
 key alt+m

@@ -183,9 +183,10 @@ WrEdit wr_call_rows(WrCall *call)
 static bool same_value(const WrArgSpec *spec, const WrArg *a, const WrArg *b)
 {
     WrText x = { 0 }, y = { 0 };
+    if (!a->given || !b->given) return a->given == b->given;
     wr_arg_print(spec, a, &x);
     wr_arg_print(spec, b, &y);
-    const bool same = a->given == b->given && strcmp(wr_text_get(&x), wr_text_get(&y)) == 0;
+    const bool same = strcmp(wr_text_get(&x), wr_text_get(&y)) == 0;
     wr_text_fini(&x);
     wr_text_fini(&y);
     return same;

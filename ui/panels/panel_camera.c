@@ -70,7 +70,6 @@ static void placed(WrApp *app)
     static const char *const kinds[] = { "Perspective", "Orthographic" };
     const WrCamera *c = &wr_app_scene(app)->camera;
     int kind = c->orthographic;
-    if (!wr_gui_fold("CAMERA", false)) return;
     wr_gui_label("Kind");
     if (wr_gui_choice("camera", 0, kinds, 2, &kind)) {
         WrText line = { 0 };
@@ -207,8 +206,10 @@ static void tone(WrApp *app)
 
 void wr_panel_camera(WrApp *app)
 {
-    placed(app);
-    views(app);
+    if (wr_gui_fold("CAMERA", false)) {
+        placed(app);
+        views(app);
+    }
     background(app);
     tone(app);
 }

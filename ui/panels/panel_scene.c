@@ -312,26 +312,8 @@ static void surface_params(WrApp *app)
     }
 }
 
-static void surface(WrApp *app)
+static void repeats(WrApp *app)
 {
-    const char *labels[WR_SURFACE_COUNT];
-    for (int i = 0; i < WR_SURFACE_COUNT; i++) labels[i] = wr_surfaces[i]->label;
-    int kind = (int)wr_app_scene(app)->shape.kind;
-    if (!wr_gui_fold("SURFACE", true)) return;
-    wr_gui_label("Patch");
-    if (wr_gui_choice("patch", 0, labels, WR_SURFACE_COUNT, &kind)) {
-        WrShape shape;
-        wr_shape_default((WrSurfaceKind)kind, &shape);
-        wr_surface_run(app, &shape, NULL);
-    }
-    wr_gui_tip(wr_surfaces[kind]->help);
-    wr_model_grid(app);
-    surface_params(app);
-    if (wr_app_scene(app)->shape.kind == WR_SURFACE_revolution && wr_app_scene(app)->shape.data)
-        wr_profile_row(app);
-    surface_texts(app);
-    surface_file(app);
-    wr_projection_rows(app);
     const WrSceneParam *param = &wr_scene_params[WR_SCENE_PARAM_REPLICATE];
     const WrNumber spec = wr_param_slider(param);
     double ru = wr_app_scene(app)->replicate_u, rv = wr_app_scene(app)->replicate_v;
@@ -352,6 +334,29 @@ static void surface(WrApp *app)
     wr_text_add(&line, ",");
     wr_text_add_number(&line, rv);
     wr_scene_run(app, &line);
+}
+
+static void surface(WrApp *app)
+{
+    const char *labels[WR_SURFACE_COUNT];
+    for (int i = 0; i < WR_SURFACE_COUNT; i++) labels[i] = wr_surfaces[i]->label;
+    int kind = (int)wr_app_scene(app)->shape.kind;
+    if (!wr_gui_fold("SURFACE", true)) return;
+    wr_gui_label("Patch");
+    if (wr_gui_choice("patch", 0, labels, WR_SURFACE_COUNT, &kind)) {
+        WrShape shape;
+        wr_shape_default((WrSurfaceKind)kind, &shape);
+        wr_surface_run(app, &shape, NULL);
+    }
+    wr_gui_tip(wr_surfaces[kind]->help);
+    surface_params(app);
+    if (wr_app_scene(app)->shape.kind == WR_SURFACE_revolution && wr_app_scene(app)->shape.data)
+        wr_profile_row(app);
+    surface_texts(app);
+    surface_file(app);
+    wr_projection_rows(app);
+    repeats(app);
+    wr_model_grid(app);
 }
 
 typedef void Section(WrApp *app);

@@ -213,9 +213,12 @@ static bool tile(SDL_Texture *texture, const WrPictureItem *item, double side, b
 int wr_picture_grid(WrApp *app, WrPictureSet set, const char *name, int count, double units,
                     int chosen, void (*item)(const WrApp *app, int i, WrPictureItem *out))
 {
-    const int side = wr_gui_px(units), gap = wr_gui_px(GAP);
-    const int room = ((int)wr_gui_available() + gap) / (side + gap), columns = room < 1 ? 1 : room;
-    WrPictures *pictures = pictures_of(app, set, side);
+    const int gap = wr_gui_px(GAP), room = (int)wr_gui_available() + gap;
+    const int fit = (int)(room / (double)(wr_gui_px(units) + gap) + 0.5),
+              columns = fit < 1 ? 1 : fit;
+    const int side = room / columns - gap; /* they fill the row */
+    WrPictures *pictures =
+        pictures_of(app, set, wr_gui_px(units)); /* of one size, shown in another */
     int pressed = -1;
     wr_gui_name_row(name);
     for (int i = 0; i < count && i < WR_PICTURES_MAX; i++) {

@@ -695,6 +695,21 @@ static bool is_flood(const WrSearchIndex *index, const WrSearchHit *kept, int co
     return e->kind == WR_SEARCH_OPTION && alike >= ALIKE;
 }
 
+/* An option of a tool or dialog is one click further away than an action of the same name. */
+static void actions_first(const WrSearchIndex *index, WrSearchHit *hits, int count)
+{
+    for (int i = 0; i + 1 < count; i++) {
+        const WrSearchEntry *option = &index->entries.data[hits[i].entry];
+        const WrSearchEntry *other = &index->entries.data[hits[i + 1].entry];
+        const WrSearchHit hit = hits[i];
+        if (!option->row || !option->action || other->kind != WR_SEARCH_ACTION ||
+            SDL_strcasecmp(option->label, other->label) != 0)
+            continue;
+        hits[i] = hits[i + 1];
+        hits[i + 1] = hit;
+    }
+}
+
 int wr_search_index_find(const WrSearchIndex *index, const char *text, WrSearchHit *out, int most)
 {
     WrSearchQuery query;
@@ -704,6 +719,7 @@ int wr_search_index_find(const WrSearchIndex *index, const char *text, WrSearchH
     if (count == 0 && query.count > 1) count = find(index, &query, true, all, ALL);
     for (int i = 0; i < count && kept < most; i++)
         if (!is_flood(index, out, kept, all[i].entry)) out[kept++] = all[i];
+    actions_first(index, out, kept);
     return kept;
 }
 

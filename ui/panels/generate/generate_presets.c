@@ -30,7 +30,7 @@
 
 #define FILE_MAX (1 << 22) /* bytes */
 
-static void forget(WrGenerateState *hand)
+void wr_generate_presets_forget(WrGenerateState *hand)
 {
     for (int i = 0; i < hand->presets.count; i++) {
         wr_free(hand->presets.data[i].name);
@@ -95,7 +95,7 @@ static bool read_file(WrApp *app, WrError *err)
     bool there = path && wr_path_is_there(path);
     bool good = !there || wr_file_read(path, FILE_MAX, &bytes, &length, err);
     if (good) {
-        forget(app->generate);
+        wr_generate_presets_forget(app->generate);
         if (bytes) parse(app->generate, bytes, false);
         read_shipped(app);
         app->shelf->serial++; /* places in the list changed, and so their thumbnails */

@@ -74,8 +74,11 @@ int wr_generate_find(const WrGenerateState *hand, const char *const *names, WrPa
 
 int wr_generate_written(const WrGenerator *generator)
 {
-    for (int i = 0; generator->params[i].name; i++)
-        if (generator->params[i].kind == WR_PARAM_TEXT && !generator->params[i].layer) return i;
+    for (int i = 0; generator->params[i].name; i++) {
+        const WrParam *p = &generator->params[i];
+        const bool optional = p->fallback_text && !p->fallback_text[0];
+        if (p->kind == WR_PARAM_TEXT && !p->layer && !optional) return i;
+    }
     return -1;
 }
 
@@ -287,10 +290,7 @@ void wr_generate_free(WrApp *app)
     if (!hand) return;
     generate_free_values(hand);
     for (int i = 0; i < hand->kept.count; i++) wr_free(hand->kept.data[i]);
-    for (int i = 0; i < hand->presets.count; i++) {
-        wr_free(hand->presets.data[i].name);
-        wr_free(hand->presets.data[i].line);
-    }
+    wr_generate_presets_forget(hand);
     wr_array_free(&hand->kept);
     wr_array_free(&hand->presets);
     wr_free(hand->asked);
