@@ -142,7 +142,7 @@ void wr_generate_cancel(WrApp *app); /* stop the preview; the values stay */
 /* ---- generate_presets.c: presets.wrinkle in the settings folder, a script of lines with their names as comments
    before them ---- */
 void wr_generate_presets_forget(WrGenerateState *hand); /* frees them */
-void wr_generate_presets_find(WrApp *app); /* loads them at the first call */
+void wr_generate_presets_find(WrApp *app);              /* loads them at the first call */
 bool wr_generate_preset_taken(const WrApp *app, const char *name); /* true if that name exists */
 bool wr_generate_preset_save(WrApp *app, const char *name);
 bool wr_generate_preset_delete(WrApp *app, int index);
