@@ -637,7 +637,7 @@ static bool read_relief(WrPreset *preset, json_object *relief, Place at, WrError
 static char *tip_path(const char *folder, const char *name)
 {
     WrText stamp = { 0 };
-    char *path = wr_path_join(folder, name), *file = wr_path_join("stamps", name);
+    char *path = wr_path_join(folder, name), *file = wr_path_join("brushes/stamps", name);
     if (!wr_path_is_there(path) && wr_data_find(file, &stamp)) {
         wr_free(path);
         path = wr_strdup(wr_text_get(&stamp));

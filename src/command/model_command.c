@@ -14,7 +14,7 @@
 static bool surface_line(const WrStockModel *model, WrText *line, WrError *err)
 {
     WrText name = { 0 }, path = { 0 };
-    wr_text_addf(&name, "models/%s.ply", model->name);
+    wr_text_addf(&name, "samples/models/%s.ply", model->name);
     const bool found = wr_data_find(wr_text_get(&name), &path);
     if (!found)
         wr_fail(err,

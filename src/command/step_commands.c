@@ -141,7 +141,7 @@ static bool run_again(WrSession *session, const Line *step, WrError *err)
     return run_choices(session, step->choices, err);
 }
 
-/* The notes of lines that have not changed were told when they ran. */
+/* Lines that have not changed give no notes again. */
 static bool run_all(WrSession *session, const Lines *lines, WrError *err)
 {
     const WrNoteSink note = session->options.note;
@@ -238,7 +238,7 @@ static char *changed_line(const char *line, const WrCall *call, WrError *err)
     WrText text = { 0 };
     char *out = NULL;
     if (!change == !other) {
-        wr_fail(err, "must have line= or change=, what the step does now");
+        wr_fail(err, "must have line= or change=");
         return NULL;
     }
     bool good = wr_call_parse(other ? other : line, false, &step, err) &&

@@ -176,7 +176,7 @@ static void check_picture(const char *script, double mean)
     WrError err;
     snprintf(path, sizeof path, "%.*sjpg", (int)(strlen(script) - strlen("wrinkle")), script);
     WrImage *image = wr_image_read(path, &err);
-    if (!image) fail_msg("%s; starters/pictures.sh makes it", err.text);
+    if (!image) fail_msg("%s; samples/starters/pictures.sh makes it", err.text);
     const size_t count = (size_t)image->width * (size_t)image->height;
     assert_int_equal(image->channels, 3);
     for (size_t i = 0; i < count; i++) {
@@ -186,8 +186,8 @@ static void check_picture(const char *script, double mean)
     }
     wr_image_free(image);
     if (fabs(sum / (double)count - mean) > 0.06)
-        fail_msg("%s: mean luminance %.3f, the starter has %.3f: run starters/pictures.sh", path,
-                 sum / (double)count, mean);
+        fail_msg("%s: mean luminance %.3f, the starter has %.3f: run samples/starters/pictures.sh",
+                 path, sum / (double)count, mean);
 }
 
 /* Mean luminance of the whole picture over the background, as files show it. */
@@ -233,7 +233,7 @@ static void every_starter_opens_and_looks_like_its_picture(void **state)
     WrText path = { 0 };
     int count = 0;
     const char *name;
-    assert_true(wr_data_find("starters", &path));
+    assert_true(wr_data_find("samples/starters", &path));
     WrFolder *folder = wr_folder_open(wr_text_get(&path));
     while ((name = wr_folder_next(folder)) != NULL) {
         char ending[16];

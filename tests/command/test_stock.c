@@ -52,7 +52,7 @@ static void check_stamp(const char *name, Stamp *stamp)
     WrError err = { "" };
     WrTipView view;
     int w, h;
-    wr_text_addf(&file, "stamps/%s.png", name);
+    wr_text_addf(&file, "brushes/stamps/%s.png", name);
     if (!wr_data_find(wr_text_get(&file), &path)) fail_msg("%s is missing", wr_text_get(&file));
     WrTip *tip = wr_tip_read(wr_text_get(&path), &err);
     if (!tip) fail_msg("%s", err.text);
@@ -83,7 +83,7 @@ static void stamps_end_at_the_ground_and_differ(void **state)
 {
     (void)state;
     enum { MOST = 200 };
-    char *text = lines_of("stamps/stamps.conf"), *rest = text;
+    char *text = lines_of("brushes/stamps/stamps.conf"), *rest = text;
     Stamp *stamps = wr_alloc(MOST, sizeof *stamps);
     int count = 0;
     for (char *line; (line = next_line(&rest));) {
@@ -127,7 +127,7 @@ static void check_table(const WrSession *session, const char *name)
 static void presets_are_seamless(void **state)
 {
     (void)state;
-    char *text = lines_of("presets/generators.wrinkle"), *rest = text, *name = NULL;
+    char *text = lines_of("brushes/generators.wrinkle"), *rest = text, *name = NULL;
     int count = 0;
     for (char *line; (line = next_line(&rest));) {
         if (line[0] == '#') {
@@ -152,7 +152,7 @@ static void presets_are_seamless(void **state)
 static void check_cell(const char *name)
 {
     WrText file = { 0 };
-    wr_text_addf(&file, "cells/%s", name);
+    wr_text_addf(&file, "samples/cells/%s", name);
     char *text = lines_of(wr_text_get(&file)), *rest = text;
     WrSession *session = wr_session_new(NULL);
     int layers = 0;
@@ -176,7 +176,7 @@ static void cells_are_seamless_layers(void **state)
     (void)state;
     WrText path = { 0 };
     int count = 0;
-    assert_true(wr_data_find("cells", &path));
+    assert_true(wr_data_find("samples/cells", &path));
     WrFolder *folder = wr_folder_open(wr_text_get(&path));
     for (const char *name; (name = wr_folder_next(folder));) {
         size_t length = strlen(name);

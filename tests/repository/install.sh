@@ -40,8 +40,8 @@ share=$folder/prefix/share
 for file in applications/wrinkle.desktop mime/packages/wrinkle.xml man/man1/wrinkle.1 \
     icons/hicolor/scalable/apps/wrinkle.svg icons/hicolor/48x48/apps/wrinkle.png \
     wrinkle/samples/bricks.wrinkle wrinkle/samples/rivets.wrinkle wrinkle/samples/screenshot.png \
-    wrinkle/brushes/chain.myb wrinkle/stamps/stamps.conf wrinkle/stamps/chain-link.png wrinkle/presets/generators.wrinkle \
-    wrinkle/cells/moon-surface.wrinkle wrinkle/cells/moon-surface.png \
+    wrinkle/brushes/chain.myb wrinkle/brushes/stamps/stamps.conf wrinkle/brushes/stamps/chain-link.png wrinkle/brushes/generators.wrinkle \
+    wrinkle/samples/cells/moon-surface.wrinkle wrinkle/samples/cells/moon-surface.png \
     wrinkle/ui/guide/README.md wrinkle/ui/guide/window.md doc/wrinkle/README.md; do
     [[ -s $share/$file ]] || fail "share/$file is missing"
 done

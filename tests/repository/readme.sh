@@ -27,7 +27,6 @@ run_page() {
     mkdir "$place" && cd "$place" || exit 1
     ln -s "$source/samples" samples
     ln -s "$source/brushes" brushes
-    ln -s "$source/cells" cells
     while IFS= read -r line; do
         [[ $line =~ ^wrinkle(\ paint.*|\ [^\ ]*\.[a-z]+)?$ ]] && continue
         # A sample that is made as it is, on the pages that walk through all of them: its own test does that.
@@ -116,7 +115,7 @@ maps=("$source/src/README.md" "$source/ui/README.md" "$source/tests/README.md")
 # shellcheck disable=SC2016 # backquotes of Markdown
 while IFS= read -r path; do
     [[ -e $source/$path ]] || fail "$path does not exist"
-done < <(grep -ohE '`(src|ui|tests|samples|brushes|stamps|cells)/[A-Za-z0-9_./-]*`' "$source/README.md" "$guide"/*.md "${maps[@]}" | tr -d '`' | sort -u)
+done < <(grep -ohE '`(src|ui|tests|samples|brushes)/[A-Za-z0-9_./-]*`' "$source/README.md" "$guide"/*.md "${maps[@]}" | tr -d '`' | sort -u)
 while IFS= read -r path; do
     [[ -e $source/$path ]] || fail "$path, that the README leads to, does not exist"
 done < <(grep -oE '\]\([^):#]*' "$source/README.md" | sed 's/^](//' | sort -u)

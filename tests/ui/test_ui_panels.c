@@ -18,39 +18,20 @@ static void settle(Walk *walk)
     }
 }
 
-static void point(Walk *walk, double x, double y)
-{
-    wr_gui_event(walk->app->gui,
-                 &(SDL_Event){ .motion = { .type = SDL_MOUSEMOTION, .x = (int)x, .y = (int)y } });
-    walk_frame(walk);
-}
-
-static void button(Walk *walk, Uint8 which, bool down, double x, double y)
-{
-    wr_gui_event(walk->app->gui,
-                 &(SDL_Event){ .button = { .type = down ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP,
-                                           .button = which,
-                                           .state = down ? SDL_PRESSED : SDL_RELEASED,
-                                           .clicks = 1,
-                                           .x = (int)x,
-                                           .y = (int)y } });
-    walk_frame(walk);
-}
-
 static void click(Walk *walk, Uint8 which, double x, double y)
 {
-    point(walk, x, y);
-    button(walk, which, true, x, y);
-    button(walk, which, false, x, y);
+    walk_point(walk, x, y);
+    walk_button(walk, which, true, x, y);
+    walk_button(walk, which, false, x, y);
     settle(walk);
 }
 
 static void drag(Walk *walk, double x, double y, double to_x, double to_y)
 {
-    point(walk, x, y);
-    button(walk, SDL_BUTTON_LEFT, true, x, y);
-    for (int i = 1; i <= 6; i++) point(walk, x + (to_x - x) * i / 6, y + (to_y - y) * i / 6);
-    button(walk, SDL_BUTTON_LEFT, false, to_x, to_y);
+    walk_point(walk, x, y);
+    walk_button(walk, SDL_BUTTON_LEFT, true, x, y);
+    for (int i = 1; i <= 6; i++) walk_point(walk, x + (to_x - x) * i / 6, y + (to_y - y) * i / 6);
+    walk_button(walk, SDL_BUTTON_LEFT, false, to_x, to_y);
     settle(walk);
 }
 

@@ -62,35 +62,16 @@ static void type(Walk *walk, const char *text)
     walk_frame(walk);
 }
 
-static void point(Walk *walk, double x, double y)
-{
-    wr_gui_event(walk->app->gui,
-                 &(SDL_Event){ .motion = { .type = SDL_MOUSEMOTION, .x = (int)x, .y = (int)y } });
-    walk_frame(walk);
-}
-
-static void button_of(Walk *walk, Uint8 which, bool down, double x, double y)
-{
-    wr_gui_event(walk->app->gui,
-                 &(SDL_Event){ .button = { .type = down ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP,
-                                           .button = which,
-                                           .state = down ? SDL_PRESSED : SDL_RELEASED,
-                                           .clicks = 1,
-                                           .x = (int)x,
-                                           .y = (int)y } });
-    walk_frame(walk);
-}
-
 static void button(Walk *walk, bool down, double x, double y)
 {
-    button_of(walk, SDL_BUTTON_LEFT, down, x, y);
+    walk_button(walk, SDL_BUTTON_LEFT, down, x, y);
 }
 
 static void click_with(Walk *walk, Uint8 which, double x, double y)
 {
-    point(walk, x, y);
-    button_of(walk, which, true, x, y);
-    button_of(walk, which, false, x, y);
+    walk_point(walk, x, y);
+    walk_button(walk, which, true, x, y);
+    walk_button(walk, which, false, x, y);
     settle(walk);
 }
 
@@ -273,9 +254,9 @@ static void by_pointer(Walk *walk, const WrKeyStop *stop)
     switch (stop->kind) {
     case WR_STOP_NUMBER:
     case WR_STOP_PAD:
-        point(walk, x, y);
+        walk_point(walk, x, y);
         button(walk, true, x, y);
-        for (int i = 1; i <= 4; i++) point(walk, x + 5 * i, y);
+        for (int i = 1; i <= 4; i++) walk_point(walk, x + 5 * i, y);
         button(walk, false, x + 20, y);
         settle(walk);
         break;

@@ -542,6 +542,18 @@ static void every_synonym_has_its_thing(void **state)
         }
         if (!there) printf("nothing is called \"%s\"\n", w->label), lacking++;
     }
+    /* rows that are hidden now name a section that the tab has */
+    for (int i = 0; i < index->entries.count; i++) {
+        const WrSearchEntry *hidden = &index->entries.data[i];
+        bool there = !hidden->hidden || !hidden->section[0];
+        for (int k = 0; k < index->entries.count && !there; k++) {
+            const WrSearchEntry *e = &index->entries.data[k];
+            there = !e->hidden && e->tab && e->row && strcmp(e->tab, hidden->tab) == 0 &&
+                    strcmp(e->section, hidden->section) == 0;
+        }
+        if (!there)
+            printf("no section \"%s\" for \"%s\"\n", hidden->section, hidden->label), lacking++;
+    }
     walk_close(&walk);
     assert_int_equal(lacking, 0);
 }

@@ -148,6 +148,25 @@ static inline bool walk_name(Walk *walk, const char *format, const char *what)
     return true;
 }
 
+static inline void walk_point(Walk *walk, double x, double y)
+{
+    wr_gui_event(walk->app->gui,
+                 &(SDL_Event){ .motion = { .type = SDL_MOUSEMOTION, .x = (int)x, .y = (int)y } });
+    walk_frame(walk);
+}
+
+static inline void walk_button(Walk *walk, Uint8 which, bool down, double x, double y)
+{
+    wr_gui_event(walk->app->gui,
+                 &(SDL_Event){ .button = { .type = down ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP,
+                                           .button = which,
+                                           .state = down ? SDL_PRESSED : SDL_RELEASED,
+                                           .clicks = 1,
+                                           .x = (int)x,
+                                           .y = (int)y } });
+    walk_frame(walk);
+}
+
 static inline bool walk_open_tab(Walk *walk, int which)
 {
     WrApp *app = walk->app;

@@ -50,7 +50,7 @@ shot saved
 save_as painted.exr ctrl+s
 "$program" inspect painted.exr --json >inspected || complain "the saved file is no document"
 grep -q '"size":\[256,256\]' inspected || complain "the saved table has another size: $(cat inspected)"
-[[ $(hash_of painted.exr) != "$(hash_of "$source/starters/bricks.wrinkle")" ]] ||
+[[ $(hash_of painted.exr) != "$(hash_of "$source/samples/starters/bricks.wrinkle")" ]] ||
     complain "the saved document is the starter: nothing was painted"
 
 # ---- nothing unsaved: it ends without a question ----

@@ -43,8 +43,6 @@
 #include "ui/panels/panel_history.h"
 #include "ui/panels/panel_tablet.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/picture_grid.h"
-#include "ui/panels/stock.h"
 #include "ui/panels/panel_sheet.h"
 #include "ui/patch/patch.h"
 #include "ui/patch/patch_paint.h"
@@ -172,12 +170,11 @@ void wr_app_end(WrApp *app)
     wr_patch_paint_free(app);
     if (app->renderer) wr_patch_free(app);
     wr_thumbs_free(app);
-    wr_stock_free(app);
+    wr_script_list_free(&app->shelf->cells);
+    wr_script_list_free(&app->shelf->starters);
     wr_preset_browser_free(app);
     wr_stamp_forget(app);
     wr_sheet_free(app);
-    wr_pictures_free(app);
-    wr_starters_free(app);
     wr_gallery_free(app);
     wr_font_choice_free(app);
     wr_generate_free(app);

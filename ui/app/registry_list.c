@@ -24,7 +24,6 @@
 #include "ui/panels/panel_objects.h"
 #include "ui/panels/missing_files.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/picture_grid.h"
 #include "ui/panels/stock.h"
 #include "ui/panels/panel_sheet.h"
 #include "ui/patch/patch.h"
@@ -82,9 +81,9 @@ static const WrTab tabs[] = {
     { "Brushes", .fill = wr_panel_brushes, .rows_area = "brush_values", .rows = wr_panel_brush },
     { "Scene", .draw = wr_panel_scene, .second = wr_panel_scene_second, .edits = true },
     { "Plan", .draw = wr_panel_plan },
-    { "History", .draw = wr_panel_history },
-    { "Generate", .fill = wr_panel_generate, .is_long = true, .rows_area = "generate_values",
-      .rows = wr_panel_generate_values },
+    { "History", .draw = wr_panel_history, .unlisted = true },
+    { "Generate", .fill = wr_panel_generate, .is_long = true, .unlisted = true,
+      .rows_area = "generate_values", .rows = wr_panel_generate_values },
     { "Accuracy", .draw = wr_panel_accuracy, .is_long = true },
     { "Export", .draw = wr_panel_export },
     { "Layers", .fill = wr_panel_layers, .below = true },
@@ -92,13 +91,12 @@ static const WrTab tabs[] = {
 };
 
 /* In the order of update and drawing. */
-static const WrPart *const parts[] = { &wr_part_hand,     &wr_part_tools,    &wr_part_strokes,
-                                       &wr_part_select,   &wr_part_clone,    &wr_part_canvas,
-                                       &wr_part_marks,    &wr_part_stamp,    &wr_part_generate,
-                                       &wr_part_patch,    &wr_part_accuracy, &wr_part_layers,
-                                       &wr_part_thumbs,   &wr_part_stock,    &wr_part_font_choice,
-                                       &wr_part_pictures, &wr_part_sheet,    &wr_part_adjust,
-                                       &wr_part_thrift,   &wr_part_search,   NULL };
+static const WrPart *const parts[] = {
+    &wr_part_hand,     &wr_part_tools,  &wr_part_strokes, &wr_part_select,   &wr_part_clone,
+    &wr_part_canvas,   &wr_part_marks,  &wr_part_stamp,   &wr_part_generate, &wr_part_patch,
+    &wr_part_accuracy, &wr_part_layers, &wr_part_thumbs,  &wr_part_stock,    &wr_part_font_choice,
+    &wr_part_sheet,    &wr_part_adjust, &wr_part_thrift,  &wr_part_search,   NULL
+};
 
 static WrActionFamily *const families[] = { wr_adjust_dialog_of_action, wr_filter_dialog_of_action,
                                             wr_generate_tab_of_action, NULL };

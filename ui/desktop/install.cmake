@@ -5,17 +5,13 @@ set(desktop ${CMAKE_CURRENT_LIST_DIR})
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/samples DESTINATION ${CMAKE_INSTALL_DATADIR}/wrinkle
         PATTERN CMakeLists.txt EXCLUDE)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/models ${PROJECT_SOURCE_DIR}/starters
-        DESTINATION ${CMAKE_INSTALL_DATADIR}/wrinkle PATTERN "*.py" EXCLUDE PATTERN "*.sh" EXCLUDE)
 # The guide, which the window shows, where its links to the samples lead on.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/ui/guide DESTINATION ${CMAKE_INSTALL_DATADIR}/wrinkle/ui
         PATTERN "*.sh" EXCLUDE)
-foreach(stock brushes stamps presets cells)
-    if(EXISTS ${PROJECT_SOURCE_DIR}/${stock})
-        install(DIRECTORY ${PROJECT_SOURCE_DIR}/${stock} DESTINATION ${CMAKE_INSTALL_DATADIR}/wrinkle
-                PATTERN "*.py" EXCLUDE PATTERN "*.sh" EXCLUDE)
-    endif()
-endforeach()
+if(EXISTS ${PROJECT_SOURCE_DIR}/brushes)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/brushes DESTINATION ${CMAKE_INSTALL_DATADIR}/wrinkle
+            PATTERN "*.py" EXCLUDE)
+endif()
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/LICENSE
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 

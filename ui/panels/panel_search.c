@@ -83,8 +83,7 @@ static const char *icon_of(const WrApp *app, const WrSearchEntry *entry)
 static SDL_Texture *picture_of(WrApp *app, const WrSearchEntry *entry)
 {
     if (entry->kind == WR_SEARCH_BRUSH) return wr_thumb_of(app, entry->item, wr_gui_px(52));
-    if (entry->pictures)
-        return wr_picture_of(app, (WrPictureSet)(entry->pictures - 1), entry->item);
+    if (entry->pictures) return wr_picture_of(app, (WrThumbKind)(entry->pictures - 1), entry->item);
     return NULL;
 }
 

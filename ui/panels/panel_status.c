@@ -149,8 +149,8 @@ typedef struct HelpButton {
     const char *label;
 } HelpButton;
 
-/* The buttons that mend what a message is about: one, and more as long as the text of that width stays whole. room: pixels, what
-   is left of it afterwards. */
+/* The buttons beside a message: one, and more while the text, `wide` pixels, is shown whole. room: pixels for text and buttons;
+   becomes the rest for the text. Returns their number. */
 static int help_list(const WrApp *app, const WrMessage *message, double wide, double *room,
                      HelpButton out[WR_PLAIN_ACTIONS + 1])
 {

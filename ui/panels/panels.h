@@ -45,7 +45,6 @@ void wr_panel_plan(WrApp *app);
 void wr_dialog_unsaved(WrApp *app);
 void wr_dialog_new(WrApp *app);
 void wr_dialog_starters(WrApp *app);
-void wr_starters_free(WrApp *app);
 void wr_dialog_table(WrApp *app);
 void wr_dialog_fill(WrApp *app);
 void wr_dialog_grid(WrApp *app);

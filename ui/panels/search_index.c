@@ -274,9 +274,8 @@ static void list_tabs(Drawing *d)
 {
     const WrTab *tabs = d->app->registry->tabs;
     for (d->which = 0; d->which < d->app->registry->tab_count; d->which++) {
-        /* Rows of a generator come from its table; those of the plan and of the history are the document's. */
         const char *label = tabs[d->which].label;
-        if (strcmp(label, "Generate") == 0 || strcmp(label, "History") == 0) continue;
+        if (tabs[d->which].unlisted) continue;
         list(d, draw_tab, label, (WrSearchEntry){ .tab = label, .part = 1 }, -1);
     }
 }
@@ -473,7 +472,7 @@ static void add_models(WrSearchIndex *index)
 }
 
 /* A row of a table with pictures, set by a line. */
-static void add_picture(WrSearchIndex *index, WrSearchKind kind, WrPictureSet set, int i,
+static void add_picture(WrSearchIndex *index, WrSearchKind kind, WrThumbKind set, int i,
                         const char *section, const char *title, const char *help, const char *name,
                         const char *verb)
 {
@@ -490,17 +489,17 @@ static void add_pictures(WrSearchIndex *index)
 {
     for (int i = 0; i < WR_MATERIAL_PRESETS; i++) {
         const WrMaterialPreset *preset = &wr_material_presets[i];
-        add_picture(index, WR_SEARCH_MATERIAL, WR_PICTURES_MATERIALS, i, "MATERIAL", preset->title,
+        add_picture(index, WR_SEARCH_MATERIAL, WR_THUMB_MATERIAL, i, "MATERIAL", preset->title,
                     preset->help, preset->name, "material preset=");
     }
     for (int i = 0; i < WR_STOCK_MODELS; i++) {
         const WrStockModel *model = &wr_stock_models[i];
-        add_picture(index, WR_SEARCH_MODEL, WR_PICTURES_MODELS, i, "SURFACE", model->title,
-                    model->help, model->name, "model ");
+        add_picture(index, WR_SEARCH_MODEL, WR_THUMB_MODEL, i, "SURFACE", model->title, model->help,
+                    model->name, "model ");
     }
     for (int i = 0; i < WR_LIGHT_PRESETS; i++) {
         const WrLightPreset *preset = &wr_light_presets[i];
-        add_picture(index, WR_SEARCH_MATERIAL, WR_PICTURES_LIGHTS, i, "LIGHT", preset->title,
+        add_picture(index, WR_SEARCH_MATERIAL, WR_THUMB_LIGHT, i, "LIGHT", preset->title,
                     preset->help, preset->name, "light preset ");
     }
 }

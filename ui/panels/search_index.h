@@ -27,7 +27,7 @@ typedef enum WrSearchKind {
 typedef struct WrSearchEntry {
     WrSearchKind kind;
     int item;         /* index in the table of its kind: brush, material, model */
-    int pictures;     /* WrPictureSet + 1 of its picture; 0: none */
+    int pictures;     /* WrThumbKind + 1 of its picture; 0: none */
     char *label;      /* as shown; owned */
     char *where;      /* as shown, "Scene > LIGHT"; owned */
     const char *help; /* translated by the widget; owned by the index if `own_help` */

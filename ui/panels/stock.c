@@ -186,75 +186,24 @@ static bool preset_remove(WrApp *app, int index)
     return !app->generate->presets.data[index].words && wr_generate_preset_delete(app, index);
 }
 
-/* ---- cells: scripts whose first line is "# TITLE: WORDS" ---- */
+/* ---- cells ---- */
 
 #define CELL_MAX (1 << 20) /* bytes of a script */
 
-static void cells_forget(WrApp *app)
-{
-    WrPresetBrowser *shelf = app->shelf;
-    for (int i = 0; i < shelf->cells.count; i++) {
-        wr_free(shelf->cells.data[i].path);
-        wr_free(shelf->cells.data[i].picture);
-        wr_free(shelf->cells.data[i].title);
-        wr_free(shelf->cells.data[i].words);
-    }
-    wr_array_free(&shelf->cells);
-}
-
-void wr_stock_free(WrApp *app)
-{
-    cells_forget(app);
-}
-
-static void add_cell(WrApp *app, const char *folder, const char *name)
-{
-    char *path = wr_path_join(folder, name), *text = NULL;
-    size_t length;
-    if (wr_file_read(path, CELL_MAX, &text, &length, NULL)) {
-        WrText picture = { 0 };
-        wr_text_addf(&picture, "%.*spng", (int)(strlen(path) - strlen("wrinkle")), path);
-        char *title = text + strspn(text, "# ");
-        title[strcspn(title, "\n")] = '\0';
-        char *words = strchr(title, ':');
-        if (words) *words++ = '\0';
-        wr_array_push(&app->shelf->cells,
-                      ((WrCell){ wr_strdup(path), wr_strdup(wr_text_get(&picture)),
-                                 wr_strdup(title), wr_strdup(words ? words : "") }));
-        wr_text_fini(&picture);
-    }
-    wr_free(text);
-    wr_free(path);
-}
-
-static int by_title(const void *a, const void *b)
-{
-    const WrCell *x = a, *y = b;
-    return strcmp(x->title, y->title);
-}
-
 static int cell_count(WrApp *app)
 {
-    WrPresetBrowser *shelf = app->shelf;
-    WrText path = { 0 };
-    if (shelf->cells_known) return shelf->cells.count;
-    shelf->cells_known = true;
-    WrFolder *folder = wr_data_find("cells", &path) ? wr_folder_open(wr_text_get(&path)) : NULL;
-    for (const char *name; folder && (name = wr_folder_next(folder));) {
-        size_t length = strlen(name);
-        if (length > 8 && strcmp(name + length - 8, ".wrinkle") == 0)
-            add_cell(app, wr_text_get(&path), name);
-    }
-    wr_folder_close(folder);
-    wr_text_fini(&path);
-    if (shelf->cells.count > 1)
-        qsort(shelf->cells.data, (size_t)shelf->cells.count, sizeof *shelf->cells.data, by_title);
-    return shelf->cells.count;
+    wr_script_list_find(&app->shelf->cells, "samples/cells");
+    return app->shelf->cells.scripts.count;
+}
+
+static const WrScript *cell_at(const WrApp *app, int index)
+{
+    return &app->shelf->cells.scripts.data[index];
 }
 
 static void cell_item(WrApp *app, int index, WrStockItem *item)
 {
-    const WrCell *cell = &app->shelf->cells.data[index];
+    const WrScript *cell = cell_at(app, index);
     snprintf(item->name, sizeof item->name, "%.120s", cell->title);
     snprintf(item->id, sizeof item->id, "cell:%.120s", cell->title);
     snprintf(item->words, sizeof item->words, "%.390s", cell->words);
@@ -262,13 +211,13 @@ static void cell_item(WrApp *app, int index, WrStockItem *item)
 
 static SDL_Texture *cell_picture(WrApp *app, int index, int side)
 {
-    const WrThumbSource of = { .picture = app->shelf->cells.data[index].picture };
+    const WrThumbSource of = { .picture = cell_at(app, index)->picture };
     return wr_thumb(app, WR_THUMB_CELL, index, side, &of);
 }
 
 static void cell_choose(WrApp *app, int index)
 {
-    wr_app_open_path(app, app->shelf->cells.data[index].path);
+    wr_app_open_path(app, cell_at(app, index)->path);
 }
 
 /* Length of a word, which may be quoted. */
@@ -327,7 +276,7 @@ static void insert_cell(WrApp *app, const char *path)
 static void cell_drop(WrApp *app, int index, double u, double v)
 {
     (void)u, (void)v;
-    wr_deferred(app, insert_cell, app->shelf->cells.data[index].path);
+    wr_deferred(app, insert_cell, cell_at(app, index)->path);
 }
 
 /* ---- the lists ---- */

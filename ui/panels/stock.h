@@ -31,6 +31,4 @@ typedef struct WrStockList {
 
 extern const WrStockList wr_stock[WR_STOCK_KINDS];
 
-void wr_stock_free(WrApp *app);
-
 extern const WrPart wr_part_stock; /* of panel_brushes.c */

@@ -47,8 +47,6 @@ typedef struct WrPatch WrPatch;
 typedef struct WrPatchPaint WrPatchPaint;
 typedef struct WrPen WrPen;
 typedef struct WrPointer WrPointer;
-typedef struct WrPictures WrPictures;
-typedef struct WrStarterList WrStarterList;
 typedef struct WrPreview WrPreview;
 typedef struct WrRecovery WrRecovery;
 typedef struct WrReplace WrReplace;
@@ -152,9 +150,7 @@ struct WrApp {
     WrHistoryState *history;
     WrSurfaceState *surface;
     WrObjectsState *objects;
-    WrSheetState *sheet;     /* state of the export sheet; owned; NULL until it is opened */
-    WrStarterList *starters; /* owned; NULL until their dialog is drawn */
-    WrPictures *pictures;    /* owned; NULL until a grid of pictures is drawn */
+    WrSheetState *sheet; /* state of the export sheet; owned; NULL until it is opened */
     WrAdjust *adjust;
     WrOutlineRequest *selecting; /* state of the dialogs that change the selection */
     WrFinder *finder;

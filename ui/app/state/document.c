@@ -36,10 +36,26 @@
 
 #define START_SECONDS 0.25 /* shorter openings need no progress display at the start */
 
+/* Starters and cells are begun anew, not gone on with: their folder must not be offered for saving. */
+static bool is_shipped(const char *full)
+{
+    static const char *const folders[] = { "samples/starters", "samples/cells" };
+    bool shipped = false;
+    for (int i = 0; i < WR_LENGTH(folders); i++) {
+        WrText place = { 0 };
+        char *real = wr_data_find(folders[i], &place) ? wr_path_real(wr_text_get(&place)) : NULL;
+        const size_t length = real ? strlen(real) : 0;
+        shipped |= real && strncmp(full, real, length) == 0 && full[length] == '/';
+        free(real);
+        wr_text_fini(&place);
+    }
+    return shipped;
+}
+
 static void note_recent(WrApp *app, const char *path)
 {
     char *full = wr_path_real(path);
-    if (full) wr_settings_add_recent(app->settings, full);
+    if (full && !is_shipped(full)) wr_settings_add_recent(app->settings, full);
     free(full);
 }
 
@@ -193,7 +209,7 @@ void wr_app_start_ahead(WrApp *app)
 {
     WrText path = { 0 };
     app->file->clean_revision = wr_session_saved_revision(app->session);
-    if (app->options->file_given || !wr_data_find("starters/bricks.wrinkle", &path)) {
+    if (app->options->file_given || !wr_data_find("samples/starters/bricks.wrinkle", &path)) {
         wr_text_fini(&path);
         return;
     }

@@ -29,6 +29,8 @@ typedef struct WrTab {
     /* all of it changes the document: disabled while a command runs in the background */
     bool edits;
     bool below; /* in the lower part of the panel */
+    /* its rows are not listed for the search: they are the document's, or come from a table that is searched itself */
+    bool unlisted;
     /* of tabs with fill: an area of theirs, and the function that draws its rows, which can be pinned */
     const char *rows_area;
     void (*rows)(WrApp *app);

@@ -8,8 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Label of the first row whose part is in the layer's command. Only these are offered, and their labels state what they do: a
-   message may hold names and paths of strangers' files, with commands of theirs in backquotes. */
+/* The first row whose part is in the command names the button. Commands without a row are not offered: names and paths in a
+   message come from files of others, and may contain commands in backquotes. */
 static const struct {
     const char *part, *label;
 } labels[] = {

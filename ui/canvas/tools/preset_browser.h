@@ -6,6 +6,7 @@
 #include "brush/brush.h"
 #include "brush/library.h"
 #include "brush/tip.h"
+#include "ui/canvas/tools/script_list.h"
 
 #include <SDL.h>
 #include <stdbool.h>
@@ -33,11 +34,6 @@ typedef enum WrStockKind {
     WR_STOCK_KINDS
 } WrStockKind;
 
-/* A finished cell; texts are owned. */
-typedef struct WrCell {
-    char *path, *picture, *title, *words;
-} WrCell;
-
 /* State of the preset browser. */
 typedef struct WrPresetBrowser {
     WrLibrary *library; /* owned; NULL until first used */
@@ -49,8 +45,7 @@ typedef struct WrPresetBrowser {
     WrBrushMode kept;   /* the brush's mode while a tool uses another one */
     WrThumbs *thumbs;   /* owned */
     uint64_t serial;    /* number of library scans */
-    WR_ARRAY(WrCell) cells;
-    bool cells_known;
+    WrScriptList cells, starters;
     /* the tab */
     int kind; /* WrStockKind */
     char search[80];

@@ -18,28 +18,33 @@
 #include "brush/preset.h"
 #include "brush/tip.h"
 #include "command/brush_sample.h"
+#include "command/session.h"
 #include "document/document.h"
 #include "field/field.h"
 #include "image/image.h"
+#include "render/frame/frame.h"
+#include "scene/scene.h"
 
 #include <SDL.h>
 #include <math.h>
 #include <string.h>
 
+#define GROUND 0.02f /* background of scenes, linear */
 #define BATCH 6      /* pictures per job */
 #define SIDE_MAX 256 /* pixels; larger thumbnails are drawn enlarged */
 
 /* The texts are owned. */
 typedef struct Item {
     int slot; /* that it is for */
-    char *id, *path, *picture, *stamp, *line, *ground;
+    char *id, *path, *picture, *stamp, *scene, *line, *ground;
     bool lower, placed;
     uint32_t *argb; /* [side * side], owned; NULL: failed */
 } Item;
 
 typedef struct Batch {
     int count, side;
-    uint64_t round; /* round of the requests; older ones are dropped */
+    WrThumbKind kind;
+    uint64_t round; /* round of the kind's requests; older ones are dropped */
     Item items[BATCH];
 } Batch;
 
@@ -52,9 +57,9 @@ struct WrThumbs {
     WrJob *job;
     WR_ARRAY(Slot) slots;  /* at index * WR_THUMB_KINDS + kind */
     WR_ARRAY(Item) wishes; /* of slots visible in this frame that have no picture yet */
-    int side;
-    uint64_t round;
-    uint64_t of; /* serial number of the slots */
+    int side[WR_THUMB_KINDS];
+    uint64_t round[WR_THUMB_KINDS];
+    uint64_t of; /* serial number of the lists */
 };
 
 /* ---- on the worker thread ---- */
@@ -65,6 +70,7 @@ static void drop_item(Item *item)
     wr_free(item->path);
     wr_free(item->picture);
     wr_free(item->stamp);
+    wr_free(item->scene);
     wr_free(item->line);
     wr_free(item->ground);
     wr_free(item->argb);
@@ -240,6 +246,36 @@ static bool generate(const Item *item, int side, WrPool *pool, const WrProgress 
     return true;
 }
 
+/* The frame over the background of fields. */
+static void take_frame(const WrTone *tone, const WrFrame *frame, int side, uint32_t *argb)
+{
+    for (int i = 0; i < side * side; i++) {
+        const float *from = frame->rgba + 4 * (size_t)i;
+        float rgb[3];
+        for (int c = 0; c < 3; c++) rgb[c] = from[c] + (1.0f - from[3]) * GROUND;
+        wr_tone_colour(tone, rgb);
+        argb[i] = 0xff000000u;
+        for (int c = 0; c < 3; c++) argb[i] |= code((double)wr_srgb_encode(rgb[c])) << (16 - 8 * c);
+    }
+}
+
+/* The lines are cut apart. */
+static bool render(char *lines, int side, uint32_t *argb)
+{
+    WrSession *session = wr_session_new(NULL);
+    WrFrame frame;
+    bool good = true;
+    for (char *at = lines, *next; good && *at; at = next) {
+        next = at + strcspn(at, "\n");
+        if (*next) *next++ = '\0';
+        good = wr_session_run(session, at, NULL);
+    }
+    good = good && wr_session_frame(session, side, side, 0, &frame, NULL);
+    if (good) take_frame(&wr_session_document(session)->scene->tone, &frame, side, argb);
+    wr_session_free(session);
+    return good;
+}
+
 static void make(Item *item, int side, WrPool *pool, const WrProgress *progress)
 {
     WrError err;
@@ -248,6 +284,7 @@ static void make(Item *item, int side, WrPool *pool, const WrProgress *progress)
     bool ok = image != NULL;
     if (image) shrink(image, side, argb);
     else if (item->stamp) ok = print_stamp(item, side, argb);
+    else if (item->scene) ok = render(item->scene, side, argb);
     else if (item->line) ok = generate(item, side, pool, progress, argb);
     else ok = paint(item, side, pool, argb);
     wr_image_free(image);
@@ -270,16 +307,25 @@ static void drop_wishes(WrThumbs *thumbs)
     thumbs->wishes.count = 0;
 }
 
+static void forget_kind(WrThumbs *thumbs, WrThumbKind kind)
+{
+    for (int i = (int)kind; i < thumbs->slots.count; i += WR_THUMB_KINDS) {
+        Slot *slot = &thumbs->slots.data[i];
+        if (slot->texture) SDL_DestroyTexture(slot->texture);
+        *slot = (Slot){ 0 };
+    }
+    thumbs->round[kind]++;
+}
+
+static void forget_kinds(WrThumbs *thumbs, WrThumbKind first, WrThumbKind end)
+{
+    for (int kind = (int)first; kind < (int)end; kind++) forget_kind(thumbs, (WrThumbKind)kind);
+    drop_wishes(thumbs);
+}
+
 static void thumbs_forget(WrApp *app)
 {
-    WrThumbs *thumbs = app->shelf->thumbs;
-    if (!thumbs) return;
-    for (int i = 0; i < thumbs->slots.count; i++)
-        if (thumbs->slots.data[i].texture) SDL_DestroyTexture(thumbs->slots.data[i].texture);
-    thumbs->slots.count = 0;
-    drop_wishes(thumbs);
-    thumbs->round++;
-    wr_job_cancel(thumbs->job);
+    if (app->shelf->thumbs) forget_kinds(app->shelf->thumbs, 0, WR_THUMB_KINDS);
 }
 
 static WrThumbs *thumbs_of(WrApp *app)
@@ -287,7 +333,7 @@ static WrThumbs *thumbs_of(WrApp *app)
     static const WrJobKind kind = { run, drop };
     WrThumbs *there = app->shelf->thumbs;
     if (there && there->of != app->shelf->serial) { /* another library */
-        thumbs_forget(app);
+        forget_kinds(there, 0, WR_THUMB_LISTS);
         there->of = app->shelf->serial;
     }
     if (there) return there;
@@ -321,9 +367,9 @@ SDL_Texture *wr_thumb(WrApp *app, WrThumbKind kind, int index, int side, const W
     WrThumbs *thumbs = thumbs_of(app);
     const int place = index * WR_THUMB_KINDS + (int)kind;
     side = side < 8 ? 8 : side > SIDE_MAX ? SIDE_MAX : side;
-    if (side > thumbs->side) { /* another scale */
-        thumbs_forget(app);
-        thumbs->side = side;
+    if (side > thumbs->side[kind]) { /* another scale */
+        forget_kind(thumbs, kind);
+        thumbs->side[kind] = side;
     }
     while (thumbs->slots.count <= place) wr_array_push(&thumbs->slots, ((Slot){ 0 }));
     const Slot *slot = &thumbs->slots.data[place];
@@ -333,6 +379,7 @@ SDL_Texture *wr_thumb(WrApp *app, WrThumbKind kind, int index, int side, const W
                                                 .path = copy_of(of->path),
                                                 .picture = copy_of(of->picture),
                                                 .stamp = copy_of(of->stamp),
+                                                .scene = copy_of(of->scene),
                                                 .line = copy_of(of->line),
                                                 .ground = copy_of(of->ground),
                                                 .lower = of->lower,
@@ -359,7 +406,7 @@ SDL_Texture *wr_thumb_of(WrApp *app, int index, int side)
 static void take(WrApp *app, Batch *batch)
 {
     WrThumbs *thumbs = app->shelf->thumbs;
-    for (int i = 0; i < batch->count && batch->round == thumbs->round; i++) {
+    for (int i = 0; i < batch->count && batch->round == thumbs->round[batch->kind]; i++) {
         const Item *item = &batch->items[i];
         Slot *slot = &thumbs->slots.data[item->slot];
         slot->failed = !item->argb;
@@ -373,21 +420,26 @@ static void take(WrApp *app, Batch *batch)
 }
 
 /* Wishes are those of the last frame only: a thumbnail that was scrolled out of view before its turn is not loaded.
-   `asked` stays set after a failure, so a broken file is read once. A generator is slow, so it has a batch of its own. */
+   `asked` stays set after a failure, so a broken file is read once. A batch has one kind; generators and scenes are slow, so each
+   has a batch of its own. */
 static void ask(WrApp *app)
 {
     WrThumbs *thumbs = app->shelf->thumbs;
     Batch *batch = wr_alloc(1, sizeof *batch);
-    batch->side = thumbs->side;
-    batch->round = thumbs->round;
     for (int i = 0; i < thumbs->wishes.count && batch->count < BATCH; i++) {
         Item *item = &thumbs->wishes.data[i];
-        if (thumbs->slots.data[item->slot].asked || (item->line && batch->count > 0)) continue;
+        const WrThumbKind kind = (WrThumbKind)(item->slot % WR_THUMB_KINDS);
+        const bool slow = item->line || item->scene, first = batch->count == 0;
+        if (thumbs->slots.data[item->slot].asked || (!first && (slow || kind != batch->kind)))
+            continue;
         thumbs->slots.data[item->slot].asked = true;
+        batch->kind = kind;
         batch->items[batch->count++] = *item;
         *item = (Item){ 0 };
-        if (batch->items[0].line) break;
+        if (slow) break;
     }
+    batch->side = thumbs->side[batch->kind];
+    batch->round = thumbs->round[batch->kind];
     wr_job_start(thumbs->job, batch);
 }
 

@@ -1,4 +1,4 @@
-/* thumbs.h - thumbnails of brushes, stamps, generators and cells, made on a separate thread. */
+/* thumbs.h - thumbnails of brushes, stamps, generators, cells, materials and the like, made on a separate thread. */
 #pragma once
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/registry.h"
@@ -12,6 +12,11 @@ typedef enum WrThumbKind {
     WR_THUMB_GENERATOR,
     WR_THUMB_PRESET,
     WR_THUMB_CELL,
+    WR_THUMB_LISTS, /* the kinds before it are of lists that the user can change */
+    WR_THUMB_MATERIAL = WR_THUMB_LISTS,
+    WR_THUMB_MODEL,
+    WR_THUMB_LIGHT,
+    WR_THUMB_STARTER,
     WR_THUMB_KINDS
 } WrThumbKind;
 
@@ -19,6 +24,7 @@ typedef enum WrThumbKind {
 typedef struct WrThumbSource {
     const char *picture; /* path of a finished picture */
     const char *stamp;   /* path of a picture, shown as a relief */
+    const char *scene;   /* commands, one a line, of a scene that is rendered */
     const char *line;    /* generator's line, run on a flat table ... */
     const char *path;    /* brush preset, which paints a stroke */
     const char *id;      /* of that preset */

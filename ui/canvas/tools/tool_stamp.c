@@ -130,7 +130,7 @@ static void search_shipped(WrApp *app)
     WrText place = { 0 };
     char *text = NULL, *group = NULL;
     size_t length;
-    bool there = wr_data_find("stamps/stamps.conf", &place) &&
+    bool there = wr_data_find("brushes/stamps/stamps.conf", &place) &&
                  wr_file_read(wr_text_get(&place), 1u << 20, &text, &length, NULL);
     for (char *line = there ? text : NULL; line && *line;) {
         char *end = line + strcspn(line, "\n"), *next = end + (*end != '\0');
@@ -162,7 +162,8 @@ void wr_stamps_find(WrApp *app)
     if (user) search(app, user, "My own", 0);
     wr_free(user);
     search_shipped(app);
-    if (wr_data_find("brushes", &ours)) search(app, wr_text_get(&ours), "Tips of brushes", 0);
+    if (wr_data_find("brushes", &ours)) /* without its folders */
+        search(app, wr_text_get(&ours), "Tips of brushes", DEPTH_MAX);
     wr_text_fini(&ours);
     search(app, "/usr/share/gimp/2.0/brushes", "GIMP", 0);
 }

@@ -610,7 +610,7 @@ static void field(WrApp *app)
 static void panel_accuracy_plot(WrApp *app)
 {
     WrAccuracy *a = app->accuracy;
-    if (!wr_gui_fold("WHAT IT COSTS", true)) return;
+    if (!wr_gui_fold("COST", true)) return;
     a->plot_open = wr_gui_will_see(wr_gui_px(PLOT_UNITS));
     field(app);
     foot(app);

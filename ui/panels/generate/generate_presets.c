@@ -80,7 +80,7 @@ static void read_shipped(WrApp *app)
     WrText path = { 0 };
     char *bytes = NULL;
     size_t length;
-    if (wr_data_find("presets/generators.wrinkle", &path) &&
+    if (wr_data_find("brushes/generators.wrinkle", &path) &&
         wr_file_read(wr_text_get(&path), FILE_MAX, &bytes, &length, NULL))
         parse(app->generate, bytes, true);
     wr_free(bytes);

@@ -483,7 +483,7 @@ void wr_guide_effect(const WrApp *app, const char *line, WrText *out)
         wr_text_add(out, wr_words("Changes the view, no heights. No undo step."));
         break;
     case WR_CLASS_CHOICE:
-        wr_text_add(out, wr_words("Chooses what later edits apply to. No undo step."));
+        wr_text_add(out, wr_words("Chooses the layer of later edits. No undo step."));
         break;
     case WR_CLASS_OUTPUT: add_output(call, out); break;
     default: wr_text_add(out, wr_words("Goes to another step of the history.")); break;

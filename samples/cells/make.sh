@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draw the pictures of the cells, or of those named: bash cells/make.sh PROGRAM [NAME...]
+# Draw the pictures of the cells, or of those named: bash samples/cells/make.sh PROGRAM [NAME...]
 set -eu
 program=$(realpath "$1")
 shift

@@ -9,4 +9,4 @@ cd "$(dirname "$0")"
 for script in "$@"; do
     "$program" render "${script%.wrinkle}.wrinkle" -o "${script%.wrinkle}.jpg" --size 240x240
 done
-montage ./*.jpg -resize 160x160 -tile 5x -geometry +2+2 -background "#323232" -quality 88 ../ui/guide/pictures/starters.jpg
+montage ./*.jpg -resize 160x160 -tile 5x -geometry +2+2 -background "#323232" -quality 88 ../../ui/guide/pictures/starters.jpg
