@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Formats of errors and notes (base/message.h) that German lacks: they are counted, and the number only goes down. German texts of
-# formats that the source no longer has are named.  messages.sh SOURCE-FOLDER [list]: prints those that are lacking
+# formats that the source no longer has are named, and such rows of the window's plain errors.  messages.sh SOURCE-FOLDER [list]: prints those that are lacking
 LACKING=18 # recordings of pens, for developers, and prefixes without a word to translate
 set -euo pipefail
 source=$1
@@ -19,7 +19,7 @@ done
 msgattrib --no-wrap "$source/ui/words/de.po" -o "$folder/de.po"
 perl -e '
 use strict;
-my ($folder, $limit, $list) = @ARGV;
+my ($folder, $limit, $list, $source) = @ARGV;
 # The keys of a file whose lines are not wrapped; those with a context are left out.
 sub keys_of {
     my ($name) = @_;
@@ -47,5 +47,11 @@ $all =~ s/.*# Formats of errors and notes[^\n]*\n//s or die "de.po has no part f
 my @old = grep { my $key = $_; !$texts{$key} && !grep { begins($_, $key) } keys %errors }
     map { /^msgid "(.+)"$/m && !/^msgctxt/m ? $1 : () } split /\n\n/, $all;
 print map { "no error or note of the source has the format \"$_\" of ui/words/de.po\n" } @old;
-exit(@lacking > $limit || @old > 0);
-' "$folder" "$LACKING" "${2:-}"
+open my $plain, "<", $source or die "$source: $!\n";
+my ($rows) = join("", <$plain>) =~ /plains\[\] = \{\n(.*?)\n\};/s or die "the plain errors were not read\n";
+my @plains = map { join "", /"((?:[^"\\]|\\.)*)"/g } $rows =~ /^    \{ ((?:"(?:[^"\\]|\\.)*"\s*)+),/mg;
+my @stale = grep { !$errors{$_} } @plains;
+die "the plain errors were not read\n" unless @plains > 10;
+print map { "no error of the source has the format \"$_\" of $source\n" } @stale;
+exit(@lacking > $limit || @old > 0 || @stale > 0);
+' "$folder" "$LACKING" "${2:-}" "$source/ui/app/state/plain_error.c"

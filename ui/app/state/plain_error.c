@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Formats of errors that are met by clicking and painting. A plain format has the same values;  leaves one out. */
+/* Formats of errors that are met by clicking and painting, and the sentences and actions shown for them. */
 static const struct {
     const char *format, *plain;
     const char *actions[WR_PLAIN_ACTIONS];
