@@ -142,8 +142,7 @@ typedef struct WrCommand {
     bool streams;     /* an open call may get its samples one by one (wr_session_stroke_begin) */
     bool on_mesh;     /* it paints on the active object's mesh; its samples are x,y,z */
     bool of_views;    /* a history command that changes which view is shown, and nothing else */
-    bool
-        after_journal; /* its line is not journaled; if it changed something, the journal starts again after it */
+    bool after_journal; /* its line is not journaled; the journal starts again after it */
     int steps; /* direction of argument N in the history of edits: -1 back, 1 forward, 0: no such argument */
     bool
         print_end; /* the chosen dials are appended to its line in a saved document (session_picture.c) */
