@@ -190,6 +190,18 @@ search() {
     rest
     key Return
 }
+# row WORDS: the row that a search finds first; row_x, row_end and row_y are then its ends and the height of its middle.
+row() {
+    local left top width height
+    row_x='' row_y=''
+    key ctrl+Return
+    xdotool type --delay 20 "$1"
+    rest
+    key Return
+    read -r _ _ _ _ left top width height < <(grep '^at rest .* row ' err | tail -n 1)
+    [[ $(tail -n 1 err) == *row* ]] || { complain "no row is found by: $1"; return 1; }
+    row_x=$left row_end=$((left + width)) row_y=$((top + height / 2))
+}
 # The newest command that the journal holds, a stroke by its beginning, a generator layer by its line.
 newest() {
     local line

@@ -42,25 +42,24 @@ pick 1110 489 2
 becomes 'surface terrain * height=0.375 cells=9 layer=1' "the ground of another layer"
 
 # ---- a view is kept, used again and forgotten; the background; near the panel's end ----
-xdotool mousemove $((X + 1000)) $((Y + 300))
-for _ in $(seq 24); do xdotool click 5; done
-rest
-xdotool click 4
-rest
-click 1050 508
+row "kept views"
+click 1050 $((row_y + 30))
 becomes 'camera save "view 1"' "a view that is kept"
 xdotool mousemove $((X + 760)) $((Y + 700))
 key KP_Next
 becomes 'camera from right' "another view"
-click 1000 540
+row "kept views"
+click 1000 $((row_y + 62))
 becomes 'camera use "view 1"' "the view that was kept"
-xdotool mousemove $((X + 1172)) $((Y + 540))
+row "kept views"
+xdotool mousemove $((X + row_end - 9)) $((Y + row_y + 62))
 rest # with the icon's tip, which lies over a row
 xdotool click 1
 becomes 'camera forget "view 1"' "the view forgotten"
-pick 1110 569 2
+row "kept views"
+pick 1110 $((row_y + 85)) 2
 becomes 'background gradient' "a gradient behind"
-pick 1110 569 3
+pick 1110 $((row_y + 85)) 3
 becomes 'background none' "nothing behind"
 closed
 

@@ -5,6 +5,7 @@
 #include "ui/app/state/action.h"
 #include "ui/app/state/layout.h"
 #include "ui/toolkit/gui.h"
+#include "ui/toolkit/gui_rows.h"
 #include "ui/patch/patch.h"
 #include "ui/input/pen.h"
 #include "ui/patch/preview/preview.h"
@@ -107,7 +108,10 @@ void wr_idle_probe_step(WrApp *app, bool busy)
     }
     wr_pen_sync(app->pen); /* the server has the frame */
     rest->answered = rest->asked;
-    fprintf(stderr, "at rest %d\n", rest->answered);
+    fprintf(stderr, "at rest %d", rest->answered);
+    float lit[4];
+    if (wr_gui_lit_row(app->gui, lit)) fprintf(stderr, " row %.0f %.0f %.0f %.0f", lit[0], lit[1], lit[2], lit[3]);
+    fputc('\n', stderr);
     fflush(stderr);
 }
 

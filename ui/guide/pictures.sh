@@ -85,6 +85,7 @@ picture "$out/accuracy.png" 250x700+950+30
 close
 
 # A filter layer's curve over the histogram, the table as a lit relief.
+settings 1200 760
 start "$source/samples/bricks.wrinkle"
 found 'Lit relief'
 found 'filter blur'
@@ -95,6 +96,7 @@ key Escape
 close
 
 # The coin of the page about live layers.
+settings 1200 760
 start "$source/samples/coin.wrinkle"
 picture "$out/live-layers.png" 1200x760+0+0 800
 close
