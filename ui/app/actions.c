@@ -487,6 +487,7 @@ const WrAction wr_actions[] = {
     ROW(ants, "Selection's outline moves", ants, NULL, is_ants),
     ROW(accuracy, "Accuracy", wr_act_accuracy, NULL, wr_is_accuracy),
     ROW(accuracy_measure, "Measure the cost of accuracy", wr_act_accuracy_measure, NULL, NULL),
+    ROW(study, "Tour: cost of accuracy", wr_act_study, NULL, wr_is_study),
     ROW(inspector, "Inspector", wr_act_inspector, NULL, wr_is_inspector),
     ROW(inspector_pin, "Pin the inspector", wr_act_inspector_pin, NULL, wr_is_inspector_pinned),
     ROW(inspector_copy, "Copy the inspector's values", wr_act_inspector_copy, NULL, NULL),

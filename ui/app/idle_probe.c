@@ -110,7 +110,8 @@ void wr_idle_probe_step(WrApp *app, bool busy)
     rest->answered = rest->asked;
     fprintf(stderr, "at rest %d", rest->answered);
     float lit[4];
-    if (wr_gui_lit_row(app->gui, lit)) fprintf(stderr, " row %.0f %.0f %.0f %.0f", lit[0], lit[1], lit[2], lit[3]);
+    if (wr_gui_lit_row(app->gui, lit))
+        fprintf(stderr, " row %.0f %.0f %.0f %.0f", lit[0], lit[1], lit[2], lit[3]);
     fputc('\n', stderr);
     fflush(stderr);
 }

@@ -30,7 +30,7 @@ static void print_cost(const WrLayerPlan *plan, char *text, size_t size)
     else snprintf(text, size, "%.1f MB", mb);
 }
 
-static void row(const WrLayer *layer, const WrLayerPlan *plan)
+static void row(const WrLayer *layer, const WrLayerPlan *plan, double longest)
 {
     char text[64], reason[WR_WORDS_MESSAGE], line[WR_WORDS_MESSAGE + 64];
     print_cost(plan, text, sizeof text);
@@ -44,7 +44,8 @@ static void row(const WrLayer *layer, const WrLayerPlan *plan)
     wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
     wr_gui_as_it_is(false);
     wr_gui_tip("Time of its last making, and memory that no other layer shares");
-    wr_gui_space(-6);
+    wr_gui_space(-4);
+    if (plan->seconds > 0.0) wr_gui_bar(plan->seconds / longest);
     const char *run = plan->run == WR_LAYER_EVALUATED ? wr_words("evaluated")
                       : plan->run == WR_LAYER_REUSED  ? wr_words("reused")
                                                       : wr_words("skipped");
@@ -61,6 +62,15 @@ void wr_panel_layer_plan(WrApp *app)
     const WrLayerPlan *plan = plan_of(app);
     if (!wr_gui_fold("LAYERS, AT THE LAST EDIT", true)) return;
     wr_gui_space(2);
-    for (int i = document->layer_count - 1; i >= 0; i--) row(&document->layers[i], &plan[i]);
+    /* Dearest first, among equal ones the upper. */
+    int order[WR_LAYERS_MAX], count = 0;
+    for (int i = document->layer_count - 1; i >= 0; i--) {
+        int at = count++;
+        for (; at > 0 && plan[order[at - 1]].seconds < plan[i].seconds; at--)
+            order[at] = order[at - 1];
+        order[at] = i;
+    }
+    for (int i = 0; i < count; i++)
+        row(&document->layers[order[i]], &plan[order[i]], plan[order[0]].seconds);
     wr_gui_space(8);
 }

@@ -270,11 +270,21 @@ static void list(Drawing *d, void (*draw)(void *ctx), const char *title, WrSearc
     wr_gui_list_rows(d->app->gui, TALL, TALL, draw, report, d);
 }
 
+static void add_tab(const Drawing *d, const char *label)
+{
+    const char *const where[3] = { "Tab" };
+    if (is_action(d->app, label)) return;
+    WrSearchEntry *entry = add(d->index, WR_SEARCH_ACTION, label, where, NULL, NULL);
+    entry->tab = label;
+    entry->part = d->app->shelf->part;
+}
+
 static void list_tabs(Drawing *d)
 {
     const WrTab *tabs = d->app->registry->tabs;
     for (d->which = 0; d->which < d->app->registry->tab_count; d->which++) {
         const char *label = tabs[d->which].label;
+        add_tab(d, label);
         if (tabs[d->which].unlisted) continue;
         list(d, draw_tab, label, (WrSearchEntry){ .tab = label, .part = 1 }, -1);
     }

@@ -279,6 +279,8 @@ void wr_gui_width_at_least(double units); /* of the open popup */
 bool wr_gui_field_left(void);
 /* A progress bar; fraction 0..1, below 0: unknown. width <= 0: the rest of the row. */
 void wr_gui_progress(double width, double fraction);
+/* A thin bar of a plot in the rest of the row; fraction 0..1 of its length. */
+void wr_gui_bar(double fraction);
 /* A dark square with coloured sides (left, right, top, bottom); for a tip. */
 void wr_gui_edge_colours_square(const char *id, double units, const WrColour sides[4]);
 

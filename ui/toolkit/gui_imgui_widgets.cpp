@@ -877,6 +877,19 @@ try {
 }
 WR_CAUGHT()
 
+extern "C" void wr_gui_bar(double fraction)
+try {
+    wr_gui_pin_step();
+    const float w = ImGui::GetContentRegionAvail().x, h = px(4);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float filled = fmaxf(px(1), roundf(w * (float)fmin(fmax(fraction, 0), 1)));
+    ImGui::Dummy(ImVec2(w, h));
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(at, ImVec2(at.x + w, at.y + h), wr_gui_colour_u32(WR_COLOUR_FIELD));
+    list->AddRectFilled(at, ImVec2(at.x + filled, at.y + h), wr_gui_colour_u32(WR_COLOUR_ACCENT));
+}
+WR_CAUGHT()
+
 extern "C" void wr_gui_edge_colours_square(const char *id, double units, const WrColour sides[4])
 try {
     wr_gui_pin_step();

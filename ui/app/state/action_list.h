@@ -188,6 +188,7 @@
     X(ants, "")                                                                                    \
     X(accuracy, "F6")                                                                              \
     X(accuracy_measure, "")                                                                        \
+    X(study, "")                                                                                   \
     X(inspector, "F7")                                                                             \
     X(inspector_pin, "Shift+F7")                                                                   \
     X(inspector_copy, "")                                                                          \

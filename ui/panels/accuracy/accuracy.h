@@ -70,6 +70,14 @@ typedef struct WrCases { /* hard-case gallery */
     bool wanted;              /* to be measured when no other work runs */
 } WrCases;
 
+typedef struct WrStudy { /* tour of what accuracy costs */
+    int step;            /* 1 ..; 0: no tour */
+    bool taken;          /* B has the setting of the step */
+    WrPatchLook look;    /* before the tour ... */
+    double b[WR_DIAL_COUNT];
+    bool b_given;
+} WrStudy;
+
 struct WrAccuracy {
     /* shared, owned: content of the view */
     WrField *field; /* shared, owned */
@@ -119,6 +127,7 @@ struct WrAccuracy {
     WrPreviewPicture full_times; /* times and size of the preview's last full-quality picture */
     WrInspector inspector;
     WrCases cases;
+    WrStudy study;
 };
 
 /* Kind of reference map for a patch picture. */
@@ -165,6 +174,7 @@ void wr_accuracy_lay(WrApp *app, const WrWork *work);
 /* ---- panels ---- */
 void wr_panel_accuracy(WrApp *app);
 void wr_panel_illusion(WrApp *app);
+void wr_panel_study(WrApp *app);
 void wr_panel_inspector(WrApp *app);
 void wr_inspector_follow(WrApp *app); /* update its position, before each frame */
 void wr_dialog_cases(WrApp *app);
@@ -186,6 +196,8 @@ void wr_act_display_height(WrApp *app);
 void wr_act_display_normal(WrApp *app);
 void wr_act_display_ran(WrApp *app);
 void wr_act_accuracy_measure(WrApp *app);
+void wr_act_study(WrApp *app); /* panel_study.c */
+bool wr_is_study(const WrApp *app);
 void wr_act_compare_take(WrApp *app);
 void wr_act_compare_swap(WrApp *app);
 void wr_act_compare_hold(

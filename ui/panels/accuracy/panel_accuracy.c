@@ -409,6 +409,7 @@ static void panel_accuracy_dials(WrApp *app)
 #define TICKS 6
 #define PLOT_UNITS 210 /* height of the plot */
 #define REACH_UNITS 12 /* hit radius of a point */
+#define TELL_UNITS 66  /* height of the box with a point's setting */
 
 _Static_assert(WR_SERIES == WR_AXIS_COUNT + 1, "and one for several axes at once");
 
@@ -517,9 +518,10 @@ static void report_rung(const WrAccuracyBenchmark *benchmark, int index, bool pr
     wr_text_fini(&text);
 }
 
-/* Always two lines high, so that nothing below moves when the pointer enters. */
+/* In a box of constant height, so that nothing below moves when the pointer enters. */
 static void tell(const WrAccuracy *a, int present, bool old)
 {
+    wr_gui_list_begin("rung", wr_gui_px(TELL_UNITS));
     if (a->plot_hot >= 0) report_rung(&a->plot->benchmark, a->plot_hot, a->plot_hot == present);
     else if (old)
         wr_gui_text_wrapped(
@@ -530,6 +532,7 @@ static void tell(const WrAccuracy *a, int present, bool old)
     else
         wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
                             "The present setting has no point here.\nClick one to use it.");
+    wr_gui_list_end();
 }
 
 static void legend(void)
@@ -548,7 +551,11 @@ static void legend(void)
         wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, labels[i]);
         if (i % 2) wr_gui_space(-8);
     }
-    wr_gui_space(8);
+    wr_gui_text_wrapped(
+        WR_FONT_SMALL, WR_COLOUR_LABEL,
+        "Ring: the present setting. Line: no other is faster and more accurate. Dashes: the "
+        "reference's own error.");
+    wr_gui_space(4);
 }
 
 static void foot(WrApp *app)
@@ -622,10 +629,12 @@ void wr_panel_accuracy(WrApp *app)
 {
     WrAccuracy *a = app->accuracy;
     a->error_open = true;
+    wr_panel_study(app);
     show(app);
     error(app);
     stages(app);
     panel_accuracy_plot(app);
+    if (wr_is_study(app)) a->plot_open = true; /* measured although out of sight */
     panel_accuracy_dials(app);
     wr_panel_illusion(app);
     if (wr_gui_fold("HARD CASES", false)) {
