@@ -27,6 +27,7 @@
 #include "ui/toolkit/gui.h"
 #include "ui/canvas/tools/stroke_input.h"
 #include "ui/canvas/tools/tool.h"
+#include "ui/canvas/tools/tool_rows.h"
 #include "ui/canvas/tools/tool_transform.h"
 
 #include <math.h>
@@ -93,6 +94,20 @@ static void a_lamp_is_dragged_while_the_patch_is_painted_on(void **state)
     finish(&bench);
 }
 
+static void push_key(const WrApp *app, SDL_Keycode sym, SDL_Keymod mod)
+{
+    SDL_KeyboardEvent event = {
+        .windowID = SDL_GetWindowID(app->window),
+        .keysym = { .scancode = SDL_GetScancodeFromKey(sym), .sym = sym, .mod = mod }
+    };
+    SDL_SetModState(mod);
+    event.type = SDL_KEYDOWN;
+    SDL_PushEvent(&(SDL_Event){ .key = event });
+    event.type = SDL_KEYUP;
+    SDL_PushEvent(&(SDL_Event){ .key = event });
+    SDL_SetModState(KMOD_NONE);
+}
+
 static void a_transform_frame_is_that_of_the_content(void **state)
 {
     (void)state;
@@ -111,10 +126,7 @@ static void a_transform_frame_is_that_of_the_content(void **state)
     const WrField *field = wr_document_field(document_of(&bench));
     assert_true(wr_field_get(field, 16, 40) == 0.0f && wr_field_get(field, 16, 47) > 0.0f);
     hand->now.scale[0] = hand->now.scale[1] = 2.0;
-    SDL_PushEvent(&(SDL_Event){
-        .key = { .type = SDL_KEYDOWN,
-                 .windowID = SDL_GetWindowID(bench.app->window),
-                 .keysym = { .scancode = SDL_SCANCODE_RETURN, .sym = SDLK_RETURN } } });
+    push_key(bench.app, SDLK_RETURN, KMOD_NONE);
     settle(&bench);
     field = wr_document_field(document_of(&bench));
     assert_true(wr_field_get(field, 16, 40) > 0.0f && wr_field_get(field, 16, 56) > 0.0f);
@@ -138,9 +150,17 @@ static void what_is_copied_comes_back_in_its_place(void **state)
     run(&bench, "select rect from=0.6,0.1 to=0.7,0.2"); /* elsewhere */
     const int before = wr_session_history_position(bench.session);
     WrField *was = wr_field_share(wr_document_field(document_of(&bench)));
+    const int tool = bench.app->tool;
     wr_action_run(bench.app, "paste");
     settle(&bench);
     const WrDocument *document = document_of(&bench);
+    /* the frame is about it until Enter */
+    assert_ptr_equal(wr_tool_now(bench.app), &wr_tool_transform);
+    const WrSelectBox *box = &bench.app->transform->box;
+    assert_true(box->i == 16 && box->j == 16 && box->count_i == 16 && box->count_j == 16);
+    push_key(bench.app, SDLK_RETURN, KMOD_NONE);
+    settle(&bench);
+    assert_int_equal(bench.app->tool, tool);
     assert_int_equal(wr_session_history_position(bench.session), before + 1);
     assert_int_equal(document->layer_count, 2);
     assert_null(document->selection);
@@ -254,20 +274,6 @@ static void complain(const char *where, const char *what, const char *detail)
 {
     complaints++;
     printf("%s: %s: %s\n", where, what, detail);
-}
-
-static void push_key(const WrApp *app, SDL_Keycode sym, SDL_Keymod mod)
-{
-    SDL_KeyboardEvent event = {
-        .windowID = SDL_GetWindowID(app->window),
-        .keysym = { .scancode = SDL_GetScancodeFromKey(sym), .sym = sym, .mod = mod }
-    };
-    SDL_SetModState(mod);
-    event.type = SDL_KEYDOWN;
-    SDL_PushEvent(&(SDL_Event){ .key = event });
-    event.type = SDL_KEYUP;
-    SDL_PushEvent(&(SDL_Event){ .key = event });
-    SDL_SetModState(KMOD_NONE);
 }
 
 static void push_wheel(const WrApp *app, int steps)

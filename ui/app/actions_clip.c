@@ -1,5 +1,6 @@
 /* Copy, cut and paste. A copy is a file that `picture paste` reads, so that the line in the history names it. */
 #include "ui/app/actions.h"
+#include "ui/canvas/tools/tool_transform.h"
 #include "ui/canvas/view.h"
 #include "ui/app/state/background_command.h"
 #include "ui/app/state/app_state.h"
@@ -294,8 +295,10 @@ static bool paste_layer(WrApp *app, const char *path, WrError *err)
     wr_text_add_word(&line, path);
     add_at(app, path, &line);
     const bool good = add_size(app, path, &line, err);
-    if (good && wr_app_run_line(app, wr_text_get(&line)))
-        wr_app_say(app, "Pasted as a new layer; Free transform moves it");
+    if (good && wr_app_run_line(app, wr_text_get(&line))) {
+        wr_transform_pasted(app);
+        wr_app_say(app, "Pasted as a new layer: drag it to its place, Enter keeps it");
+    }
     wr_text_fini(&line);
     return good;
 }

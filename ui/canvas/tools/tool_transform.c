@@ -65,6 +65,7 @@ static void measure(WrApp *app)
                                 .box = { 0, 0, wr_field_width(like), wr_field_height(like) },
                                 .now = still,
                                 .leave = hand->leave,
+                                .back = hand->back,
                                 .all = hand->all };
     if (document->selection) hand->any = wr_select_box(document->selection, &hand->box);
     else if (!hand->all) hand->box = content_box(document);
@@ -174,10 +175,28 @@ static void apply(WrApp *app)
     wr_text_fini(&line);
 }
 
+/* Return to the tool that was left for a paste. True if there was one. */
+static bool go_back(WrApp *app)
+{
+    const int back = app->transform->back;
+    app->transform->back = 0;
+    if (back > 0) wr_tool_choose(app, back - 1);
+    return back > 0;
+}
+
+void wr_transform_pasted(WrApp *app)
+{
+    const int before = app->tool, tool = wr_tool_find(app, WR_ACT(transform));
+    if (tool == before) return;
+    wr_tool_choose(app, tool);
+    app->transform->back = before + 1;
+}
+
 /* On a change of the tool the result is kept as a step; on a change of the document it is dropped. */
 static void leave(WrApp *app)
 {
     const WrTransformState *hand = app->transform;
+    app->transform->back = 0;
     const bool ours = hand->measured && hand->revision == wr_session_revision(app->session);
     if (app->trying && ours && !is_still(hand)) apply(app); /* no preview of the old document */
     else cancel(app);
@@ -352,8 +371,11 @@ static bool key(WrApp *app, SDL_Keycode key)
 {
     WrTransformState *hand = app->transform;
     double step = 1.0;
-    if (key == SDLK_RETURN || key == SDLK_KP_ENTER) apply(app);
-    else if (key == SDLK_ESCAPE && !is_still(hand)) cancel(app);
+    if (key == SDLK_RETURN || key == SDLK_KP_ENTER) {
+        apply(app);
+        go_back(app);
+    } else if (key == SDLK_ESCAPE && is_still(hand)) return go_back(app);
+    else if (key == SDLK_ESCAPE) cancel(app);
     else if (key == SDLK_LEFT || key == SDLK_RIGHT || key == SDLK_UP || key == SDLK_DOWN) {
         measure(app);
         int axis = key == SDLK_UP || key == SDLK_DOWN;

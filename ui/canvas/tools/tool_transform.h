@@ -31,4 +31,8 @@ typedef struct WrTransformState {
     WrTransformPart part;
     int side[2];    /* of the handle: -1, 0, 1 along the piece's axes, right and down */
     double from[2]; /* start of the drag, texels from the piece's centre at that time */
+    int back;       /* 1 + index of the tool that Enter and Escape return to; 0: none */
 } WrTransformState;
+
+/* Choose the tool, with its frame about the layer that was just pasted; Enter and Escape return to the tool before. */
+void wr_transform_pasted(WrApp *app);
