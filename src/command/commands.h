@@ -100,7 +100,9 @@ void wr_mask_kind_explain(int i, WrText *text);
 
 typedef struct WrDocument WrDocument;
 
-/* active: the layer to change, or the stand-in for its mask; NULL: all layers. False: cancelled or refused, and the
-   document is half done. */
+/* True: the line moves the active layer or its mask; false: the layers of its of=, or all. */
+bool wr_call_transforms_one(const WrCall *call);
+/* active: the layer to change, or the stand-in for its mask; NULL unless the line moves one. False: cancelled or refused,
+   and the document is half done. */
 bool wr_call_transform(const WrCall *call, WrDocument *document, WrLayer *active, WrPool *pool,
                        const WrProgress *progress, WrError *err);

@@ -69,10 +69,11 @@ static double texels(const Job *job, const Need *need)
     return need->bytes * job->texels;
 }
 
-/* One table, or the table of each layer if the command works on all layers. */
+/* One table, or the table of each layer if the command works on all layers, or on some: an upper bound. */
 static double filter(const Job *job, const Need *need)
 {
-    const double layers = choice(job, "layers") > 0.0 ? job->document->layer_count : 1.0;
+    const bool some = has(job, "of") && wr_call_given(job->call, "of");
+    const double layers = some || choice(job, "layers") > 0.0 ? job->document->layer_count : 1.0;
     const double further =
         fmin(need->bytes, 2.0 * TABLE) * (layers - 1.0); /* only the results stay */
     return (need->bytes + further) * job->texels;

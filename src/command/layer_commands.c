@@ -239,7 +239,7 @@ static bool find_all(const WrSession *session, const WrCall *call, const char *n
                      WrLayerList *layers, WrError *err)
 {
     const WrArg *arg = wr_call_arg(call, name);
-    if (arg->given) return wr_session_find_layers(session, arg->text, layers, err);
+    if (arg->given) return wr_layers_find(session->state.document, arg->text, layers, err);
     *layers = (WrLayerList){ .index = { session->state.document->active }, .count = 1 };
     return true;
 }

@@ -584,16 +584,27 @@ static bool join_piece(const Moving *m, WrLayer *layer, const WrRelief *piece, c
 
 /* ---- one table ---- */
 
-static bool place(Moving *m, const WrField *what, WrRelief *out, WrError *err)
+static bool place(Moving *m, const WrField *what, const WrField *weight, WrRelief *out,
+                  WrError *err)
 {
     m->placing.heights = what;
-    m->placing.weight = m->selection;
+    m->placing.weight = weight;
     WrGenerateJob job = m->job;
     WrProgressPart part;
     job.progress = wr_progress_part(&part, m->job.progress, (double)m->done / m->tables,
                                     (m->done + 1.0) / m->tables);
     m->done++;
     return wr_transform_piece(&m->placing, &job, out, err);
+}
+
+/* Weight of a whole layer without coverage of which a copy moves: 1 where its heights are not 0, so that the copy replaces
+   only the texels under its content. */
+static WrField *content_of(const WrField *heights, WrPool *pool, WrError *err)
+{
+    WrField *empty = wr_select_height(heights, 0.0, 0.0, 0.0, pool, err);
+    WrField *content = empty ? wr_select_invert(empty) : NULL;
+    wr_field_free(empty);
+    return content;
 }
 
 /* Clear the source area, weighted by the selection. */
@@ -610,7 +621,7 @@ static bool move_mask(Moving *m, WrLayer *layer, WrError *err)
 {
     WrRelief piece = { NULL, NULL };
     if (!layer->mask || m->selection || m->leave) return true;
-    if (!place(m, layer->mask, &piece, err)) return false;
+    if (!place(m, layer->mask, NULL, &piece, err)) return false;
     WrField *white = flat(layer->mask, 1.0f);
     wr_field_free(layer->mask);
     layer->mask = wr_edit_within(white, piece.heights, piece.cover);
@@ -630,8 +641,12 @@ static bool move_layer(Moving *m, WrLayer *layer, WrError *err)
 {
     WrRelief piece = { NULL, NULL }, cover = { NULL, NULL };
     if (!wr_layer_holds(layer)) return move_mask(m, layer, err);
-    bool good = place(m, layer->heights, &piece, err) &&
-                (!layer->cover || place(m, layer->cover, &cover, err));
+    const bool stamps = m->leave && !m->selection && !layer->cover;
+    WrField *content = stamps ? content_of(layer->heights, m->job.pool, err) : NULL;
+    bool good = (content || !stamps) &&
+                place(m, layer->heights, stamps ? content : m->selection, &piece, err) &&
+                (!layer->cover || place(m, layer->cover, m->selection, &cover, err));
+    wr_field_free(content);
     if (good && !m->leave) {
         take_out(m, &layer->heights);
         if (layer->cover) take_out(m, &layer->cover);
@@ -653,7 +668,8 @@ static bool check_scale(const double *scale, WrError *err)
     return true;
 }
 
-/* The piece: bounding box of the selection, or the whole table; and its centre. */
+/* The piece: bounding box of the selection, or the whole table; and its centre. A whole periodic table is cut as far from
+   the fixed point as possible, so that content across its edges stays in one piece. */
 static bool set_piece(Moving *m, const WrCall *call, const WrField *like, WrError *err)
 {
     const double w = wr_field_width(like), h = wr_field_height(like);
@@ -671,6 +687,9 @@ static bool set_piece(Moving *m, const WrCall *call, const WrField *like, WrErro
     const double *about = wr_call_arg(call, "about")->numbers;
     m->placing.from[0] = about[0] * w;
     m->placing.from[1] = (1.0 - about[1]) * h;
+    const WrWrap wraps[] = { wr_field_wrap_u(like), wr_field_wrap_v(like) };
+    for (int k = 0; k < 2 && !m->selection; k++)
+        if (wraps[k] == WR_WRAP_PERIODIC) box[k] = rint(m->placing.from[k] - 0.5 * box[k + 2]);
     return true;
 }
 
@@ -699,10 +718,31 @@ static bool move_selection(Moving *m, WrDocument *document, WrError *err)
 {
     WrRelief piece = { NULL, NULL };
     if (!m->selection) return true;
-    if (!place(m, m->selection, &piece, err)) return false;
+    if (!place(m, m->selection, m->selection, &piece, err)) return false;
     wr_field_free(document->selection);
     document->selection = wr_field_share(piece.cover);
     wr_relief_fini(&piece);
+    return true;
+}
+
+/* Layers that a line moves, groups with their members, the lowest first. active: NULL if the line says which. */
+static bool find_moved(const WrCall *call, const WrDocument *document, const WrLayer *active,
+                       WrLayerList *out, WrError *err)
+{
+    bool moved[WR_LAYERS_MAX] = { false };
+    const bool of = wr_call_given(call, "of"), all = wr_call_choice(call, "layers") == 1;
+    WrLayerList listed = { .index = { document->active }, .count = 1 };
+    if (of && all) return wr_fail(err, "of= and layers=all: give one of them");
+    if (of && !wr_layers_find(document, wr_call_arg(call, "of")->text, &listed, err)) return false;
+    for (int k = 0; k < listed.count; k++) {
+        const int last = listed.index[k];
+        const bool alone = active && !active->is_group;
+        for (int i = alone ? last : wr_layers_first(document->layers, last); i <= last; i++)
+            moved[i] = true;
+    }
+    out->count = 0;
+    for (int i = 0; i < document->layer_count; i++)
+        if (all || moved[i]) out->index[out->count++] = i;
     return true;
 }
 
@@ -710,39 +750,40 @@ bool wr_call_transform(const WrCall *call, WrDocument *document, WrLayer *active
                        const WrProgress *progress, WrError *err)
 {
     Moving moving;
+    WrLayerList list;
+    WrLayer *layers[WR_LAYERS_MAX];
+    if (!find_moved(call, document, active, &list, err)) return false;
     /* the layers' tables are replaced meanwhile */
     WrField *like = wr_field_share(document->layers[0].heights);
     bool good = set_up(&moving, call, document, pool, like, progress, err);
     moving.tables = moving.selection != NULL;
-    const int at = document->active;
-    const bool group = active && active->is_group; /* moves with its members */
-    const int last = active ? at : document->layer_count - 1;
-    const int first = group ? wr_layers_first(document->layers, at) : active ? at : 0;
-    for (int i = first; i <= last; i++)
-        moving.tables += tables_of(&moving, active && i == at ? active : &document->layers[i]);
-    for (int i = first; good && i <= last; i++)
-        good = move_layer(&moving, active && i == at ? active : &document->layers[i], err);
+    for (int k = 0; k < list.count; k++) {
+        const int i = list.index[k];
+        layers[k] = active && i == document->active ? active : &document->layers[i];
+        moving.tables += tables_of(&moving, layers[k]);
+    }
+    for (int k = 0; good && k < list.count; k++) good = move_layer(&moving, layers[k], err);
     good = good && move_selection(&moving, document, err);
     wr_field_free(like);
     return good;
 }
 
+bool wr_call_transforms_one(const WrCall *call)
+{
+    return wr_call_choice(call, "layers") == 0 && !wr_call_given(call, "of");
+}
+
 static bool run_transform(WrSession *session, WrCall *call, WrError *err)
 {
     WrDocument *document = session->state.document;
-    WrLayer *active = NULL;
-    const bool all = wr_call_choice(call, "layers") == 1;
-    const WrLayer *layers = document->layers;
-    const bool group = layers[document->active].is_group && !layers[document->active].on_mask;
-    if (!all && group) {
-        active = &document->layers[document->active];
-    } else if (!all) {
-        active = wr_session_layer(session, err);
-        if (!active) return false;
-    }
-    const int last = all ? document->layer_count - 1 : document->active;
-    for (int i = all ? 0 : wr_layers_first(layers, last); i <= last; i++)
-        if (!wr_session_check_unlocked(session, i, err)) return false;
+    WrLayer *active = &document->layers[document->active];
+    WrLayerList list;
+    if (!wr_call_transforms_one(call)) active = NULL;
+    else if (!active->is_group || active->on_mask) active = wr_session_layer(session, err);
+    if (!active && wr_call_transforms_one(call)) return false;
+    if (!find_moved(call, document, active, &list, err)) return false;
+    for (int k = 0; k < list.count; k++)
+        if (!wr_session_check_unlocked(session, list.index[k], err)) return false;
     return wr_call_transform(call, document, active, session->options.pool, wr_progress_here(),
                              err);
 }
@@ -778,7 +819,7 @@ static const WrArgSpec args_transform[] = {
       .type = WR_ARG_CHOICE,
       .words = wr_off_on,
       .fallback_text = "off",
-      .help = "on: the selection stays, and a copy of it moves" },
+      .help = "on: it stays, and a copy of the selection or of the layer's content moves" },
     { .name = "filter",
       .type = WR_ARG_CHOICE,
       .words = wr_place_filters,
@@ -789,6 +830,10 @@ static const WrArgSpec args_transform[] = {
       .words = layer_choices,
       .fallback_text = "active",
       .help = "which layers it moves" },
+    { .name = "of",
+      .type = WR_ARG_LAYER,
+      .several = true,
+      .help = "these layers, in place of the active one" },
     { 0 }
 };
 

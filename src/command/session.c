@@ -209,9 +209,8 @@ static int layer_number(const char *word)
     return atoi(word);
 }
 
-bool wr_session_find_layer(const WrSession *session, const char *word, int *index, WrError *err)
+static bool find_layer(const WrDocument *document, const char *word, int *index, WrError *err)
 {
-    const WrDocument *document = session->state.document;
     char excerpt[WR_EXCERPT_SIZE];
     int number = layer_number(word), found = -1, same = 0;
     if (strspn(word, "0123456789") == strlen(word)) {
@@ -237,23 +236,27 @@ bool wr_session_find_layer(const WrSession *session, const char *word, int *inde
 }
 
 /* Mark the layers of one word of a list: a layer, or a range such as 4..6. A name may contain dots. */
-static bool list_word(const WrSession *session, char *word, bool listed[WR_LAYERS_MAX],
+static bool list_word(const WrDocument *document, char *word, bool listed[WR_LAYERS_MAX],
                       WrError *err)
 {
     int first, last;
-    char *dots = wr_layer_named(session->state.document, word) < 0 ? strstr(word, "..") : NULL;
+    char *dots = wr_layer_named(document, word) < 0 ? strstr(word, "..") : NULL;
     if (dots) *dots = '\0';
-    if (!wr_session_find_layer(session, word, &first, err)) return false;
+    if (!find_layer(document, word, &first, err)) return false;
     last = first;
-    if (dots && !wr_session_find_layer(session, dots + 2, &last, err)) return false;
+    if (dots && !find_layer(document, dots + 2, &last, err)) return false;
     for (int i = first < last ? first : last; i <= first || i <= last; i++) listed[i] = true;
     return true;
 }
 
-bool wr_session_find_layers(const WrSession *session, const char *words, WrLayerList *layers,
-                            WrError *err)
+bool wr_session_find_layer(const WrSession *session, const char *word, int *index, WrError *err)
 {
-    const WrDocument *document = session->state.document;
+    return find_layer(session->state.document, word, index, err);
+}
+
+bool wr_layers_find(const WrDocument *document, const char *words, WrLayerList *layers,
+                    WrError *err)
+{
     bool listed[WR_LAYERS_MAX] = { false };
     /* a name may contain commas */
     const bool one = !strchr(words, ',') || wr_layer_named(document, words) >= 0;
@@ -264,7 +267,7 @@ bool wr_session_find_layers(const WrSession *session, const char *words, WrLayer
             return wr_fail(err, "\"%s\": a layer is missing beside a comma",
                            wr_excerpt(words, excerpt));
         char *word = wr_strndup(p, length);
-        const bool good = list_word(session, word, listed, err);
+        const bool good = list_word(document, word, listed, err);
         wr_free(word);
         if (!good) return false;
         if (!p[length]) break;

@@ -283,8 +283,8 @@ typedef struct WrLayerList {
     int index[WR_LAYERS_MAX];
     int count;
 } WrLayerList;
-bool wr_session_find_layers(const WrSession *session, const char *words, WrLayerList *layers,
-                            WrError *err);
+bool wr_layers_find(const WrDocument *document, const char *words, WrLayerList *layers,
+                    WrError *err);
 
 /* SHA-256 of a file that a command reads. For a glTF with external parts, that of the packed file (gltf.h), which
    changes with any part. */

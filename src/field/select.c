@@ -55,12 +55,14 @@ static bool run_of(const bool *marked, int n, bool periodic, int *from, int *cou
     return true;
 }
 
-bool wr_select_box(const WrField *selection, WrSelectBox *box)
+bool wr_select_box_all(const WrField *const *fields, int count, WrSelectBox *box)
 {
+    if (count == 0) return false;
+    const WrField *selection = fields[0];
     const int width = wr_field_width(selection), height = wr_field_height(selection);
     bool *columns = wr_alloc((size_t)width, sizeof *columns);
     bool *rows = wr_alloc((size_t)height, sizeof *rows);
-    mark(selection, columns, rows);
+    for (int k = 0; k < count; k++) mark(fields[k], columns, rows);
     bool any = run_of(columns, width, wr_field_wrap_u(selection) == WR_WRAP_PERIODIC, &box->i,
                       &box->count_i) &&
                run_of(rows, height, wr_field_wrap_v(selection) == WR_WRAP_PERIODIC, &box->j,
@@ -68,6 +70,11 @@ bool wr_select_box(const WrField *selection, WrSelectBox *box)
     wr_free(columns);
     wr_free(rows);
     return any;
+}
+
+bool wr_select_box(const WrField *selection, WrSelectBox *box)
+{
+    return wr_select_box_all(&selection, 1, box);
 }
 
 /* ---- flood fill ---- */

@@ -107,6 +107,8 @@ typedef struct WrSelectBox {
     int i, j, count_i, count_j;
 } WrSelectBox;
 bool wr_select_box(const WrField *selection, WrSelectBox *box);
+/* That of several fields of the same size and wraps. fields: [count] */
+bool wr_select_box_all(const WrField *const *fields, int count, WrSelectBox *box);
 
 /* The outline for drawing: the contour at about 1/2 of the bilinear surface through the texels'
  * centres. */

@@ -80,6 +80,7 @@ static const char *const lines[] = {
     "select mask 3 mode=add",
     "transform move=17,9",
     "transform turn=31 scale=0.7,-1.2 layers=all",
+    "transform move=17,9 leave=on of=1,2",
     "copy copied.exr",
     "copy copied2.exr of=composite",
     "select invert",

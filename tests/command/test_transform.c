@@ -379,6 +379,104 @@ static void what_is_enlarged_stays_about_its_point(void **state)
     }
 }
 
+/* A dab in the table's corner, on both edges, enlarged about it: its four parts stay together. */
+static void content_over_the_edges_is_enlarged_in_one_piece(void **state)
+{
+    (void)state;
+    WrSession *s =
+        session_of((const char *[]){ "table 75x61", "dab 0,0 radius=6 hardness=1 strength=1",
+                                     "transform scale=1.5,-1.5 about=1,0", NULL });
+    for (int j = 0; j < 61; j++)
+        for (int i = 0; i < 75; i++) {
+            const double x = fmin(i + 0.5, 75 - i - 0.5), y = fmin(j + 0.5, 61 - j - 0.5);
+            const double far = hypot(x, y); /* from the corner, across the edges */
+            if (far < 7) assert_near(f_at(s, i, j), 1.0, 0.2);
+            if (far > 13) assert_true(f_at(s, i, j) == 0.0f); /* 9, and the filter's support */
+        }
+    wr_session_free(s);
+}
+
+/* A copy of a whole layer's content covers the texels under its heights that are not 0, and no others. */
+static void a_copy_of_a_layer_is_stamped_on_it(void **state)
+{
+    (void)state;
+    static const char *const starts[] = { "bump height=1", "layer add top" };
+    for (int k = 0; k < 2; k++) { /* without coverage, and with it */
+        WrSession *s = session_of((const char *[]){ "table 75x61", starts[k], NULL });
+        must_run(s, k ? "layer clear" : "fill 0");
+        must_run(s, "dab 0.03,0.5 radius=9 hardness=1 strength=0.7");
+        must_run(s, "dab 0.3,0.4 radius=8 hardness=0.9 strength=0.3");
+        const WrLayer *top = layer(s, k + 1);
+        assert_true((top->cover != NULL) == (k == 1));
+        WrField *old = wr_field_share(top->heights);
+        WrField *cover = top->cover ? wr_field_share(top->cover) : NULL;
+        const int before = wr_session_history_position(s);
+        must_run(s, "transform move=-17,4 leave=on");
+        assert_int_equal(wr_session_history_position(s), before + 1);
+        top = layer(s, k + 1);
+        int stamped = 0;
+        for (int j = 0; j < 61; j++)
+            for (int i = 0; i < 75; i++) {
+                const int x = (i + 17) % 75, y = (j + 4) % 61;
+                const float high = wr_field_get(old, x, y);
+                const double c = cover ? (double)wr_field_get(cover, x, y) : high != 0.0f;
+                stamped += c > 0;
+                if (c == 0.0)
+                    assert_true(wr_field_get(top->heights, i, j) == wr_field_get(old, i, j));
+                if (c == 1.0) assert_true(wr_field_get(top->heights, i, j) == high);
+            }
+        assert_in_range(stamped, 300, 700);
+        must_run(s, "undo");
+        assert_true(same_field(layer(s, k + 1)->heights, old));
+        wr_field_free(old);
+        wr_field_free(cover);
+        wr_session_free(s);
+    }
+}
+
+/* Several layers move as each does alone about the same point, in one step; others keep their bits. */
+static void several_layers_move_together(void **state)
+{
+    (void)state;
+    static const char *const moves[] = { "transform move=-13,8", "transform turn=90 about=0.3,0.45",
+                                         "transform turn=33 scale=0.8,1.3 about=0.9,0.1" };
+    for (size_t k = 0; k < sizeof moves / sizeof *moves; k++) {
+        WrSession *a = layered("table 75x61"), *b = layered("table 75x61");
+        WrSession *both[] = { a, b };
+        for (int i = 0; i < 2; i++) {
+            must_run(both[i], "layer use 1");
+            must_run(both[i], "noise value cells=9 seed=4");
+            must_run(both[i], "layer add third above=2");
+            must_run(both[i], "dab 0.1,0.3 radius=13 strength=0.4");
+            must_run(both[i], "layer add fourth above=3");
+            must_run(both[i], "dab 0.2,0.7 radius=11 strength=0.4");
+            must_run(both[i], "layer group pair of=3,4"); /* 5 */
+        }
+        const int before = wr_session_history_position(a);
+        char line[120];
+        snprintf(line, sizeof line, "%s of=pair,1", moves[k]);
+        must_run(a, line);
+        assert_int_equal(wr_session_history_position(a), before + 1);
+        for (int n = 1; n <= 4; n++) {
+            snprintf(line, sizeof line, "layer use %d", n);
+            must_run(b, line);
+            WrField *was = wr_field_share(layer(b, n)->heights);
+            if (n != 2) must_run(b, moves[k]);
+            assert_true(same_field(layer(a, n)->heights, layer(b, n)->heights));
+            assert_int_equal(same_field(was, layer(b, n)->heights), n == 2);
+            assert_true(n < 3 || same_field(layer(a, n)->cover, layer(b, n)->cover));
+            wr_field_free(was);
+        }
+        must_run(a, "undo");
+        must_fail(a, "transform move=1,1 of=1 layers=all", "of= and layers=all");
+        must_fail(a, "transform move=1,1 of=1,9", "layer 9");
+        must_run(a, "layer set 3 lock=on");
+        must_fail(a, "transform move=1,1 of=1,pair", "is locked");
+        wr_session_free(a);
+        wr_session_free(b);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -394,6 +492,9 @@ int main(void)
         cmocka_unit_test(what_cannot_be_moved_is_refused),
         cmocka_unit_test(partly_covered_heights_stay_as_high),
         cmocka_unit_test(what_is_enlarged_stays_about_its_point),
+        cmocka_unit_test(content_over_the_edges_is_enlarged_in_one_piece),
+        cmocka_unit_test(a_copy_of_a_layer_is_stamped_on_it),
+        cmocka_unit_test(several_layers_move_together),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
 }

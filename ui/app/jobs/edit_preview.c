@@ -194,8 +194,8 @@ static bool edit_preview_transform(WrDocument *document, const char *line, WrPoo
     WrCall *call = NULL;
     WrStandIn stand_in = { .index = 0 };
     if (!wr_call_parse(line, false, &call, err)) return false;
-    bool all = wr_call_choice(call, "layers") == 1;
-    WrLayer *layer = all ? NULL : wr_document_edit_begin(document, &stand_in);
+    WrLayer *layer =
+        wr_call_transforms_one(call) ? wr_document_edit_begin(document, &stand_in) : NULL;
     bool good = wr_call_transform(call, document, layer, pool, progress, err);
     wr_document_edit_end(document, &stand_in);
     wr_call_free(call);
