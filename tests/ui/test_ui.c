@@ -448,7 +448,7 @@ static void a_users_line_replaces_the_keys_of_its_action(void **state)
     char label[32];
     assert_true(wr_keys_read(map, "# mine\n\nundo: F5 Alt+Left # both\r\nsave:\n", &err));
     assert_string_equal(wr_keys_find(map, keysym(SDLK_F5, 0)), "undo");
-    assert_string_equal(wr_keys_find(map, keysym(SDLK_LEFT, KMOD_ALT)), "undo");
+    assert_string_equal(wr_keys_find(map, keysym(SDLK_LEFT, KMOD_LALT)), "undo");
     assert_null(wr_keys_find(map, keysym(SDLK_z, KMOD_CTRL)));
     assert_null(wr_keys_find(map, keysym(SDLK_s, KMOD_CTRL)));
     assert_string_equal(wr_keys_label(map, "undo", label), "F5");

@@ -4,7 +4,9 @@
 #include "app.h"
 
 #include "ui/app/state/dialog.h"
+#include "ui/app/state/keys.h"
 #include "ui/app/state/layout.h"
+#include "ui/app/state/settings.h"
 #include "ui/app/state/pointer_state.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/focus.h"
@@ -280,6 +282,48 @@ static void a_click_on_the_title_of_a_menu_only_opens_it(void **state)
     finish(&bench);
 }
 
+static SDL_Keycode german_layout(SDL_Scancode place)
+{
+    return place == SDL_SCANCODE_SLASH ? '-' : SDL_GetKeyFromScancode(place);
+}
+
+static void type_sign(SDL_Scancode code, Uint16 mod, char sign)
+{
+    SDL_Event event = { .text = { .type = SDL_TEXTINPUT } };
+    event.text.text[0] = sign;
+    push_key(SDL_KEYDOWN, code, mod);
+    SDL_PushEvent(&event);
+    push_key(SDL_KEYUP, code, mod);
+}
+
+/* Shift+7 types "/" on a German keyboard. A key with an action of its own does only that. */
+static void a_sign_behind_shift_is_a_shortcut_once(void **state)
+{
+    (void)state;
+    Bench bench;
+    WrError err;
+    begin(&bench);
+    WrApp *app = bench.app;
+    WrBrushMode *mode = &app->settings->brush.mode;
+    wr_keys_layout = german_layout;
+    if (!wr_keys_read(app->keys, "erase_mode: / E\n", &err)) fail_msg("%s", err.text);
+    *mode = WR_BRUSH_RAISE;
+    type_sign(SDL_SCANCODE_7, KMOD_LSHIFT, '/');
+    steps(app, 4);
+    assert_int_equal(*mode, WR_BRUSH_ERASE);
+    type_sign(SDL_SCANCODE_E, 0, '/');
+    steps(app, 4);
+    assert_int_equal(*mode, WR_BRUSH_RAISE);
+    wr_dialog_open(app, WR_DIALOG_SEARCH);
+    steps(app, 4);
+    type_sign(SDL_SCANCODE_7, KMOD_LSHIFT, '/');
+    steps(app, 4);
+    assert_string_equal(app->finder->text, "/");
+    assert_int_equal(*mode, WR_BRUSH_RAISE);
+    wr_keys_layout = SDL_GetKeyFromScancode;
+    finish(&bench);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -291,6 +335,7 @@ int main(void)
         cmocka_unit_test(a_text_scrolled_out_of_sight_leaves_the_window_alive),
         cmocka_unit_test(the_second_text_is_a_layer_with_a_name_of_its_own),
         cmocka_unit_test(automatic_names_follow_the_line),
+        cmocka_unit_test(a_sign_behind_shift_is_a_shortcut_once),
         cmocka_unit_test(a_click_on_the_title_of_a_menu_only_opens_it),
     };
     return cmocka_run_group_tests(tests, enter_window, remove_folder);

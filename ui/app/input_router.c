@@ -497,6 +497,7 @@ static void end_live(WrApp *app, const char *text)
 
 static void key_down(WrApp *app, const SDL_KeyboardEvent *event)
 {
+    app->hand->key_is_free = false;
     if (wr_preferences_take_key(app, event) || wr_gui_took_key(app->gui)) return;
     if (wr_dynamics_undo_key(app, event)) return;
     if (blocked(app) || wr_gui_popup_open_now(app->gui)) return;
@@ -525,6 +526,15 @@ static void key_down(WrApp *app, const SDL_KeyboardEvent *event)
     }
     const char *action = wr_keys_find(app->keys, event->keysym);
     if (action && !hold(app, action, event)) wr_action_run(app, action);
+    app->hand->key_is_free = !action;
+}
+
+/* Text follows the key that typed it. */
+static void typed(WrApp *app, const SDL_TextInputEvent *event)
+{
+    const char *action = app->hand->key_is_free ? wr_keys_find_typed(app->keys, event->text) : NULL;
+    app->hand->key_is_free = false;
+    if (action) wr_action_run(app, action);
 }
 
 void wr_input_router_event(WrApp *app, const SDL_Event *event)
@@ -536,6 +546,7 @@ void wr_input_router_event(WrApp *app, const SDL_Event *event)
     case SDL_MOUSEWHEEL: wheel(app, &event->wheel); break;
     case SDL_KEYDOWN: key_down(app, &event->key); break;
     case SDL_KEYUP: key_up(app, &event->key); break;
+    case SDL_TEXTINPUT: typed(app, &event->text); break;
     default: break;
     }
 }

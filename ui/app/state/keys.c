@@ -10,6 +10,7 @@
 
 #include <SDL.h>
 #include <ctype.h>
+#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -30,10 +31,33 @@ struct WrKeyMap {
     Bindings bindings;
 };
 
+/* ---- the keyboard's layout ---- */
+
+SDL_Keycode (*wr_keys_layout)(SDL_Scancode place) = SDL_GetKeyFromScancode;
+
+static bool on_some_key(SDL_Keycode code)
+{
+    for (int place = 1; place < SDL_NUM_SCANCODES; place++)
+        if (wr_keys_layout((SDL_Scancode)place) == code) return true;
+    return false;
+}
+
+static bool is_sign(SDL_Keycode code)
+{
+    return code > SDLK_SPACE && code < 127 && !isalpha((int)code);
+}
+
+/* Layouts without a key for brackets have them, and other signs, behind AltGr. */
+static bool holds_altgr(int held)
+{
+    return (held & KMOD_MODE) || ((held & KMOD_RALT) && !on_some_key(SDLK_LEFTBRACKET));
+}
+
 int wr_key_mods(SDL_Keymod held)
 {
+    const bool alt = (held & KMOD_LALT) || ((held & KMOD_RALT) && !holds_altgr(held));
     return ((held & KMOD_CTRL) ? WR_MOD_CTRL : 0) | ((held & KMOD_SHIFT) ? WR_MOD_SHIFT : 0) |
-           ((held & KMOD_ALT) ? WR_MOD_ALT : 0);
+           (alt ? WR_MOD_ALT : 0);
 }
 
 static const struct {
@@ -183,15 +207,53 @@ static const char *find(const WrKeyMap *map, SDL_Keycode code, int mods)
     return NULL;
 }
 
+static bool is_bound(const WrKeyMap *map, SDL_Keycode code)
+{
+    for (int i = 0; i < map->bindings.count; i++)
+        if (map->bindings.data[i].key.code == code) return true;
+    return false;
+}
+
+/* Positions of the brackets on a US keyboard, and of the keys below them, which replace them where a key beside P has a
+   shortcut of its own, such as "+" on German, Spanish and Italian keyboards. */
+static const SDL_Scancode brackets[2][2] = { { SDL_SCANCODE_LEFTBRACKET,
+                                               SDL_SCANCODE_RIGHTBRACKET },
+                                             { SDL_SCANCODE_SEMICOLON, SDL_SCANCODE_APOSTROPHE } };
+
+/* Index of the pair of keys for brackets on a layout without them. */
+static int bracket_row(const WrKeyMap *map)
+{
+    return is_bound(map, wr_keys_layout(brackets[0][0])) ||
+           is_bound(map, wr_keys_layout(brackets[0][1]));
+}
+
+/* The digit or bracket that the key at that position replaces; SDLK_UNKNOWN: none, or the layout has a key for it. */
+static SDL_Keycode sign_by_place(const WrKeyMap *map, SDL_Scancode place)
+{
+    SDL_Keycode sign = SDLK_UNKNOWN;
+    if (place >= SDL_SCANCODE_1 && place <= SDL_SCANCODE_9) sign = '1' + (place - SDL_SCANCODE_1);
+    if (place == SDL_SCANCODE_0) sign = '0';
+    for (int row = 0; row < 2; row++)
+        for (int side = 0; side < 2; side++)
+            if (place == brackets[row][side] && row <= bracket_row(map))
+                sign = side == 0 ? SDLK_LEFTBRACKET : SDLK_RIGHTBRACKET;
+    return sign != SDLK_UNKNOWN && on_some_key(sign) ? SDLK_UNKNOWN : sign;
+}
+
 const char *wr_keys_find(const WrKeyMap *map, SDL_Keysym sym)
 {
-    int held = wr_key_mods((SDL_Keymod)sym.mod);
-    if (sym.sym == SDLK_UNKNOWN) return NULL;
+    const int held = wr_key_mods((SDL_Keymod)sym.mod);
+    if (sym.sym == SDLK_UNKNOWN || holds_altgr(sym.mod)) return NULL;
     const char *action = find(map, sym.sym, held);
     if (action) return action;
-    if (sym.scancode == SDL_SCANCODE_LEFTBRACKET) return find(map, SDLK_LEFTBRACKET, held);
-    if (sym.scancode == SDL_SCANCODE_RIGHTBRACKET) return find(map, SDLK_RIGHTBRACKET, held);
-    return NULL;
+    const SDL_Keycode sign = sign_by_place(map, sym.scancode);
+    return sign == SDLK_UNKNOWN ? NULL : find(map, sign, held);
+}
+
+const char *wr_keys_find_typed(const WrKeyMap *map, const char *text)
+{
+    if (!is_sign(text[0]) || text[1] || on_some_key(text[0])) return NULL;
+    return find(map, text[0], 0);
 }
 
 bool wr_keys_hold(const WrKeyMap *map, const char *action, int held)
@@ -236,53 +298,51 @@ static void say_key(WrKey key, char *buffer, size_t size)
     if (key.code == SDLK_UNKNOWN) drop_plus(buffer);
 }
 
-SDL_Keycode (*wr_keys_layout)(SDL_Scancode place) = SDL_GetKeyFromScancode;
-
-static bool on_some_key(SDL_Keycode code)
-{
-    for (int place = 1; place < SDL_NUM_SCANCODES; place++)
-        if (wr_keys_layout((SDL_Scancode)place) == code) return true;
-    return false;
-}
-
-/* The key to press on this keyboard. A bracket missing in its layout is replaced by the key at the US position.
- * False: no key works, because the character needs AltGr or Shift, or the key at that position has another action. */
+/* The key to press on this keyboard: a digit or bracket missing in its layout is replaced by the key at its position.
+ * False: the layout has no such key, or the key has no name. */
 static bool on_this_layout(const WrKeyMap *map, WrKey key, WrKey *pressed)
 {
-    const bool sign = key.code > SDLK_SPACE && key.code < 127 && !isalnum((int)key.code);
+    SDL_Scancode place = SDL_SCANCODE_UNKNOWN;
     *pressed = key;
-    if (!sign || on_some_key(key.code)) return true;
-    if (key.code != SDLK_LEFTBRACKET && key.code != SDLK_RIGHTBRACKET) return false;
-    pressed->code = wr_keys_layout(key.code == SDLK_LEFTBRACKET ? SDL_SCANCODE_LEFTBRACKET
-                                                                : SDL_SCANCODE_RIGHTBRACKET);
-    return pressed->code != SDLK_UNKNOWN && !find(map, pressed->code, key.mods);
+    if (!is_sign(key.code) || on_some_key(key.code)) return true;
+    if (key.code == SDLK_LEFTBRACKET) place = brackets[bracket_row(map)][0];
+    if (key.code == SDLK_RIGHTBRACKET) place = brackets[bracket_row(map)][1];
+    if (isdigit((int)key.code))
+        place = key.code == '0' ? SDL_SCANCODE_0 : SDL_SCANCODE_1 + (key.code - '1');
+    pressed->code = place ? wr_keys_layout(place) : SDLK_UNKNOWN;
+    return SDL_GetKeyName(pressed->code)[0] && !find(map, pressed->code, key.mods);
+}
+
+/* Keys of an action, separated by two spaces, at most `most`. Signs that need Shift or AltGr follow only if there are no
+   others: another key may type them too. */
+static void list_keys(const WrKeyMap *map, const char *action, int most, WrText *out)
+{
+    int count = 0;
+    for (int typed = 0; typed <= 1 && count == 0; typed++)
+        for (int i = 0; i < map->bindings.count && count < most; i++) {
+            const Binding *b = &map->bindings.data[i];
+            char name[64];
+            WrKey key = b->key;
+            if (strcmp(b->action, action) != 0) continue;
+            if (typed ? !is_sign(key.code) || key.mods : !on_this_layout(map, b->key, &key))
+                continue;
+            say_key(key, name, sizeof name);
+            wr_text_addf(out, "%s%s", count++ > 0 ? "  " : "", name);
+        }
 }
 
 char *wr_keys_label(const WrKeyMap *map, const char *action, char buffer[32])
 {
-    buffer[0] = '\0';
-    for (int i = 0; i < map->bindings.count; i++) {
-        WrKey pressed;
-        if (strcmp(map->bindings.data[i].action, action) != 0) continue;
-        if (!on_this_layout(map, map->bindings.data[i].key, &pressed)) continue;
-        say_key(pressed, buffer, 32);
-        break;
-    }
+    WrText list = { 0 };
+    list_keys(map, action, 1, &list);
+    snprintf(buffer, 32, "%s", wr_text_get(&list));
+    wr_text_fini(&list);
     return buffer;
 }
 
 void wr_keys_list(const WrKeyMap *map, const char *action, WrText *out)
 {
-    char name[64];
-    bool any = false;
-    for (int i = 0; i < map->bindings.count; i++) {
-        WrKey pressed;
-        if (strcmp(map->bindings.data[i].action, action) != 0) continue;
-        if (!on_this_layout(map, map->bindings.data[i].key, &pressed)) continue;
-        say_key(pressed, name, sizeof name);
-        wr_text_addf(out, "%s%s", any ? "  " : "", name);
-        any = true;
-    }
+    list_keys(map, action, INT_MAX, out);
 }
 
 /* ---- changes ---- */

@@ -20,6 +20,7 @@ typedef struct WrKey {
 
 /* Parse "Ctrl+Shift+Z", "[", "F1", "Keypad +". Names are SDL's. */
 bool wr_key_parse(const char *text, size_t length, WrKey *key, WrError *err);
+/* WR_MOD_ bits of SDL's. The right Alt key is AltGr, which is none of them, in layouts without a key for brackets. */
 int wr_key_mods(SDL_Keymod held);
 
 typedef struct WrKeyMap WrKeyMap;
@@ -30,9 +31,13 @@ void wr_keys_free(WrKeyMap *map);
 /* Apply lines: each sets the keys of its action and removes these keys from other actions. '#' starts a comment. On
  * an error, which contains the line number, the map is unchanged. */
 bool wr_keys_read(WrKeyMap *map, const char *text, WrError *err);
-/* The action of a key, or NULL. Valid while the map is unchanged. A key without an action by its label is found by
- * its position if that is a bracket on a US keyboard, since other layouts lack bracket keys. */
+/* The action of a key, or NULL. Valid while the map is unchanged. If the layout has no keys for digits or brackets, a key
+ * without an action by its label is found by its position on a US keyboard; if a key beside P has a shortcut of its own,
+ * such as "+", the brackets are also on the two keys below, right of L. */
 const char *wr_keys_find(const WrKeyMap *map, SDL_Keysym sym);
+/* The action of a typed sign that no key has without Shift or AltGr, such as "/" on a German keyboard, or NULL. For text
+ * whose key has no action itself. */
+const char *wr_keys_find_typed(const WrKeyMap *map, const char *text);
 /* True if exactly these modifiers (WR_MOD_ bits) are the keys of a modifier action. */
 bool wr_keys_hold(const WrKeyMap *map, const char *action, int held);
 /* The sign on each key of the keyboard: SDL_GetKeyFromScancode, or a test's layout. */

@@ -62,6 +62,7 @@ typedef struct WrInputRouter {
     bool on_canvas, on_patch; /* the pointer is over that view and not over a widget */
     bool line;                /* the straight-line key is held */
     SDL_Keycode line_key, quick_key;
+    bool key_is_free; /* the last key had no action: the sign it types may have one */
     /* clock at which the key for painting on the patch was pressed; 0: not pressed */
     double quick_at;
     int quick_events; /* brush.strokes at that time */
