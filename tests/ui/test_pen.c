@@ -230,7 +230,7 @@ static int add_pen(WrPen *pen, const char *name, bool eraser, double low, double
 {
     int index = wr_pen_unit(pen, name, eraser, false);
     WrPenDevice *d = &pen->units.data[index].shown;
-    d->there = d->has_place = d->has_tilt = true;
+    d->there = d->has_place = d->has_tilt = d->has_turn = true;
     d->has_pressure = high > low;
     d->pressure_low = low;
     d->pressure_high = high;
@@ -557,9 +557,21 @@ static void play_something(WrPen *pen)
                                  .pressure = 2047.0 * test_random(&r),
                                  .tilt_x = 2.0 * test_random(&r) - 1.0,
                                  .tilt_y = test_random(&r),
+                                 .turn_deg = i % 3 == 0 ? 0.0 : 1000.0 * test_random(&r),
                                  .seconds = i * 0.001 };
         wr_pen_feed(pen, i % 400 < 300 ? stylus : eraser, &reading);
     }
+    const WrPenEvent grip = { .kind = WR_PEN_GRIP,
+                              .device = stylus,
+                              .button = 1,
+                              .held = pen->units.data[stylus].held,
+                              .x = 3.5,
+                              .grip = { -3.25, 1.0 / 3.0, 1.07, -12.5 },
+                              .seconds = 3.5 };
+    wr_pen_push(pen, &grip);
+    feed(pen, stylus, WR_PEN_CANCEL, 0, 3.6);
+    const WrPenEvent tap = { .kind = WR_PEN_TAP, .device = stylus, .button = 4, .seconds = 3.7 };
+    wr_pen_push(pen, &tap);
     feed(pen, stylus, WR_PEN_UP, 0, 4);
     feed(pen, stylus, WR_PEN_DOWN, 0.3, 5); /* and stays down */
 }
@@ -574,7 +586,10 @@ static void check_same(const WrPenEvent *a, const WrPenEvent *b)
     assert_true(same_bits(a->x, b->x) && same_bits(a->y, b->y));
     assert_true(same_bits(a->raw, b->raw) && same_bits(a->pressure, b->pressure));
     assert_true(same_bits(a->tilt_x, b->tilt_x) && same_bits(a->tilt_y, b->tilt_y));
-    assert_true(same_bits(a->seconds, b->seconds));
+    assert_true(same_bits(a->seconds, b->seconds) && same_bits(a->turn_deg, b->turn_deg));
+    assert_true(same_bits(a->grip.dx, b->grip.dx) && same_bits(a->grip.dy, b->grip.dy));
+    assert_true(same_bits(a->grip.scale, b->grip.scale));
+    assert_true(same_bits(a->grip.turn_deg, b->grip.turn_deg) && fabs(a->turn_deg) <= 180.0);
 }
 
 static void a_recorded_file_replayed_gives_the_same_events(void **state)
@@ -682,8 +697,13 @@ static void hostile_recordings_are_refused_with_their_line(void **state)
         { "wrinkle-pen 1\ndevice 0 pen\n", ":2: a device is" },
         { HEAD "device 0 pen 1 1 0 1 b\n", ":3: device 0: it is declared already" },
         { HEAD "wave 0 0 0 0 1 1 0 0 0 0\n", ":3: 'wave'" },
-        { HEAD "motion 0 0 0 0 1 1 0 0 0\n", ":3: an event has 10 numbers, not 9" },
-        { HEAD "motion 0 0 0 0 1 1 0 0 0 0 0\n", ":3: an event has 10 numbers, not more" },
+        { HEAD "motion 0 0 0 0 1 1 0 0 0\n", ":3: an event has 10 or 11 numbers, not 9" },
+        { HEAD "motion 0 0 0 0 1 1 0 0 0 0 0 0\n", ":3: an event has 10 or 11 numbers, not 12" },
+        { HEAD "motion 0 0 0 0 1 1 0 0 0 0 181\n", ":3: turn '181'" },
+        { HEAD "grip 0 0 0 0 1 1 0 0 0 0 0\n", ":3: a grip has 15 numbers, not 11" },
+        { HEAD "grip 0 0 0 0 1 1 0 0 0 0 0 1 1 0 0\n", ":3: scale '0'" },
+        { HEAD "tap 0 0 11 0 1 1 0 0 0 0\n", ":3: button '11'" },
+        { HEAD "cancel 0 0 1 0 1 1 0 0 0 0\n", ":3: button 1" },
         { HEAD "motion nan 0 0 0 1 1 0 0 0 0\n", ":3: seconds 'nan'" },
         { HEAD "motion 1e300 0 0 0 1 1 0 0 0 0\n", ":3: seconds" },
         { HEAD "motion 0 1e9 0 0 1 1 0 0 0 0\n", ":3: device '1e9'" },

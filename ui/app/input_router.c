@@ -394,15 +394,74 @@ static void pen_down(WrApp *app, const WrPointer *at, int device)
     pick(app, at);
 }
 
+/* A second finger came: discard the begun stroke, or drag of the patch. Other drags keep their result. */
+static void cancel_press(WrApp *app)
+{
+    const WrGrab grab = app->hand->grab;
+    if (wr_grab_on_patch(grab)) {
+        app->hand->grab = WR_GRAB_NONE;
+        wr_app_live_end(app);
+    } else if (grab == WR_GRAB_PATCH_PAINT || (grab == WR_GRAB_TOOL && wr_tool_now(app)->paints)) {
+        cancel_held(app);
+    } else {
+        wr_input_router_let_go(app);
+    }
+}
+
+/* The view that two fingers at a position work on; NULL: none. */
+static const SDL_Rect *view_under(const WrApp *app, const WrPenEvent *event)
+{
+    const int x = (int)event->x, y = (int)event->y;
+    if (wr_gui_owns_point(app->gui, x, y) || wr_gui_popup_open_now(app->gui)) return NULL;
+    if (wr_layout_inside(&app->layout->canvas, x, y))
+        return blocked(app) && !shows_effect(app) ? NULL : &app->layout->canvas;
+    return wr_layout_inside(&app->layout->patch, x, y) && !blocked(app) ? &app->layout->patch
+                                                                        : NULL;
+}
+
+/* Two fingers pan, zoom and turn the view in which they began. */
+static void grip(WrApp *app, const WrPenEvent *event)
+{
+    WrInputRouter *hand = app->hand;
+    const WrGrip *by = &event->grip;
+    if (hand->grab != WR_GRAB_NONE) return;
+    if (event->button == 1) hand->gripped = view_under(app, event);
+    if (hand->gripped == &app->layout->canvas) {
+        WrCanvasView *view = app->view;
+        wr_view_pan(view, by->dx, by->dy);
+        wr_view_zoom_at(view, event->x, event->y, view->zoom * by->scale);
+        if (by->turn_deg != 0.0)
+            wr_view_turn_at(view, event->x, event->y, view->turn + by->turn_deg);
+        hand->at = pointer_at(app, event->x, event->y, hand->button);
+    } else if (hand->gripped) {
+        wr_patch_grip(app, by);
+    }
+}
+
+/* Two fingers undo, three redo. */
+static void tap(WrApp *app, const WrPenEvent *event)
+{
+    if (app->hand->grab != WR_GRAB_NONE || blocked(app) || !view_under(app, event)) return;
+    if (event->button == 2) wr_action_run(app, WR_ACT(undo));
+    if (event->button == 3) wr_action_run(app, WR_ACT(redo));
+}
+
 void wr_input_router_pen(WrApp *app, const WrPenEvent *event)
 {
     WrInputRouter *hand = app->hand;
     bool holds = hand->grab != WR_GRAB_NONE && hand->device == event->device;
     app->input_at = wr_clock_seconds();
     wr_app_redraw(app);
-    if (event->kind == WR_PEN_LOST) {
+    switch (event->kind) {
+    case WR_PEN_LOST:
         if (holds) wr_input_router_let_go(app);
         return;
+    case WR_PEN_CANCEL:
+        if (holds) cancel_press(app);
+        return;
+    case WR_PEN_GRIP: grip(app, event); return;
+    case WR_PEN_TAP: tap(app, event); return;
+    default: break;
     }
     if (hand->grab != WR_GRAB_NONE && !holds) return;                 /* one pointer at a time */
     if (event->finger && !holds && wr_pen_in_range(app->pen)) return; /* a palm */
@@ -413,6 +472,7 @@ void wr_input_router_pen(WrApp *app, const WrPenEvent *event)
     at.pressure = event->pressure;
     at.tilt_x = event->tilt_x;
     at.tilt_y = event->tilt_y;
+    at.turn_deg = event->turn_deg;
     at.seconds = event->seconds;
     hand->events++;
     if (event->kind == WR_PEN_DOWN) pen_down(app, &at, event->device);

@@ -23,6 +23,14 @@
 
 static void pen_finger_event(WrPen *pen, const SDL_TouchFingerEvent *event);
 
+static void lose_all(WrPen *pen)
+{
+    for (int i = 0; i < pen->units.count; i++) {
+        wr_pen_lose(pen, i);
+        pen->units.data[i].fingers = (WrTouch){ 0 };
+    }
+}
+
 /* Called by SDL in the thread that reads the server's events, the window's. Other threads push events too; from them
    only keys and buttons are of these kinds, and they are not user input. */
 static int SDLCALL watch(void *data, SDL_Event *event)
@@ -38,7 +46,7 @@ static int SDLCALL watch(void *data, SDL_Event *event)
     case SDL_WINDOWEVENT:
         if (event->window.event == SDL_WINDOWEVENT_HIDDEN ||
             event->window.event == SDL_WINDOWEVENT_MINIMIZED)
-            for (int i = 0; i < pen->units.count; i++) wr_pen_lose(pen, i);
+            lose_all(pen);
         break;
     case SDL_KEYDOWN:
     case SDL_KEYUP:
@@ -214,9 +222,8 @@ void wr_pen_feed(WrPen *pen, int index, const WrPenReading *r)
         bit = 1u << r->button;
         if (((before & bit) != 0) == (r->kind == WR_PEN_DOWN)) return; /* unchanged */
     }
-    unsigned held = r->kind == WR_PEN_LOST ? 0
-                    : r->kind == WR_PEN_UP ? before & ~bit
-                                           : before | bit;
+    const bool ends = r->kind == WR_PEN_LOST || r->kind == WR_PEN_CANCEL;
+    unsigned held = ends ? 0 : r->kind == WR_PEN_UP ? before & ~bit : before | bit;
     WrPenDevice *d = &unit->shown;
     wr_pen_watch(unit, raw_of(unit, r->pressure), (held & 2u) != 0);
     if (isfinite(r->x) && isfinite(r->y)) {
@@ -227,6 +234,9 @@ void wr_pen_feed(WrPen *pen, int index, const WrPenReading *r)
     }
     unit->tilt_x = d->has_tilt ? taken(unit, r->tilt_x, -1.0, 1.0, unit->tilt_x) : 0.0;
     unit->tilt_y = d->has_tilt ? taken(unit, r->tilt_y, -1.0, 1.0, unit->tilt_y) : 0.0;
+    unit->turn_deg = d->has_turn && isfinite(r->turn_deg)
+                         ? r->turn_deg - 360.0 * rint(r->turn_deg / 360.0)
+                         : 0.0;
     if (isfinite(r->seconds) && r->seconds > unit->seconds) unit->seconds = r->seconds;
     unit->held = held;
     d->events++;
@@ -246,6 +256,7 @@ void wr_pen_feed(WrPen *pen, int index, const WrPenReading *r)
                                                     : 0.0,
                          .tilt_x = unit->tilt_x,
                          .tilt_y = unit->tilt_y,
+                         .turn_deg = unit->turn_deg,
                          .seconds = unit->seconds };
     wr_pen_push(pen, &event);
 }
@@ -262,6 +273,7 @@ void wr_pen_lose(WrPen *pen, int index)
                            d->pressure_low + unit->raw * (d->pressure_high - d->pressure_low),
                        .tilt_x = unit->tilt_x,
                        .tilt_y = unit->tilt_y,
+                       .turn_deg = unit->turn_deg,
                        .seconds = unit->seconds };
     wr_pen_feed(pen, index, &r);
 }
@@ -355,7 +367,7 @@ bool wr_pen_moves_mouse(const WrPen *pen)
     double now = wr_clock_seconds();
     if (pen->taken < pen->queue.count) return true;
     for (int i = 0; i < pen->units.count; i++)
-        if (pen->units.data[i].held) return true;
+        if (pen->units.data[i].held || pen->units.data[i].fingers.count > 0) return true;
     return now - pen->came_at < ECHO_SECONDS || now - pen->taken_at < ECHO_SECONDS;
 }
 
@@ -423,7 +435,7 @@ const char *wr_pen_diagnosis(WrPen *pen, int index)
 
 /* ---- fingers on a touch screen, through SDL ---- */
 
-/* One at a time, and none while a pen is near. */
+/* None while a pen is near. */
 
 static int unit_of(WrPen *pen, SDL_TouchID touch)
 {
@@ -441,29 +453,60 @@ static int unit_of(WrPen *pen, SDL_TouchID touch)
     return index;
 }
 
+static void feed_report(WrPen *pen, int index, const WrTouchOut *out)
+{
+    WrPenUnit *unit = &pen->units.data[index];
+    if (out->report == WR_TOUCH_GRIP || out->report == WR_TOUCH_TAP) {
+        const bool grips = out->report == WR_TOUCH_GRIP;
+        WrPenEvent event = { .kind = grips ? WR_PEN_GRIP : WR_PEN_TAP,
+                             .device = index,
+                             .finger = true,
+                             .button = grips ? out->begins : out->fingers,
+                             .held = unit->held,
+                             .x = out->x,
+                             .y = out->y,
+                             .grip = out->grip,
+                             .seconds = out->seconds };
+        if (!wr_pen_replaying(pen)) wr_pen_push(pen, &event);
+        return;
+    }
+    WrPenReading r = { .kind = out->report == WR_TOUCH_PRESS     ? WR_PEN_DOWN
+                               : out->report == WR_TOUCH_RELEASE ? WR_PEN_UP
+                               : out->report == WR_TOUCH_CANCEL  ? WR_PEN_CANCEL
+                                                                 : WR_PEN_MOTION,
+                       .button = 1,
+                       .x = out->x,
+                       .y = out->y,
+                       .pressure = out->pressure,
+                       .seconds = out->seconds };
+    wr_pen_feed(pen, index, &r);
+}
+
 static void pen_finger_event(WrPen *pen, const SDL_TouchFingerEvent *event)
 {
-    if (event->touchId == SDL_MOUSE_TOUCHID ||
-        SDL_GetTouchDeviceType(event->touchId) != SDL_TOUCH_DEVICE_DIRECT)
+    const SDL_TouchDeviceType type = SDL_GetTouchDeviceType(event->touchId);
+    if (event->touchId == SDL_MOUSE_TOUCHID || type == SDL_TOUCH_DEVICE_INDIRECT_ABSOLUTE ||
+        type == SDL_TOUCH_DEVICE_INDIRECT_RELATIVE)
         return;
     if (event->windowID != 0 && event->windowID != SDL_GetWindowID(pen->window)) return;
     int index = unit_of(pen, event->touchId), width, height;
     WrPenUnit *unit = &pen->units.data[index];
     if (wr_pen_in_range(pen)) { /* a palm */
         wr_pen_lose(pen, index);
+        unit->fingers = (WrTouch){ 0 };
         return;
     }
-    bool down = event->type == SDL_FINGERDOWN;
-    if (down ? unit->held != 0 : unit->held == 0 || unit->finger != event->fingerId) return;
-    unit->finger = event->fingerId;
     SDL_GetWindowSize(pen->window, &width, &height);
-    WrPenReading r = { .kind = down                          ? WR_PEN_DOWN
-                               : event->type == SDL_FINGERUP ? WR_PEN_UP
-                                                             : WR_PEN_MOTION,
-                       .button = 1,
-                       .x = (double)event->x * width,
-                       .y = (double)event->y * height,
-                       .pressure = (double)event->pressure,
-                       .seconds = wr_pen_seconds(unit, event->timestamp) };
-    wr_pen_feed(pen, index, &r);
+    const WrTouchKind kind = event->type == SDL_FINGERDOWN ? WR_TOUCH_DOWN
+                             : event->type == SDL_FINGERUP ? WR_TOUCH_UP
+                                                           : WR_TOUCH_MOVE;
+    const WrFinger finger = { .id = event->fingerId,
+                              .x = (double)event->x * width,
+                              .y = (double)event->y * height,
+                              .pressure = (double)event->pressure,
+                              .seconds = wr_pen_seconds(unit, event->timestamp) };
+    WrTouchOut out[WR_TOUCH_OUT];
+    const int count = wr_touch_event(&unit->fingers, kind, &finger, out);
+    for (int i = 0; i < count; i++) feed_report(pen, index, &out[i]);
+    pen->came_at = wr_clock_seconds();
 }

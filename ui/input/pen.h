@@ -6,6 +6,7 @@
    window reads them: none is dropped, however slow a frame was. All other calls are from the window's thread. */
 #pragma once
 #include "ui/input/pen_curve.h"
+#include "ui/input/touch.h"
 
 #include <SDL.h>
 #include <stdbool.h>
@@ -17,7 +18,10 @@ typedef enum WrPenKind {
     WR_PEN_MOTION, /* button 0: hover */
     WR_PEN_DOWN,
     WR_PEN_UP,
-    WR_PEN_LOST, /* the device or its window focus was lost: its actions end here */
+    WR_PEN_LOST,   /* the device or its window focus was lost: its actions end here */
+    WR_PEN_CANCEL, /* a second finger came: the press is taken back */
+    WR_PEN_GRIP,   /* two or more fingers move; button 1: the first such event */
+    WR_PEN_TAP,    /* two or more fingers tapped; button: their number */
     WR_PEN_KINDS
 } WrPenKind;
 
@@ -26,21 +30,23 @@ typedef struct WrPenEvent {
     int device;  /* index into the devices */
     bool eraser; /* the eraser end */
     bool finger;
-    int button;    /* DOWN, UP: 1 the tip, 2 and 3 on the barrel */
+    int button;    /* DOWN, UP: 1 the tip, 2 and 3 on the barrel; also of GRIP and TAP */
     unsigned held; /* bit n: button n is down after this event */
     double x, y;   /* pixels of the window, sub-pixel: 0.5 is the centre of the first */
     double raw;    /* pressure 0..1 from the device, clamped */
     /* pressure after the device's curve; 1 while a device without pressure is down */
     double pressure;
     double tilt_x, tilt_y; /* -1..1, to the right and towards the user; 0 without */
+    double turn_deg;       /* about the pen's own axis, clockwise, -180..180; 0 without */
+    WrGrip grip;           /* of GRIP */
     double seconds;        /* server time; only differences are meaningful */
 } WrPenEvent;
 
 typedef struct WrPenDevice {
     char name[96];
-    bool eraser, finger, there;             /* there: plugged in and enabled */
-    bool has_pressure, has_tilt, has_place; /* capabilities claimed by the device */
-    double pressure_low, pressure_high;     /* range of the axis */
+    bool eraser, finger, there;                       /* there: plugged in and enabled */
+    bool has_pressure, has_tilt, has_turn, has_place; /* capabilities claimed by the device */
+    double pressure_low, pressure_high;               /* range of the axis */
     /* statistics */
     int64_t events, presses, bad_values;
     double raw_least, raw_most; /* while pressed */
@@ -89,8 +95,9 @@ bool wr_pen_event_at(const WrPen *pen, int64_t number, WrPenEvent *event);
  *   wrinkle-pen 1                                            the first line
  *   device INDEX KIND PRESSURE TILT LOW HIGH NAME            before its first event. KIND: pen, eraser or
  *                                                            finger; PRESSURE, TILT: 1 if it has one
- *   EVENT SECONDS INDEX BUTTON HELD X Y RAW PRESSURE TILT_X TILT_Y    as in WrPenEvent; EVENT: motion,
- *                                                            down, up or lost
+ *   EVENT SECONDS INDEX BUTTON HELD X Y RAW PRESSURE TILT_X TILT_Y [TURN [DX DY SCALE GRIP_TURN]]
+ *                                                            as in WrPenEvent; EVENT: motion, down, up, lost,
+ *                                                            cancel, grip or tap
  *
  * Lines that begin with # are comments. Errors contain the line number: syntax, range, decreasing time, or
  * inconsistent held buttons. Nothing is replayed then. */

@@ -22,6 +22,7 @@ typedef struct WrPenReading {
     double x, y;           /* pixels of the window */
     double pressure;       /* pressure_low..pressure_high */
     double tilt_x, tilt_y; /* -1..1 */
+    double turn_deg;       /* any angle */
     double seconds;
 } WrPenReading;
 
@@ -31,6 +32,7 @@ typedef enum WrPenAxisRole {
     WR_PEN_AXIS_PRESSURE,
     WR_PEN_AXIS_TILT_X,
     WR_PEN_AXIS_TILT_Y,
+    WR_PEN_AXIS_WHEEL, /* rotation about the pen's own axis */
     WR_PEN_AXES
 } WrPenAxisRole;
 
@@ -46,11 +48,11 @@ typedef struct WrPenUnit {
     WrPenDevice shown;
     int server_id; /* on the X server; -1: none */
     WrPenAxis axes[WR_PEN_AXES];
-    SDL_TouchID touch;   /* SDL's identifier of a touch device */
-    SDL_FingerID finger; /* the finger that is down */
-    bool replayed;       /* exists only in a file */
+    SDL_TouchID touch; /* SDL's identifier of a touch device */
+    WrTouch fingers;   /* its fingers */
+    bool replayed;     /* exists only in a file */
     unsigned held;
-    double x, y, raw, tilt_x, tilt_y, seconds; /* newest values */
+    double x, y, raw, tilt_x, tilt_y, turn_deg, seconds; /* newest values */
     bool raw_known;
     bool raw_moved;   /* it has changed, hovering included */
     int still;        /* events with the tip down and constant pressure */

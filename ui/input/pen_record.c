@@ -20,14 +20,17 @@
 #define FIRST_LINE "wrinkle-pen 1"
 #define MAX_FILE ((size_t)256 << 20) /* bytes */
 #define DEVICES_MAX 64
-#define FIELDS_MAX 11
-#define PLACE_MAX 1e6 /* pixels */
+#define FIELDS_LEAST 10 /* without the turn */
+#define FIELDS_MAX 15   /* of a grip */
+#define PLACE_MAX 1e6   /* pixels */
 
 WR_ROWS(event_names);
-static const char *const event_names[WR_PEN_KINDS] = { [WR_ROW(WR_PEN_MOTION)] = "motion",
-                                                       [WR_ROW(WR_PEN_DOWN)] = "down",
-                                                       [WR_ROW(WR_PEN_UP)] = "up",
-                                                       [WR_ROW(WR_PEN_LOST)] = "lost" };
+static const char *const event_names[WR_PEN_KINDS] = {
+    [WR_ROW(WR_PEN_MOTION)] = "motion", [WR_ROW(WR_PEN_DOWN)] = "down",
+    [WR_ROW(WR_PEN_UP)] = "up",         [WR_ROW(WR_PEN_LOST)] = "lost",
+    [WR_ROW(WR_PEN_CANCEL)] = "cancel", [WR_ROW(WR_PEN_GRIP)] = "grip",
+    [WR_ROW(WR_PEN_TAP)] = "tap"
+};
 WR_ROWS_END(event_names, WR_PEN_KINDS);
 #define DEVICES(X) X(PEN, "pen") X(ERASER, "eraser") X(FINGER, "finger")
 enum { DEVICES(WR_WORD_ID) };
@@ -83,8 +86,11 @@ void wr_pen_record_event(WrPen *pen, const WrPenEvent *e)
     wr_text_addf(&line, "%s ", event_names[e->kind]);
     wr_text_add_number(&line, e->seconds);
     wr_text_addf(&line, " %d %d %u", e->device, e->button, e->held);
-    const double numbers[] = { e->x, e->y, e->raw, e->pressure, e->tilt_x, e->tilt_y };
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+    const WrGrip *g = &e->grip;
+    const double numbers[] = { e->x,        e->y,  e->raw, e->pressure, e->tilt_x,  e->tilt_y,
+                               e->turn_deg, g->dx, g->dy,  g->scale,    g->turn_deg };
+    const size_t count = e->kind == WR_PEN_GRIP ? 11 : e->turn_deg != 0.0 ? 7 : 6;
+    for (size_t i = 0; i < count; i++) {
         wr_text_add(&line, " ");
         wr_text_add_number(&line, numbers[i]);
     }
@@ -198,14 +204,14 @@ static bool follows(FileDevice *d, const WrPenEvent *e, WrError *err)
 {
     bool button = e->kind == WR_PEN_DOWN || e->kind == WR_PEN_UP;
     unsigned bit = button ? 1u << e->button : 0u;
-    if (button != (e->button != 0))
+    const bool counts = e->kind == WR_PEN_GRIP || e->kind == WR_PEN_TAP;
+    if (!counts && button != (e->button != 0))
         return wr_fail(err, "button %d: 1..%d for down and up, else 0", e->button, WR_PEN_BUTTONS);
     if (button && ((d->held & bit) != 0) == (e->kind == WR_PEN_DOWN))
         return wr_fail(err, "button %d of device %d is %s already", e->button, e->device,
                        e->kind == WR_PEN_DOWN ? "down" : "up");
-    unsigned held = e->kind == WR_PEN_LOST ? 0
-                    : e->kind == WR_PEN_UP ? d->held & ~bit
-                                           : d->held | bit;
+    const bool ends = e->kind == WR_PEN_LOST || e->kind == WR_PEN_CANCEL;
+    unsigned held = ends ? 0 : e->kind == WR_PEN_UP ? d->held & ~bit : d->held | bit;
     if (e->held != held)
         return wr_fail(err, "held %u: by the events before it is %u", e->held, held);
     if (e->seconds < d->seconds)
@@ -216,23 +222,35 @@ static bool follows(FileDevice *d, const WrPenEvent *e, WrError *err)
     return true;
 }
 
-/* Parse: EVENT SECONDS INDEX BUTTON HELD X Y RAW PRESSURE TILT_X TILT_Y */
+static bool read_grip(const Field f[4], WrGrip *grip, WrError *err)
+{
+    return number_of(&f[0], "dx", -PLACE_MAX, PLACE_MAX, &grip->dx, err) &&
+           number_of(&f[1], "dy", -PLACE_MAX, PLACE_MAX, &grip->dy, err) &&
+           number_of(&f[2], "scale", 1e-3, 1e3, &grip->scale, err) &&
+           number_of(&f[3], "turn", -180, 180, &grip->turn_deg, err);
+}
+
+/* Parse: EVENT SECONDS INDEX BUTTON HELD X Y RAW PRESSURE TILT_X TILT_Y [TURN [DX DY SCALE GRIP_TURN]] */
 static bool read_event(Reader *reader, const Field *name, const char *at, const char *end,
                        WrError *err)
 {
-    Field f[FIELDS_MAX];
-    int held, kind = word_of(name, event_names, WR_PEN_KINDS);
+    Field f[FIELDS_MAX + 1];
+    int held, count = 0, kind = word_of(name, event_names, WR_PEN_KINDS);
     WrPenEvent e = { 0 };
     if (kind < 0)
-        return wr_fail(err, "'%.*s': device, motion, down, up or lost",
+        return wr_fail(err, "'%.*s': device, motion, down, up, lost, cancel, grip or tap",
                        name->length < 40 ? (int)name->length : 40, name->text);
-    for (int i = 0; i < 10; i++)
-        if (!next_field(&at, end, &f[i])) return wr_fail(err, "an event has 10 numbers, not %d", i);
-    if (next_field(&at, end, &f[10])) return wr_fail(err, "an event has 10 numbers, not more");
+    while (count <= FIELDS_MAX && next_field(&at, end, &f[count])) count++;
+    const bool grips = kind == WR_PEN_GRIP;
+    if (grips ? count != FIELDS_MAX : count != FIELDS_LEAST && count != FIELDS_LEAST + 1)
+        return wr_fail(
+            err, grips ? "a grip has 15 numbers, not %d" : "an event has 10 or 11 numbers, not %d",
+            count);
     e.kind = (WrPenKind)kind;
     if (!number_of(&f[0], "seconds", 0, 1e12, &e.seconds, err) ||
         !whole_of(&f[1], "device", DEVICES_MAX - 1, &e.device, err) ||
-        !whole_of(&f[2], "button", WR_PEN_BUTTONS, &e.button, err) ||
+        !whole_of(&f[2], "button", kind == WR_PEN_TAP ? WR_FINGERS : WR_PEN_BUTTONS, &e.button,
+                  err) ||
         !whole_of(&f[3], "held", (1 << (WR_PEN_BUTTONS + 1)) - 1, &held, err) ||
         !number_of(&f[4], "x", -PLACE_MAX, PLACE_MAX, &e.x, err) ||
         !number_of(&f[5], "y", -PLACE_MAX, PLACE_MAX, &e.y, err) ||
@@ -241,11 +259,14 @@ static bool read_event(Reader *reader, const Field *name, const char *at, const 
         !number_of(&f[8], "tilt x", -1, 1, &e.tilt_x, err) ||
         !number_of(&f[9], "tilt y", -1, 1, &e.tilt_y, err))
         return false;
+    if (count > FIELDS_LEAST && !number_of(&f[10], "turn", -180, 180, &e.turn_deg, err))
+        return false;
+    if (grips && !read_grip(&f[11], &e.grip, err)) return false;
     FileDevice *d = &reader->devices[e.device];
     if (!d->declared) return wr_fail(err, "device %d: it is not declared before", e.device);
     e.held = (unsigned)held;
     e.eraser = d->kind == ERASER;
-    e.finger = d->kind == 2;
+    e.finger = d->kind == FINGER;
     if (!follows(d, &e, err)) return false;
     wr_array_push(&reader->events, e);
     return true;

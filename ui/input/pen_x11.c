@@ -29,8 +29,9 @@ struct WrPenX11 {
     int root_w, root_h; /* pixels of all displays together */
 };
 
-static const char *const atom_names[ATOMS] = { "Abs X",      "Abs Y",      "Abs Pressure",
-                                               "Abs Tilt X", "Abs Tilt Y", "Wacom Tool Type" };
+static const char *const atom_names[ATOMS] = { "Abs X",          "Abs Y",      "Abs Pressure",
+                                               "Abs Tilt X",     "Abs Tilt Y", "Abs Wheel",
+                                               "Wacom Tool Type" };
 
 /* A device may be unplugged between two requests. The server then sends an error, which would end the program without
    this handler. */
@@ -163,6 +164,7 @@ static void adopt(WrPen *pen, const XIDeviceInfo *info, const WrPenAxis axes[WR_
     unit->shown.has_pressure = is_absolute(pressure);
     unit->shown.has_tilt =
         is_absolute(&axes[WR_PEN_AXIS_TILT_X]) && is_absolute(&axes[WR_PEN_AXIS_TILT_Y]);
+    unit->shown.has_turn = is_absolute(&axes[WR_PEN_AXIS_WHEEL]);
     unit->shown.pressure_low = unit->shown.has_pressure ? pressure->low : 0.0;
     unit->shown.pressure_high = unit->shown.has_pressure ? pressure->high : 1.0;
     listen_to(pen->x11, pen->x11->window, info->deviceid, events, 4);
@@ -275,6 +277,13 @@ static double tilt_of(const WrPenAxis *axis)
     return (2.0 * axis->value - axis->low - axis->high) / (axis->high - axis->low);
 }
 
+/* The axis of an art pen covers one rotation: -900..899 of the wacom driver. */
+static double turn_of(const WrPenAxis *axis)
+{
+    return 360.0 * (axis->value - 0.5 * (axis->low + axis->high + 1.0)) /
+           (axis->high + 1.0 - axis->low);
+}
+
 static WrPenReading reading_of(const WrPen *pen, const WrPenUnit *unit)
 {
     int window_x, window_y;
@@ -287,6 +296,7 @@ static WrPenReading reading_of(const WrPen *pen, const WrPenUnit *unit)
         r.tilt_x = tilt_of(&axes[WR_PEN_AXIS_TILT_X]);
         r.tilt_y = tilt_of(&axes[WR_PEN_AXIS_TILT_Y]);
     }
+    if (unit->shown.has_turn) r.turn_deg = turn_of(&axes[WR_PEN_AXIS_WHEEL]);
     return r;
 }
 

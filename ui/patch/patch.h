@@ -16,6 +16,7 @@
 #include <stdint.h>
 
 typedef struct WrField WrField;
+typedef struct WrGrip WrGrip;
 typedef struct WrPointer WrPointer;
 typedef struct WrScene WrScene;
 
@@ -65,7 +66,8 @@ typedef struct WrPatch {
     double light_x, light_y;
     double from_turn;      /* environment rotation at the start */
     double zoom_commit_at; /* clock at which a wheel zoom becomes a command; 0: none */
-    bool zoom_angle;       /* the zoom changes the angle of view */
+    bool zoom_angle;       /* the zoom changes the angle of view, */
+    bool zoom_moves;       /* or also the camera's target or direction */
     WrPatchCube cube;
     WrPatchLate meanwhile;
 } WrPatch;
@@ -77,6 +79,8 @@ bool wr_patch_press(WrApp *app, const WrPointer *at);
 void wr_patch_drag(WrApp *app, const WrPointer *at);
 void wr_patch_release(WrApp *app);
 void wr_patch_wheel(WrApp *app, double steps);
+/* Two fingers: zoom; pan, or orbit the camera while one finger paints. */
+void wr_patch_grip(WrApp *app, const WrGrip *grip);
 /* zoom by the angle of view instead of the distance */
 void wr_patch_wheel_angle(WrApp *app, double steps);
 /* Run a pending wheel zoom as a command; now false: discard it. */

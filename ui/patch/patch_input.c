@@ -10,6 +10,7 @@
 #include "ui/app/state/scene_line.h"
 #include "ui/app/state/session_view.h"
 #include "ui/toolkit/gui.h"
+#include "ui/input/touch.h"
 #include "ui/patch/preview/rotation.h"
 
 #include "base/exactmath.h"
@@ -418,6 +419,18 @@ void wr_patch_wheel(WrApp *app, double steps)
     app->patch->zoom_commit_at = wr_clock_seconds() + ZOOM_COMMIT_SECONDS;
 }
 
+void wr_patch_grip(WrApp *app, const WrGrip *grip)
+{
+    WrPlacement at;
+    if (app->hand->grab != WR_GRAB_NONE || !wr_patch_place(app, &at)) return;
+    if (app->patch->zoom_angle && !app->busy) wr_patch_commit_zoom(app, true);
+    start_orbit(app);
+    if (wr_patch_paints(app)) orbit_camera(app, grip->dx, grip->dy, half_turn(app, &at));
+    else pan_camera(app, &at, grip->dx, grip->dy);
+    wr_patch_wheel(app, 6.0 * log2(grip->scale));
+    app->patch->zoom_moves = true;
+}
+
 void wr_patch_wheel_angle(WrApp *app, double steps)
 {
     const WrSceneParam *fov = &wr_scene_params[WR_SCENE_PARAM_FOV];
@@ -436,8 +449,14 @@ void wr_patch_commit_zoom(WrApp *app, bool now)
     if (app->patch->zoom_commit_at == 0.0 || app->busy)
         return; /* it waits for the running command */
     app->patch->zoom_commit_at = 0.0;
+    const bool moves = app->patch->zoom_moves;
+    app->patch->zoom_moves = false;
     if (!app->live || !now) {
         wr_app_live_end(app);
+        return;
+    }
+    if (moves) {
+        wr_viewport_commit_camera(app);
         return;
     }
     const WrCamera *camera = &app->live->camera;

@@ -9,6 +9,7 @@ typedef struct WrPointer {
     double u, v;           /* unwrapped position on the canvas */
     double pressure;       /* 0..1; of a mouse by settings.fake, 1 unless set */
     double tilt_x, tilt_y; /* -1..1, to the right and towards the user; 0 for a mouse */
+    double turn_deg;       /* of a pen about its own axis, clockwise, -180..180; 0 without */
     double seconds;        /* device clock; only differences are meaningful */
     bool pen;              /* a pen or a finger, not a mouse */
     bool eraser;           /* the eraser end of the pen */
@@ -65,8 +66,9 @@ typedef struct WrInputRouter {
     bool key_is_free; /* the last key had no action: the sign it types may have one */
     /* clock at which the key for painting on the patch was pressed; 0: not pressed */
     double quick_at;
-    int quick_events; /* brush.strokes at that time */
-    int device;       /* device that started the drag: a pen's index, or -1 */
-    double fake_at;   /* seconds of the mouse's last motion, for its simulated pressure */
-    int64_t events;   /* number of pointer events handled so far (latency.c) */
+    int quick_events;        /* brush.strokes at that time */
+    int device;              /* device that started the drag: a pen's index, or -1 */
+    double fake_at;          /* seconds of the mouse's last motion, for its simulated pressure */
+    const SDL_Rect *gripped; /* rectangle of the view that two fingers move; NULL: none */
+    int64_t events;          /* number of pointer events handled so far (latency.c) */
 } WrInputRouter;
