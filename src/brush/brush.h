@@ -123,9 +123,10 @@ typedef struct WrSample {
     double u, v;     /* any finite value; wraps on periodic axes */
     double pressure; /* 0..1; others are clamped, NaN becomes 0 (HC74) */
     double tilt_x,
-        tilt_y;     /* -1..1, to the right and towards the user; the round brush ignores them */
-    double seconds; /* since the stroke's start; a motion without times is assumed to have 400
+        tilt_y;      /* -1..1, to the right and towards the user; the round brush ignores them */
+    double seconds;  /* since the stroke's start; a motion without times is assumed to have 400
                        texels/s */
+    double turn_deg; /* of the pen about its own axis, clockwise; any angle; only presets use it */
     WrVec3 p; /* on a mesh: the point, instead of u and v; the nearest of the surface counts */
 } WrSample;
 

@@ -101,6 +101,12 @@ static void add_knot(WrEngine *engine, WrEnginePoint point, bool jump)
     wr_array_push(&engine->knots, ((WrKnot){ point, jump }));
 }
 
+/* -180..180 */
+static double short_way(double degrees)
+{
+    return degrees - 360.0 * rint(degrees / 360.0);
+}
+
 /* Interpolates the pen between two points. */
 static WrEnginePoint between(const WrEnginePoint *a, const WrEnginePoint *b, double seconds)
 {
@@ -111,6 +117,7 @@ static WrEnginePoint between(const WrEnginePoint *a, const WrEnginePoint *b, dou
                             .pressure = a->pressure + t * (b->pressure - a->pressure),
                             .tilt_x = a->tilt_x + t * (b->tilt_x - a->tilt_x),
                             .tilt_y = a->tilt_y + t * (b->tilt_y - a->tilt_y),
+                            .turn_deg = a->turn_deg + t * short_way(b->turn_deg - a->turn_deg),
                             .seconds = seconds };
 }
 
@@ -140,6 +147,7 @@ void wr_engine_push(WrEngine *engine, const WrEnginePoint *point)
     next.pressure = clamp(next.pressure, 0.0, 1.0);
     next.tilt_x = isnan(next.tilt_x) ? 0.0 : clamp(next.tilt_x, -1.0, 1.0);
     next.tilt_y = isnan(next.tilt_y) ? 0.0 : clamp(next.tilt_y, -1.0, 1.0);
+    next.turn_deg = isfinite(next.turn_deg) ? short_way(next.turn_deg) : 0.0;
     next.seconds = 0.0;
     double given = isfinite(point->seconds) ? point->seconds : engine->given, length = 0.0;
     if (engine->knots.count > 0) {
@@ -474,18 +482,20 @@ static void set_plain(WrEngine *engine)
                                 MYPAINT_BRUSH_INPUT_PRESSURE, 0);
 }
 
+/* The library counts the pen's turn in whole turns. */
 static void call(WrEngine *engine, double x, double y, double pressure, double tilt_x,
-                 double tilt_y, double seconds)
+                 double tilt_y, double turn_deg, double seconds)
 {
     mypaint_brush_stroke_to_2(engine->brush, &engine->surface, (float)x, (float)y, (float)pressure,
-                              (float)tilt_x, (float)tilt_y, seconds, 1.0f, 0.0f, 0.0f);
+                              (float)tilt_x, (float)tilt_y, seconds, 1.0f, 0.0f,
+                              (float)(turn_deg / 360.0));
 }
 
 /* Resets the brush at a position; a pause above 5 s starts a new stroke in the library. */
 static void place(WrEngine *engine, double x, double y)
 {
     mypaint_brush_reset(engine->brush);
-    call(engine, x, y, 0.0, 0.0, 0.0, 10.0);
+    call(engine, x, y, 0.0, 0.0, 0.0, 0.0, 10.0);
 }
 
 /* A step with the older interface, which initialises the library's current values instead of reading
@@ -583,7 +593,7 @@ static void engine_go(WrEngine *engine, const WrEnginePoint *point, double secon
     if (fabs(x) > OFF || fabs(y) > OFF)
         move_origin(engine, rint(x / REBASE) * base, rint(y / REBASE) * base);
     call(engine, across(engine, point->x), down(engine, point->y), point->pressure, point->tilt_x,
-         point->tilt_y, seconds);
+         point->tilt_y, point->turn_deg, seconds);
 }
 
 static double state(const WrEngine *engine, MyPaintBrushState which)

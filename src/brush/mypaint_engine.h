@@ -13,7 +13,7 @@
    the library's state SMUDGE_RA is the dragged height, unbounded.
 
    Tilt is MyPaint's: x to the right, y towards the user, 1 is 60 degrees; ascension is the direction of
-   the pen's tilt, in degrees, 0 towards the user, 90 to the left. Angles of dabs, clockwise in the
+   the pen's tilt, in degrees, 0 towards the user, 90 to the left. The pen's turn is interpolated the short way. Angles of dabs, clockwise in the
    library, are converted to anticlockwise. The alpha of an eraser's dabs is the erased fraction; for
    other presets the fraction not erased.
 
@@ -42,7 +42,8 @@ void wr_engine_free(WrEngine *engine); /* NULL is allowed */
 typedef struct WrEnginePoint {
     double x, y; /* texels, not wrapped: continuous along the stroke, any size */
     double pressure, tilt_x, tilt_y;
-    double seconds; /* since the stroke's start */
+    double seconds;  /* since the stroke's start */
+    double turn_deg; /* of the pen about its own axis, any angle */
 } WrEnginePoint;
 
 /* Adds one more point without drawing. */

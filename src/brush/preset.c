@@ -310,7 +310,8 @@ static const WrInputInfo input_rows[MYPAINT_BRUSH_INPUTS_COUNT] = {
                                        "Of the view, logarithmic; strokes here are drawn at 0.",
                                        -2.77, 4.15 },
     [MYPAINT_BRUSH_INPUT_BARREL_ROTATION] = { "barrel_rotation", "Pen's turn",
-                                              "About its own axis, degrees; 0 here.", -180, 180 },
+                                              "Of an art pen about its own axis, degrees.", -180,
+                                              180 },
     [MYPAINT_BRUSH_INPUT_BRUSH_RADIUS] = { "brush_radius", "Radius",
                                            "Logarithm of the brush's radius in texels.", -2, 6 },
 };

@@ -218,7 +218,7 @@ static bool spaced_last(WrSpaced *s, WrDab *dab)
 
 typedef struct Spot {
     double x, y; /* texels, from wr_paint_place */
-    double pressure, tilt_x, tilt_y, seconds;
+    double pressure, tilt_x, tilt_y, turn_deg, seconds;
     WrMeshStep step; /* on a mesh: x and y are developed */
 } Spot;
 
@@ -371,6 +371,7 @@ static void take_point(WrStroke *stroke, const Spot *spot)
                             .pressure = spot->pressure,
                             .tilt_x = spot->tilt_x,
                             .tilt_y = spot->tilt_y,
+                            .turn_deg = spot->turn_deg,
                             .seconds = spot->seconds };
     wr_engine_push(stroke->engine, &point);
 }
@@ -413,6 +414,8 @@ static void push_on_mesh(WrStroke *stroke, Spot spot, WrVec3 p)
             next.pressure = between(from.pressure, spot.pressure, t);
             next.tilt_x = between(from.tilt_x, spot.tilt_x, t);
             next.tilt_y = between(from.tilt_y, spot.tilt_y, t);
+            const double turn = spot.turn_deg - from.turn_deg;
+            next.turn_deg = from.turn_deg + t * (turn - 360.0 * rint(turn / 360.0));
             next.seconds = between(from.seconds, spot.seconds, t);
         }
         next.x = next.step.x, next.y = next.step.y;
@@ -427,6 +430,7 @@ void wr_stroke_push(WrStroke *stroke, WrSample sample)
     Spot spot = { .pressure = sample.pressure > 0.0 ? sample.pressure : 0.0, /* NaN: 0 */
                   .tilt_x = sample.tilt_x,
                   .tilt_y = sample.tilt_y,
+                  .turn_deg = sample.turn_deg,
                   .seconds = sample.seconds };
     if (spot.pressure > 1.0) spot.pressure = 1.0;
     if (brush_of(stroke)->pressure == WR_PRESSURE_NONE && !stroke->engine) spot.pressure = 1.0;

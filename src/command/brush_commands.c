@@ -34,13 +34,14 @@ static bool run_dab(WrSession *session, WrCall *call, WrError *err)
 static WrSample sample_of(const void *ctx, int i)
 {
     const WrArg *points = ctx;
-    const double *row = points->numbers + (size_t)6 * (size_t)i;
+    const double *row = points->numbers + (size_t)7 * (size_t)i;
     return (WrSample){ .u = row[0],
                        .v = row[1],
                        .pressure = points->counts[i] > 2 ? row[2] : 1,
                        .tilt_x = row[3],
                        .tilt_y = row[4],
-                       .seconds = row[5] };
+                       .seconds = row[5],
+                       .turn_deg = row[6] };
 }
 
 static bool run_stroke(WrSession *session, WrCall *call, WrError *err)
@@ -62,19 +63,21 @@ static const WrComponent sample_parts[] = {
     { "u", -1e9, 1e9, false },        { "v", -1e9, 1e9, false },
     { "pressure", -1e9, 1e9, false }, { "tilt_x", -1e9, 1e9, false },
     { "tilt_y", -1e9, 1e9, false },   { "seconds", -1e9, 1e9, false },
+    { "turn", -1e9, 1e9, false },
 };
 
 static const WrArgSpec args_stroke[] = {
     { .name = "points",
       .type = WR_ARG_LIST,
       .required = true,
-      .components = 6,
+      .components = 7,
       .parts = sample_parts,
-      .counts = TUPLE_OF(2) | TUPLE_OF(3) | TUPLE_OF(5) | TUPLE_OF(6),
+      .counts = TUPLE_OF(2) | TUPLE_OF(3) | TUPLE_OF(5) | TUPLE_OF(6) | TUPLE_OF(7),
       .rows_low = 1,
       .rows_high = WR_POINTS_MAX,
-      .shape = "u,v[,pressure[,tilt_x,tilt_y[,seconds]]];...",
-      .help = "the pen's samples in order; pressure is clamped to 0..1, tilt to -1..1" },
+      .shape = "u,v[,pressure[,tilt_x,tilt_y[,seconds[,turn]]]];...",
+      .help = "the pen's samples in order; pressure is clamped to 0..1, tilt to -1..1; "
+              "turn: degrees about the pen's axis" },
     { 0 }
 };
 
@@ -83,12 +86,13 @@ static const WrArgSpec args_stroke[] = {
 static WrSample mesh_sample_of(const void *ctx, int i)
 {
     const WrArg *points = ctx;
-    const double *row = points->numbers + (size_t)7 * (size_t)i;
+    const double *row = points->numbers + (size_t)8 * (size_t)i;
     return (WrSample){ .p = { row[0], row[1], row[2] },
                        .pressure = points->counts[i] > 3 ? row[3] : 1,
                        .tilt_x = row[4],
                        .tilt_y = row[5],
-                       .seconds = row[6] };
+                       .seconds = row[6],
+                       .turn_deg = row[7] };
 }
 
 static bool run_sculpt(WrSession *session, WrCall *call, WrError *err)
@@ -109,6 +113,7 @@ static const WrComponent mesh_sample_parts[] = {
     { "tilt_x", -1e9, 1e9, false },
     { "tilt_y", -1e9, 1e9, false },
     { "seconds", -1e9, 1e9, false },
+    { "turn", -1e9, 1e9, false },
 };
 
 /* By the bits of WrBrushGround.mirrors. */
@@ -118,12 +123,12 @@ static const WrArgSpec args_sculpt[] = {
     { .name = "points",
       .type = WR_ARG_LIST,
       .required = true,
-      .components = 7,
+      .components = 8,
       .parts = mesh_sample_parts,
-      .counts = TUPLE_OF(3) | TUPLE_OF(4) | TUPLE_OF(6) | TUPLE_OF(7),
+      .counts = TUPLE_OF(3) | TUPLE_OF(4) | TUPLE_OF(6) | TUPLE_OF(7) | TUPLE_OF(8),
       .rows_low = 1,
       .rows_high = WR_POINTS_MAX,
-      .shape = "x,y,z[,pressure[,tilt_x,tilt_y[,seconds]]];...",
+      .shape = "x,y,z[,pressure[,tilt_x,tilt_y[,seconds[,turn]]]];...",
       .help = "the pen's samples in order, in the mesh's own coordinates: of each, the nearest "
               "point of the surface counts" },
     { .name = "eye",

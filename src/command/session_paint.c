@@ -804,7 +804,8 @@ static WrSample round_sample(WrSample s, double decimals)
                        .pressure = round_decimals(clamp_finite(s.pressure, 0, 1), 1e4),
                        .tilt_x = round_decimals(clamp_finite(s.tilt_x, -1, 1), 1e4),
                        .tilt_y = round_decimals(clamp_finite(s.tilt_y, -1, 1), 1e4),
-                       .seconds = round_decimals(clamp_finite(s.seconds, 0, 1e9), 1e4) };
+                       .seconds = round_decimals(clamp_finite(s.seconds, 0, 1e9), 1e4),
+                       .turn_deg = round_decimals(clamp_finite(s.turn_deg, -360, 360), 1e2) };
 }
 
 bool wr_session_stroke_push(WrSession *session, const WrSample *samples, int count, WrError *err)
@@ -826,12 +827,13 @@ bool wr_session_stroke_push(WrSession *session, const WrSample *samples, int cou
         return wr_fail(err, "stroke: more than %d samples", WR_POINTS_MAX);
     for (int i = 0; i < count; i++) {
         WrSample s = round_sample(samples[i], decimals);
-        const double rest[] = { s.pressure, s.tilt_x, s.tilt_y, s.seconds };
-        double row[7] = { mesh ? s.p.x : s.u, mesh ? s.p.y : s.v, s.p.z };
+        const double rest[] = { s.pressure, s.tilt_x, s.tilt_y, s.seconds, s.turn_deg };
+        double row[8] = { mesh ? s.p.x : s.u, mesh ? s.p.y : s.v, s.p.z };
         const int place = mesh ? 3 : 2;
         memcpy(row + place, rest, sizeof rest);
-        /* Trailing defaults are omitted: u,v; u,v,pressure; with tilts 5, with times 6 numbers. */
-        int n = place + (s.seconds != 0                   ? 4
+        /* Trailing defaults are omitted: u,v; u,v,pressure; with tilts 5, with times 6, with turns 7 numbers. */
+        int n = place + (s.turn_deg != 0                  ? 5
+                         : s.seconds != 0                 ? 4
                          : s.tilt_x != 0 || s.tilt_y != 0 ? 3
                          : s.pressure != 1                ? 1
                                                           : 0);

@@ -69,7 +69,8 @@ static void run_line(Record *record, const WrBrush *brush, WrEnginePoint a, WrEn
                                      a.pressure + t * (b.pressure - a.pressure),
                                      a.tilt_x,
                                      a.tilt_y,
-                                     t * b.seconds };
+                                     t * b.seconds,
+                                     0 };
     }
     run(record, brush, points, events + 1);
     wr_free(points);
@@ -260,6 +261,32 @@ static void tilt_leans_as_mypaint_says(void **state)
         assert_int_equal(record.dabs.count, 1);
         assert_near(record.dabs.data[0].x, 100 + tilts[i][2], 0.2);
         assert_near(record.dabs.data[0].y, 100 + tilts[i][3], 0.2);
+    }
+    wr_array_free(&record.dabs);
+    wr_preset_free(preset);
+}
+
+/* An art pen that is turned turns the dabs, the short way from one sample to the next: from 150 to 210 degrees, not back
+   through 0. */
+static void the_turn_of_the_pen_turns_the_dabs(void **state)
+{
+    (void)state;
+    Record record = { 0 };
+    WrPreset *preset = preset_of(
+        STILL ", \"elliptical_dab_ratio\": {\"base_value\": 3}, \"elliptical_dab_angle\": "
+              "{\"base_value\": 0, \"inputs\": {\"barrel_rotation\": [[-180, -180], "
+              "[180, 180]]}}");
+    WrBrush brush = plain(preset, 4.0);
+    WrEnginePoint points[2] = { at(100, 100, 0), at(300, 100, 1) };
+    points[0].turn_deg = 150;
+    points[1].turn_deg = -150;
+    run(&record, &brush, points, 2);
+    assert_in_range(record.dabs.count, 50, 300);
+    for (int i = 0; i < record.dabs.count; i++) {
+        const WrDab *dab = &record.dabs.data[i];
+        const double turn = 150 + 60 * (dab->x - 100) / 200; /* clockwise; the angle is not */
+        const double turns = (-dab->angle_rad * 57.29577951308232 - turn) / 180;
+        assert_near(turns - rint(turns), 0, 0.02);
     }
     wr_array_free(&record.dabs);
     wr_preset_free(preset);
@@ -510,10 +537,10 @@ static void points_that_are_not_numbers_do_no_harm(void **state)
     WrEnginePoint points[] = { at(NAN, 0, 0),
                                at(0, INFINITY, 0),
                                at(10, 10, NAN),
-                               { 20, 10, NAN, NAN, NAN, 1 },
+                               { 20, 10, NAN, NAN, NAN, 1, NAN },
                                at(60, 10, -5),
                                at(90, 10, 1e300),
-                               { 99, 10, 9, 9, -9, -INFINITY } };
+                               { 99, 10, 9, 9, -9, -INFINITY, INFINITY } };
     run(&record, &brush, points, 7);
     assert_true(record.dabs.count > 10);
     for (int i = 0; i < record.dabs.count; i++)
@@ -537,6 +564,7 @@ int main(void)
         cmocka_unit_test(a_rest_sprays_for_as_long_as_it_lasts_but_for_a_second_at_most),
         cmocka_unit_test(angles_come_out_anticlockwise_as_seen),
         cmocka_unit_test(tilt_leans_as_mypaint_says),
+        cmocka_unit_test(the_turn_of_the_pen_turns_the_dabs),
         cmocka_unit_test(smudging_drags_heights_of_any_size),
         cmocka_unit_test(length_1_drags_the_first_height_for_ever),
         cmocka_unit_test(flow_and_the_erasing_part_are_in_alpha),

@@ -396,6 +396,7 @@ static void random_samples(TestRandom *random, WrSample *samples, int count)
         v += (test_random(random) - 0.4) * 0.1;
         const double pressure = test_random(random) * 1.2;
         samples[i] = sample_of(u, v, pressure, test_random(random) - 0.5, 0, i / 97.0);
+        if (i > count / 2) samples[i].turn_deg = 400 * test_random(random) - 200;
     }
 }
 

@@ -55,13 +55,13 @@ canvas=380x500+60+120
 device_units='function X(x) { return (x0 + x) * 65536 / 1280 } function Y(y) { return (y0 + y) * 65536 / 1024 }'
 
 # stroke DEVICE X0 Y0 X1 Y1 P0 P1 MOVES MS [T0 T1] [open]: press, move in a line, let go unless `open`.
-# Pixels of the window, pressure 0..1, tilt -64..63.
+# Pixels of the window, pressure 0..1, tilt -64..63; the turn is twice the tilt in degrees.
 stroke() {
     awk -v x0="$X" -v y0="$Y" -v ax="$2" -v ay="$3" -v bx="$4" -v by="$5" -v p="$6" -v q="$7" -v n="$8" \
         -v ms="$9" -v s="${10:-0}" -v t="${11:-0}" -v open="${12:-}" "$device_units"'
         function place(k) {
-            return sprintf("%.3f %.3f %.1f %.1f %.1f", X(ax + (bx - ax) * k), Y(ay + (by - ay) * k),
-                           65535 * (p + (q - p) * k), s + (t - s) * k, (s - t) * k)
+            return sprintf("%.3f %.3f %.1f %.1f %.1f %.1f", X(ax + (bx - ax) * k), Y(ay + (by - ay) * k),
+                           65535 * (p + (q - p) * k), s + (t - s) * k, (s - t) * k, 10 * (s + (t - s) * k))
         }
         BEGIN {
             print "m", place(0)
@@ -241,14 +241,15 @@ ends 0
 unset WRINKLE_PEN_REPLAY
 [[ $(hash_of played.exr) == "$(hash_of replayed.exr)" ]] || complain "a replay makes another document"
 
-# ---- tilt reaches a brush that goes by it ----
+# ---- tilt and turn reach a brush that goes by them ----
 settings 'preset classic/marker_fat'
 start flat.wrinkle
 stroke front 160 420 380 420 0.8 0.8 60 4 -60 60
 expect_strokes 1 'with a preset'
 points_of 1 >points
-awk 'NR == 1 { a = $4 } { b = $4; c = $5; s = $6 } END { exit !(a < -0.9 && b > 0.9 && c < -1.8 + 0.9 && s > 0.2 && s < 2) }' points ||
-    complain "tilt and time do not reach the stroke: $(tail -n 1 points)"
+awk 'NR == 1 { a = $4; d = $7 } { b = $4; c = $5; s = $6; e = $7 }
+     END { exit !(a < -0.9 && b > 0.9 && c < -1.8 + 0.9 && s > 0.2 && s < 2 && (d + 120) ^ 2 < 0.1 && (e - 120) ^ 2 < 0.1) }' points ||
+    complain "tilt, turn and time do not reach the stroke: $(tail -n 1 points)"
 awk '/^stroke/ { head = $0; sub(/ points=.*/, "", head); points = $0; sub(/.* points=/, "", points); sub(/ .*/, "", points)
         n = split(points, p, ";"); line = ""
         for (i = 1; i <= n; i++) {

@@ -9,6 +9,7 @@
 #include "ui/app/state/settings.h"
 
 #include "base/array.h"
+#include "base/exactmath.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "system/clock.h"
@@ -159,7 +160,7 @@ static void put_bar(Lines *at, const char *label, double value, WrColour colour)
     at->y += at->step;
 }
 
-/* A disc with a needle in the direction of the tilt, and the pen's three buttons. */
+/* A disc with a needle in the direction of the tilt and a mark at the pen's turn, and the pen's three buttons. */
 static void put_tilt(Lines *at, const WrPenDevice *d, const WrPenEvent *e)
 {
     static const char *const names[] = { "tip", "2", "3" };
@@ -171,6 +172,11 @@ static void put_tilt(Lines *at, const WrPenDevice *d, const WrPenEvent *e)
         double tx = x + r * e->tilt_x, ty = y + r * e->tilt_y;
         wr_gui_draw_line(x, y, tx, ty, WR_COLOUR_ACCENT, wr_gui_px(2));
         wr_gui_draw_disc(tx, ty, wr_gui_px(4), WR_COLOUR_STRONG);
+    }
+    if (d->has_turn) {
+        const double a = e->turn_deg / WR_DEG_PER_RAD, dx = sin(a), dy = -cos(a);
+        wr_gui_draw_line(x + 0.75 * r * dx, y + 0.75 * r * dy, x + r * dx, y + r * dy,
+                         WR_COLOUR_RAISE, wr_gui_px(3));
     }
     double bx = x + r + wr_gui_px(16), side = wr_gui_px(24);
     wr_gui_draw_text(bx, floor(at->y), WR_FONT_SMALL, WR_COLOUR_LABEL, "Buttons");

@@ -1,8 +1,8 @@
 /* Xorg input driver for tests: pens and a touch screen controlled by a script through a Unix socket (options
    SocketPath, ToolType: STYLUS, ERASER or TOUCH). X and Y of 0..65535 cover the whole screen. Lines:
 
-     m X Y P TX TY           move; pressure P of 0..65535, tilt -64..63
-     b BUTTON 0|1 X Y P TX TY    a button
+     m X Y P TX TY [TURN]           move; pressure P of 0..65535, tilt -64..63, turn -900..899
+     b BUTTON 0|1 X Y P TX TY [TURN]    a button
      t begin|update|end X Y      a finger
      s                       answer "ok": all earlier lines are done */
 #include <xorg-server.h>
@@ -21,7 +21,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
-#define AXES 5
+#define AXES 6 /* the last may be left out in lines */
 
 typedef struct Driver {
     int listener, client; /* -1: none */
@@ -78,10 +78,11 @@ static void run_line(InputInfoPtr info, Driver *driver)
     char what[16];
     int button, down;
     const char *line = driver->line;
-    if (sscanf(line, "m %lf %lf %lf %lf %lf", &v[0], &v[1], &v[2], &v[3], &v[4]) == AXES)
+    if (sscanf(line, "m %lf %lf %lf %lf %lf %lf", &v[0], &v[1], &v[2], &v[3], &v[4], &v[5]) >=
+        AXES - 1)
         post_motion(info, v);
-    else if (sscanf(line, "b %d %d %lf %lf %lf %lf %lf", &button, &down, &v[0], &v[1], &v[2], &v[3],
-                    &v[4]) == AXES + 2)
+    else if (sscanf(line, "b %d %d %lf %lf %lf %lf %lf %lf", &button, &down, &v[0], &v[1], &v[2],
+                    &v[3], &v[4], &v[5]) >= AXES + 1)
         post_button(info, button, down, v);
     else if (driver->touch && sscanf(line, "t %15s %lf %lf", what, &v[0], &v[1]) == 3)
         post_touch(info, what, v[0], v[1]);
@@ -140,15 +141,17 @@ static void make_pen(DeviceIntPtr device, const char *tool)
     static const char *const labels[AXES] = { AXIS_LABEL_PROP_ABS_X, AXIS_LABEL_PROP_ABS_Y,
                                               AXIS_LABEL_PROP_ABS_PRESSURE,
                                               AXIS_LABEL_PROP_ABS_TILT_X,
-                                              AXIS_LABEL_PROP_ABS_TILT_Y };
+                                              AXIS_LABEL_PROP_ABS_TILT_Y,
+                                              AXIS_LABEL_PROP_ABS_WHEEL };
+    static const int low[AXES] = { 0, 0, 0, -64, -64, -900 };
+    static const int high[AXES] = { 65535, 65535, 65535, 63, 63, 899 };
     unsigned char map[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
     Atom buttons[7] = { 0 }, axes[AXES];
     for (int i = 0; i < AXES; i++) axes[i] = XIGetKnownProperty(labels[i]);
     InitPointerDeviceStruct((DevicePtr)device, map, 7, buttons, nop_control, GetMotionHistorySize(),
                             AXES, axes);
     for (int i = 0; i < AXES; i++)
-        xf86InitValuatorAxisStruct(device, i, axes[i], i < 3 ? 0 : -64, i < 3 ? 65535 : 63, 1, 1, 1,
-                                   Absolute);
+        xf86InitValuatorAxisStruct(device, i, axes[i], low[i], high[i], 1, 1, 1, Absolute);
     InitProximityClassDeviceStruct(device);
     Atom value = MakeAtom(tool, strlen(tool), TRUE);
     XIChangeDeviceProperty(device, MakeAtom("Wacom Tool Type", 15, TRUE), XA_ATOM, 32,

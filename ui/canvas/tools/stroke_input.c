@@ -212,12 +212,13 @@ static void add_sample(WrApp *app, const WrPointer *at, WrSample place)
     WrBrushState *hand = app->brush;
     const WrBrush *brush = &hand->now;
     bool presses = brush->preset || brush->pressure != WR_PRESSURE_NONE;
-    /* Only presets use tilt and time; without them lines stay short. */
+    /* Only presets use tilt, turn and time; without them lines stay short. */
     WrSample sample = place;
     sample.pressure = presses ? at->pressure : 1.0;
     if (brush->preset) {
         sample.tilt_x = at->tilt_x;
         sample.tilt_y = at->tilt_y;
+        sample.turn_deg = at->turn_deg;
         sample.seconds = fmax(0.0, at->seconds - hand->began);
     }
     WrStrokeJob *job = &hand->jobs.data[hand->jobs.count - 1];
