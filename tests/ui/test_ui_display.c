@@ -43,9 +43,9 @@ static void the_word_says_what_becomes_of_pens(void **state)
     } rows[] = {
         { { NULL, ":0", NULL, "x11" }, "x11", NULL },
         { { NULL, ":1", "wayland-0", "wayland" }, "x11", "runs on XWayland" },
-        { { NULL, ":1", "wayland-0", "wayland" }, "wayland", "opened no window" },
-        { { NULL, NULL, "wayland-0", "wayland" }, "wayland", "no XWayland" },
-        { { "wayland", ":1", "wayland-0", NULL }, "wayland", "SDL_VIDEODRIVER opens" },
+        { { NULL, ":1", "wayland-0", "wayland" }, "wayland", NULL },
+        { { NULL, NULL, "wayland-0", "wayland" }, "wayland", NULL },
+        { { "wayland", ":1", "wayland-0", NULL }, "wayland", NULL },
         { { "x11", ":1", "wayland-0", NULL }, "x11", NULL }, /* as requested */
         { { NULL, ":1", "wayland-0", NULL }, "dummy", NULL },
         { { NULL, ":1", "wayland-0", NULL }, NULL, NULL },
@@ -58,8 +58,6 @@ static void the_word_says_what_becomes_of_pens(void **state)
         }
         assert_non_null(word);
         assert_non_null(strstr(word, rows[i].has));
-        const bool mice = strcmp(rows[i].opened, "wayland") == 0;
-        assert_true((strstr(word, "pens act as mice") != NULL) == mice);
     }
 }
 

@@ -393,6 +393,8 @@ static int wait_time(WrApp *app, double now)
     if (wr_input_waits(app) && app->redraw == 0) return 0;
     if (wr_pen_replaying(app->pen)) next = now + 0.002;
     if (app->redraw > 0 && app->visible) next = app->drawn_at + frame_seconds(app);
+    const double pens = wr_pen_wait(app->pen);
+    if (pens > 0.0 && now + pens < next) next = now + pens;
     for (const WrPart *const *p = app->registry->parts; *p; p++) {
         double due = (*p)->next_time ? (*p)->next_time(app) : 0.0;
         if (due > 0.0 && due < next) next = due;

@@ -323,7 +323,7 @@ void wr_input_router_update_hover(WrApp *app)
  * stays with the mouse: the press of a pen that did not hover before may arrive as a mouse press. */
 static bool is_echo(const WrApp *app, Uint32 which)
 {
-    if (which == SDL_TOUCH_MOUSEID) return true;
+    if (which == SDL_TOUCH_MOUSEID || which == WR_PEN_MOUSEID) return true;
     if (app->hand->grab != WR_GRAB_NONE) return app->hand->device != MOUSE;
     return wr_pen_moves_mouse(app->pen);
 }

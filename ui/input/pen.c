@@ -1,8 +1,10 @@
-/* Queue of pen events, and calibration of device values. The sources are pen_x11.c, SDL's touches and pen_record.c. */
+/* Queue of pen events, and calibration of device values. The sources are pen_x11.c, pen_wayland.c, SDL's touches and
+   pen_record.c. */
 #include "ui/input/pen.h"
 #include "ui/toolkit/words.h"
 #include "ui/input/pen_curve.h"
 #include "ui/input/pen_internal.h"
+#include "ui/input/pen_wayland.h"
 
 #include "base/array.h"
 #include "base/memory.h"
@@ -48,11 +50,16 @@ static int SDLCALL watch(void *data, SDL_Event *event)
             event->window.event == SDL_WINDOWEVENT_MINIMIZED)
             lose_all(pen);
         break;
+    case SDL_MOUSEMOTION:
+        if (pen->wayland) wr_pen_wayland_mouse(pen->wayland, &event->motion);
+        break;
     case SDL_KEYDOWN:
     case SDL_KEYUP:
     case SDL_MOUSEBUTTONDOWN:
     case SDL_MOUSEBUTTONUP:
-        if (SDL_ThreadID() == pen->thread) wr_pen_mark(pen, event);
+        if (SDL_ThreadID() != pen->thread) break;
+        if (pen->wayland) wr_pen_wayland_update(pen->wayland);
+        wr_pen_mark(pen, event);
         break;
     default: break;
     }
@@ -68,6 +75,7 @@ WrPen *wr_pen_new(SDL_Window *window)
     pen->why_not = "There is no window.";
     if (window) {
         pen->x11 = wr_pen_x11_new(pen, &pen->why_not);
+        if (!pen->x11) pen->wayland = wr_pen_wayland_new(pen, &pen->why_not);
         SDL_AddEventWatch(watch, pen);
     }
     wr_pen_record_start(pen);
@@ -81,6 +89,7 @@ void wr_pen_free(WrPen *pen)
     wr_pen_replay_end(pen);
     wr_pen_record(pen, "", NULL);
     wr_pen_x11_free(pen->x11);
+    wr_pen_wayland_free(pen->wayland);
     wr_array_free(&pen->units);
     wr_array_free(&pen->kept);
     wr_array_free(&pen->queue);
@@ -301,8 +310,14 @@ void wr_pen_sync(WrPen *pen)
     if (pen->x11) wr_pen_x11_sync(pen->x11);
 }
 
+double wr_pen_wait(const WrPen *pen)
+{
+    return pen->wayland ? wr_pen_wayland_wait(pen->wayland) : 0.0;
+}
+
 bool wr_pen_next(WrPen *pen, WrPenEvent *event)
 {
+    if (pen->wayland) wr_pen_wayland_update(pen->wayland);
     if (wr_pen_replaying(pen)) wr_pen_replay_step(pen);
     if (pen->taken >= pen->queue.count) return false;
     *event = pen->queue.data[pen->taken++];
@@ -425,7 +440,10 @@ const char *wr_pen_diagnosis(WrPen *pen, int index)
 {
     wr_text_clear(&pen->words);
     if (index >= 0 && index < pen->units.count) diagnose(&pen->units.data[index], &pen->words);
-    else if (!pen->x11) wr_text_add(&pen->words, pen->why_not);
+    else if (!pen->x11 && !pen->wayland) wr_text_add(&pen->words, pen->why_not);
+    else if (pen->units.count == 0 && pen->wayland)
+        wr_text_add(&pen->words, "No tablet was found. Plug it in, or look for it in the "
+                                 "desktop's settings.");
     else if (pen->units.count == 0)
         wr_text_add(&pen->words,
                     "No tablet was found. If one is plugged in, its driver is missing: on "

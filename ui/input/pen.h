@@ -1,6 +1,6 @@
-/* pen.h - tablet input: pressure, tilt, eraser and hover, and fingers with pressure, beside SDL's mouse. Uses XInput2
-   on SDL's own X11 connection (SDL 2 has no pens); fingers through SDL. On other systems there are no pens, and the
-   calls do nothing.
+/* pen.h - tablet input: pressure, tilt, turn, eraser and hover, and fingers with pressure, beside SDL's mouse. Uses XInput2,
+   or Wayland's tablet protocol, on SDL's own connection (SDL 2 has no pens); fingers through SDL. On other systems there are
+   no pens, and the calls do nothing.
 
    Events are received in an SDL event watch, with the server's time and sub-pixel positions, and queued until the
    window reads them: none is dropped, however slow a frame was. All other calls are from the window's thread. */
@@ -56,7 +56,10 @@ typedef struct WrPenDevice {
 
 typedef struct WrPen WrPen;
 
-/* Never fails: without an X11 window, or without XInput 2.2, there are no pens. window is borrowed. */
+/* SDL's mouse events with this `which` are made of a pen's, for the widgets. */
+#define WR_PEN_MOUSEID ((Uint32)-3)
+
+/* Never fails: without XInput 2.2 or Wayland's tablet protocol there are no pens. window is borrowed. */
 WrPen *wr_pen_new(SDL_Window *window);
 void wr_pen_free(WrPen *pen); /* NULL is allowed */
 
@@ -104,5 +107,7 @@ bool wr_pen_event_at(const WrPen *pen, int64_t number, WrPenEvent *event);
 bool wr_pen_record(WrPen *pen, const char *path, WrError *err);
 bool wr_pen_replay(WrPen *pen, const char *path, double speed, WrError *err);
 bool wr_pen_replaying(const WrPen *pen);
+/* Seconds until wr_pen_next should be called again even without an event of SDL; 0: not necessary. */
+double wr_pen_wait(const WrPen *pen);
 /* When this returns, SDL can read every event that the X server has now. */
 void wr_pen_sync(WrPen *pen);

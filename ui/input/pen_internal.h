@@ -63,6 +63,7 @@ typedef struct WrPenUnit {
 } WrPenUnit;
 
 typedef struct WrPenX11 WrPenX11;
+typedef struct WrPenWayland WrPenWayland;
 
 /* A key or button event of SDL, and the number of pen events before it. */
 typedef struct WrPenMark {
@@ -85,9 +86,10 @@ typedef struct WrPenReplay {
 } WrPenReplay;
 
 struct WrPen {
-    SDL_Window *window;  /* borrowed; NULL in tests */
-    SDL_threadID thread; /* the window's thread */
-    WrPenX11 *x11;       /* owned; NULL: no pens */
+    SDL_Window *window;    /* borrowed; NULL in tests */
+    SDL_threadID thread;   /* the window's thread */
+    WrPenX11 *x11;         /* owned; NULL: not on X11 */
+    WrPenWayland *wayland; /* owned; NULL: not on Wayland. Without both there are no pens. */
     const char *why_not;
     WR_ARRAY(WrPenUnit) units;
     WR_ARRAY(WrPenKept) kept;

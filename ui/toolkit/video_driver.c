@@ -27,7 +27,7 @@ WrDisplayEnv wr_display_env(void)
 }
 
 /* A list of SDL drivers in the order in which they are tried; NULL leaves the choice to SDL. On Wayland, XWayland comes
-   first, since pens act as mice on SDL's own Wayland. An explicit SDL_VIDEODRIVER always wins. */
+   first, since pictures on the clipboard are read from X11. An explicit SDL_VIDEODRIVER always wins. */
 const char *wr_display_driver(const WrDisplayEnv *env)
 {
     if (said(env->driver) || !is_wayland(env)) return NULL;
@@ -45,21 +45,9 @@ bool wr_display_no_output(const char *asked, const char *opened)
 
 const char *wr_display_driver_message(const WrDisplayEnv *env, const char *opened)
 {
-    const bool native = opened && strcmp(opened, "wayland") == 0;
-    if (!is_wayland(env) || !opened || (!native && strcmp(opened, "x11") != 0)) return NULL;
-    if (!native)
-        return said(env->driver)
-                   ? NULL
-                   : "The session is Wayland, where pens would act as mice: the window runs on "
-                     "XWayland, which passes on all pen values. SDL_VIDEODRIVER=wayland opens it "
-                     "on "
-                     "Wayland itself.";
-    if (said(env->driver))
-        return "SDL_VIDEODRIVER opens the window on Wayland itself, where pens act as mice. "
-               "Without it the window goes through XWayland, where there is one.";
-    return said(env->x11)
-               ? "XWayland opened no window; on Wayland itself pens act as mice."
-               : "There is no XWayland (DISPLAY is not set); on Wayland itself pens act as mice.";
+    if (!is_wayland(env) || !opened || strcmp(opened, "x11") != 0 || said(env->driver)) return NULL;
+    return "The session is Wayland: the window runs on XWayland, which passes on all pen values. "
+           "SDL_VIDEODRIVER=wayland opens it on Wayland itself.";
 }
 
 /* ---- presentation on the screen ---- */
