@@ -17,7 +17,7 @@ wr_test_packages=(
     libcmocka-dev clang clang-format libclang-rt-14-dev
     fonts-inter-variable fonts-lohit-deva
     dbus-daemon xvfb xauth xdotool xclip x11-utils openbox valgrind
-    xserver-xorg-core xserver-xorg-dev xserver-xorg-video-dummy xinput
+    weston xserver-xorg-core xserver-xorg-dev xserver-xorg-video-dummy xinput
     imagemagick openimageio-tools
     desktop-file-utils groff-base jq librsvg2-bin parallel python3-cffi python3-numpy shellcheck
 )
