@@ -388,7 +388,7 @@ static int64_t read_records(Reader *reader, Collector *c, WrJournalSeal seal, Wr
         if (torn ||
             !wr_journal_parse_line(line, length, &seal, &number, &kind, &text, &length, &why) ||
             (number < expected &&
-             !wr_fail(&why, "not line %" PRIu64 " of the journal", expected))) {
+             !wr_fail(&why, "not line %llu of the journal", (unsigned long long)expected))) {
             note_damage(c, read, line_number, why.text);
             bad++;
             continue;

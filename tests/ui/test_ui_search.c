@@ -413,6 +413,53 @@ static const Wanted in_german[] = {
     { "vollbild", "Full screen", NULL },
 };
 
+/* Typed in a French window. */
+static const Wanted in_french[] = {
+    { "pinceau", "Brush", NULL },
+    { "gomme", "Erase", NULL },
+    { "doigt", "Smear", NULL },
+    { "étaler", "Smear", NULL },
+    { "calque", "New layer", NULL },
+    { "nouveau calque", "New layer", NULL },
+    { "masque de calque", "Mask from selection", NULL },
+    { "opacité", "Opacity", NULL },
+    { "opacite", "Opacity", NULL },
+    { "dureté", "Hardness", NULL },
+    { "rugosité", "Roughness", NULL },
+    { "occlusion ambiante", "Ambient occlusion", NULL },
+    { "déplacement", "Displacement", NULL },
+    { "flou gaussien", "Gaussian blur", NULL },
+    { "netteté", "Sharpen", NULL },
+    { "sans raccord", "Edges", NULL },
+    { "raccordable", "Make seamless", NULL },
+    { "intervertir la sélection", "Invert selection", NULL },
+    { "annuler", "Undo", NULL },
+    { "rétablir", "Redo", NULL },
+    { "briques", "Bricks", NULL },
+    { "pavés", "Cracks", NULL },
+    { "tissu", "Weave", NULL },
+    { "taille du canevas", "New table...", NULL },
+    { "paramètres", "Preferences...", NULL },
+    { "enregistrer sous", "Save as...", NULL },
+    { "ouvrir", "Open...", NULL },
+    { "ajouter une lumière", "Add a light", NULL },
+    { "ombres", "Shadows of objects", NULL },
+    { "exposition", "Exposure", NULL },
+    { "miroir horizontal", "Flip left to right", NULL },
+    { "symétrie", "Symmetry...", NULL },
+    { "baguette magique", "Select by height...", NULL },
+    { "pot de peinture", "Fill an area", NULL },
+    { "pipette", "Pick height", NULL },
+    { "plein écran", "Full screen", NULL },
+    { "carte d'environnement", "Kind", "ENVIRONMENT" },
+    { "carte d’environnement", "Kind", "ENVIRONMENT" },
+    { "œil", "Layer is shown", NULL },
+    { "stabilisateur", "Stabilizer", NULL },
+    { "tampon", "Stamp", NULL },
+    { "nid d'abeilles", "Hexagons", NULL },
+    { "bosses", "Height", "BUMP" },
+};
+
 #define MOST 40
 
 static bool is_label(const char *shown, const char *english)
@@ -464,6 +511,12 @@ static void german_words_find_their_things_first(void **state)
 {
     (void)state;
     each_is_first("de", in_german, WR_LENGTH(in_german));
+}
+
+static void french_words_find_their_things_first(void **state)
+{
+    (void)state;
+    each_is_first("fr", in_french, WR_LENGTH(in_french));
 }
 
 /* ---- rows ---- */
@@ -562,6 +615,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(words_of_artists_find_their_things_first),
                                         cmocka_unit_test(german_words_find_their_things_first),
+                                        cmocka_unit_test(french_words_find_their_things_first),
                                         cmocka_unit_test(every_row_is_found_opened_and_lit),
                                         cmocka_unit_test(every_synonym_has_its_thing) };
     return cmocka_run_group_tests(tests, enter_window, remove_folder);

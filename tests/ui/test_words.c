@@ -124,13 +124,15 @@ static void the_environment_chooses_as_gettext_does(void **state)
         { NULL, NULL, "de_AT", "fr_FR", "de" },
         { NULL, "en_GB.UTF-8", "de_DE", "de_DE", "en" },
         { "de", NULL, NULL, NULL, "de" },
-        { "fr:de:en", NULL, NULL, "fr_FR.UTF-8", "de" },
+        { "fr:de:en", NULL, NULL, "de_DE.UTF-8", "fr" },
+        { "eo:de:en", NULL, NULL, "fr_FR.UTF-8", "de" },
+        { NULL, NULL, NULL, "fr_CA.UTF-8", "fr" },
         { "en:de", NULL, NULL, "de_DE.UTF-8", "en" },
         { "", NULL, NULL, "de_CH@euro", "de" },
         { "de", "C", NULL, "de_DE", "en" }, /* the plain locale is English for any LANGUAGE */
         { "de", "", "POSIX", "de_DE", "en" },
         { "de", "C.UTF-8", NULL, NULL, "de" },
-        { "fr", NULL, NULL, "it_IT", "en" },     /* not available */
+        { "eo", NULL, NULL, "it_IT", "en" },     /* not available */
         { "deutsch::", NULL, NULL, NULL, "en" }, /* only a prefix */
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
@@ -148,6 +150,20 @@ static void english_is_itself(void **state)
     assert_ptr_equal(wr_words(text), text);
     wr_words_choose(-7); /* no row: the environment's */
     wr_words_choose(1000);
+}
+
+static void every_language_of_the_table_has_its_file(void **state)
+{
+    (void)state;
+    int without = 0;
+    for (int i = 2; i < wr_language_count; i++) {
+        wr_words_choose(i);
+        without += strcmp(wr_words_language(), "en") == 0;
+        if (without == 0) assert_string_equal(wr_words_language(), wr_languages[i].code);
+    }
+    wr_words_choose(1);
+    if (without == wr_language_count - 2) skip(); /* a build without msgfmt */
+    assert_int_equal(without, 0);
 }
 
 /* Formats of the program whose German is known, by the catalogue of the build. */
@@ -197,6 +213,7 @@ int main(void)
         cmocka_unit_test(lengths_that_run_over_the_end_of_numbers_are_refused),
         cmocka_unit_test(the_environment_chooses_as_gettext_does),
         cmocka_unit_test(english_is_itself),
+        cmocka_unit_test(every_language_of_the_table_has_its_file),
         cmocka_unit_test(messages_are_said_by_their_formats),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

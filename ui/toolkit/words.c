@@ -19,7 +19,9 @@
 
 const WrLanguage wr_languages[] = { { "", "As the system" },
                                     { "en", "English" },
-                                    { "de", "Deutsch" } };
+                                    { "de", "Deutsch" },
+                                    { "fr", "Fran\xc3\xa7"
+                                            "ais" } };
 const int wr_language_count = WR_LENGTH(wr_languages);
 
 void (*wr_words_missed)(const char *english);

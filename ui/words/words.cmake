@@ -2,7 +2,7 @@
 # English. msgfmt refuses a translation of a format whose arguments are others than the English one's.
 find_program(MSGFMT msgfmt)
 if(MSGFMT)
-    foreach(language de)
+    foreach(language de fr)
         set(po ${CMAKE_CURRENT_LIST_DIR}/${language}.po)
         set(mo ${CMAKE_BINARY_DIR}/locale/${language}/LC_MESSAGES/wrinkle.mo)
         add_custom_command(

@@ -42,7 +42,7 @@ int wr_search_score(const char *label, const char *query)
 
 /* ---- the search of everything ---- */
 
-/* Latin letters of two bytes without their accents; the letter sz is two letters. */
+/* Latin letters of two bytes without their accents; sz, ae and oe are two letters. */
 static const char *plain_letter(unsigned char lead, unsigned char next)
 {
     static const char *const c3[64] = { "a", "a", "a", "a", "a", "a",  "ae", "c", "e", "e",  "e",
@@ -51,7 +51,15 @@ static const char *plain_letter(unsigned char lead, unsigned char next)
                                         "a", "a", "a", "a", "a", "ae", "c",  "e", "e", "e",  "e",
                                         "i", "i", "i", "i", "d", "n",  "o",  "o", "o", "o",  "o",
                                         " ", "o", "u", "u", "u", "u",  "y",  "t", "y" };
+    if (lead == 0xc5 && (next == 0x92 || next == 0x93)) return "oe";
     return lead == 0xc3 && next >= 0x80 && next < 0xc0 ? c3[next - 0x80] : NULL;
+}
+
+/* Bytes of an apostrophe, straight or curly; 0: none. */
+static size_t apostrophe(const unsigned char *c)
+{
+    if (*c == '\'') return 1;
+    return c[0] == 0xe2 && c[1] == 0x80 && c[2] == 0x99 ? 3 : 0;
 }
 
 void wr_search_fold(const char *text, WrText *out)
@@ -62,9 +70,16 @@ void wr_search_fold(const char *text, WrText *out)
         const char *plain = plain_letter(c[0], c[1]);
         const char one[2] = { (char)(*c >= 'A' && *c <= 'Z' ? *c + 32 : *c), '\0' };
         if (*c == ',') wr_text_add(out, ",");
-        if (*c == '\'') continue; /* "brush's" is one word */
-        if (!plain && !is_letter((char)*c)) {
+        const size_t mark = apostrophe(c);
+        if (mark > 0) { /* "brush's" is one word, "d'images" are two */
+            gap = gap || out->length < start + 2 || strchr(" ,", out->data[out->length - 2]);
+            c += mark - 1;
+            continue;
+        }
+        const bool space = c[0] == 0xc2 && c[1] == 0xa0; /* that does not break */
+        if (space || (!plain && !is_letter((char)*c))) {
             gap = true;
+            c += space;
             continue;
         }
         if (gap && out->length > start && out->data[out->length - 1] != ',') wr_text_add(out, " ");
@@ -77,8 +92,10 @@ void wr_search_fold(const char *text, WrText *out)
 static bool is_filler(const char *word)
 {
     static const char *const fillers[] = {
-        "a",  "an", "the", "of", "to",  "for", "with", "in",  "on",  "and", "or", "how",
-        "do", "i",  "my",  "is", "der", "die", "das",  "ein", "und", "wie", "zu", "mit"
+        "a",  "an", "the", "of",  "to",  "for",  "with", "in",   "on",   "and", "or", "how",
+        "do", "i",  "my",  "is",  "der", "die",  "das",  "ein",  "und",  "wie", "zu", "mit",
+        "l",  "le", "la",  "les", "un",  "une",  "d",    "de",   "du",   "des", "au", "aux",
+        "en", "et", "ou",  "par", "sur", "pour", "avec", "dans", "comme"
     };
     for (size_t i = 0; i < sizeof fillers / sizeof *fillers; i++)
         if (strcmp(word, fillers[i]) == 0) return true;
@@ -115,9 +132,8 @@ void wr_search_parse(const char *text, WrSearchQuery *query)
 /* True if the words differ only in their endings, such as those of plurals. */
 static bool same_stem(const char *a, size_t a_length, const char *b, size_t b_length)
 {
-    static const char *const ends[] = {
-        "", "s", "es", "e", "en", "n", "er", "ed", "d", "ing", "ern"
-    };
+    static const char *const ends[] = { "",   "s", "es",  "e",   "en", "n",  "er",
+                                        "ed", "d", "ing", "ern", "x",  "ee", "ees" };
     size_t common = 0;
     int known = 0;
     while (common < a_length && common < b_length && a[common] == b[common]) common++;
