@@ -97,6 +97,16 @@ finger() {
         }' | ./play glass || complain "the touch screen does not answer"
 }
 
+# fingers COUNT X Y DX: side by side; the last one moves.
+fingers() {
+    awk -v x0="$X" -v y0="$Y" -v n="$1" -v x="$2" -v y="$3" -v dx="$4" "$device_units"'
+        BEGIN {
+            for (k = 0; k < n; k++) print "t begin", X(x + 40 * k), Y(y), k
+            for (i = 1; i <= 10 && dx; i++) print "w 10\nt update", X(x + 40 * (n - 1) + dx * i / 10), Y(y), n - 1
+            for (k = 0; k < n; k++) print "t end", X(x + 40 * k + (k == n - 1 ? dx : 0)), Y(y), k
+        }' | ./play glass || complain "the touch screen does not answer"
+}
+
 # ---- what became of it ----
 
 # history: the commands so far, in history.wrinkle.
@@ -211,6 +221,23 @@ settle
 xdotool key Escape
 settle
 expect_strokes 7 'after the tester'
+
+# ---- two fingers undo, three redo; two that move change the view ----
+sleep 1.3 # the pen was near
+fingers 2 200 600 0
+rest
+expect_strokes 6 'after a tap of two fingers'
+fingers 3 200 600 0
+rest
+expect_strokes 7 'after a tap of three fingers'
+home
+shot before
+fingers 2 200 600 80
+home
+shot pinched
+changed=$(differs before pinched "$canvas")
+[[ ${changed%.*} -gt 500 ]] || complain "two fingers changed only $changed pixels of the view"
+expect_strokes 7 'after two fingers that moved'
 xdotool key ctrl+q
 settle
 xdotool key d

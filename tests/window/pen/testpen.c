@@ -3,7 +3,7 @@
 
      m X Y P TX TY [TURN]           move; pressure P of 0..65535, tilt -64..63, turn -900..899
      b BUTTON 0|1 X Y P TX TY [TURN]    a button
-     t begin|update|end X Y      a finger
+     t begin|update|end X Y [ID]        a finger
      s                       answer "ok": all earlier lines are done */
 #include <xorg-server.h>
 
@@ -59,12 +59,12 @@ static void post_button(InputInfoPtr info, int button, int down, const double v[
     valuator_mask_free(&mask);
 }
 
-static void post_touch(InputInfoPtr info, const char *what, double x, double y)
+static void post_touch(InputInfoPtr info, const char *what, double x, double y, unsigned id)
 {
     ValuatorMask *mask = valuator_mask_new(2);
     valuator_mask_set_double(mask, 0, x);
     valuator_mask_set_double(mask, 1, y);
-    xf86PostTouchEvent(info->dev, 1,
+    xf86PostTouchEvent(info->dev, id + 1,
                        strcmp(what, "begin") == 0 ? XI_TouchBegin
                        : strcmp(what, "end") == 0 ? XI_TouchEnd
                                                   : XI_TouchUpdate,
@@ -77,6 +77,7 @@ static void run_line(InputInfoPtr info, Driver *driver)
     double v[AXES] = { 0 };
     char what[16];
     int button, down;
+    unsigned finger = 0;
     const char *line = driver->line;
     if (sscanf(line, "m %lf %lf %lf %lf %lf %lf", &v[0], &v[1], &v[2], &v[3], &v[4], &v[5]) >=
         AXES - 1)
@@ -84,8 +85,8 @@ static void run_line(InputInfoPtr info, Driver *driver)
     else if (sscanf(line, "b %d %d %lf %lf %lf %lf %lf %lf", &button, &down, &v[0], &v[1], &v[2],
                     &v[3], &v[4], &v[5]) >= AXES + 1)
         post_button(info, button, down, v);
-    else if (driver->touch && sscanf(line, "t %15s %lf %lf", what, &v[0], &v[1]) == 3)
-        post_touch(info, what, v[0], v[1]);
+    else if (driver->touch && sscanf(line, "t %15s %lf %lf %u", what, &v[0], &v[1], &finger) >= 3)
+        post_touch(info, what, v[0], v[1], finger);
     else if (strcmp(line, "s") == 0) (void)!write(driver->client, "ok\n", 3);
     else xf86IDrvMsg(info, X_ERROR, "not understood: %s\n", line);
 }
