@@ -1,11 +1,11 @@
-/* Pens of Wayland's tablet protocol: a compositor of this test, in a thread of its own, sends what tablets do; the window's reader
+/* Pens of Wayland's tablet protocol: a compositor of this test, in a thread of its own, plays a tablet; the window's reader
    is its client over a pair of sockets. */
 #include "test.h"
 
 #include "ui/input/pen_internal.h"
 #include "ui/input/pen_wayland.h"
 
-#include "tablet-unstable-v2-server-protocol.h"
+#include <tablet-unstable-v2-server-protocol.h>
 
 #include <pthread.h>
 #include <sys/socket.h>
@@ -221,7 +221,7 @@ static void nothing_more(Client *client)
     assert_false(wr_pen_next(client->pen, &event));
 }
 
-/* ---- what tools do ---- */
+/* ---- motions of tools ---- */
 
 static void enter(struct wl_resource *tool, int surface)
 {

@@ -9,7 +9,7 @@
 #include "base/array.h"
 #include "base/memory.h"
 
-#include "tablet-unstable-v2-client-protocol.h"
+#include <tablet-unstable-v2-client-protocol.h>
 
 #include <SDL.h>
 #include <SDL_syswm.h>
