@@ -9,6 +9,7 @@
 #include "document/document.h"
 
 #include "ui/app/state/chosen_layers.h"
+#include "ui/app/state/session_view.h"
 #include "ui/app/state/messages.h"
 #include "ui/app/state/pointer_state.h"
 #include "ui/app/state/registry.h"

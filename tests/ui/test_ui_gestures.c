@@ -14,11 +14,13 @@
 #include "ui/app/state/action.h"
 #include "ui/app/state/pointer_state.h"
 #include "ui/app/state/dialog.h"
+#include "ui/app/state/keys.h"
 #include "ui/app/state/layout.h"
 #include "ui/app/state/messages.h"
 #include "ui/app/state/registry.h"
 #include "ui/app/state/session_view.h"
 #include "ui/app/state/settings.h"
+#include "ui/panels/layer_choice.h"
 #include "ui/patch/patch.h"
 #include "ui/patch/patch_cube.h"
 #include "ui/patch/patch_paint.h"
@@ -135,6 +137,106 @@ static void a_transform_frame_is_that_of_the_content(void **state)
     run(&bench, "select rect from=0.5,0.5 to=0.75,0.75");
     settle(&bench);
     assert_in_range(hand->box.count_i, 16, 16);
+    finish(&bench);
+}
+
+/* The frame of two chosen layers is around both, also across the edge; a key and Enter move both in one step. */
+static void several_chosen_layers_are_transformed_together(void **state)
+{
+    (void)state;
+    Bench bench;
+    begin(&bench);
+    run(&bench, "table 97x61");
+    run(&bench, "layer add low");
+    run(&bench, "dab 0.5,0.25 radius=5 hardness=1"); /* columns 43..54 */
+    run(&bench, "layer add high");
+    run(&bench, "dab 0.01,0.75 radius=6 hardness=1"); /* columns -6..7 */
+    settle(&bench);
+    wr_action_run(bench.app, "transform");
+    settle(&bench);
+    const WrTransformState *hand = bench.app->transform;
+    assert_in_range(hand->box.i, 90, 93);
+    assert_in_range(hand->box.count_i, 12, 15);
+    wr_layer_pick(bench.app, 1, WR_CHOOSE_TOGGLE);
+    settle(&bench);
+    assert_in_range(hand->box.i, 90, 93); /* to column 54 */
+    assert_in_range(hand->box.i + hand->box.count_i, 97 + 53, 97 + 55);
+    assert_in_range(hand->box.count_j, 40, 44); /* rows 9..51 */
+    const WrDocument *document = document_of(&bench);
+    WrField *old[] = { wr_field_share(document->layers[1].heights),
+                       wr_field_share(document->layers[2].heights) };
+    const int before = wr_session_history_position(bench.session);
+    push_key(bench.app, SDLK_RIGHT, KMOD_NONE);
+    push_key(bench.app, SDLK_UP, KMOD_NONE);
+    push_key(bench.app, SDLK_RIGHT, KMOD_NONE);
+    settle(&bench);
+    push_key(bench.app, SDLK_RETURN, KMOD_NONE);
+    settle(&bench);
+    assert_int_equal(wr_session_history_position(bench.session), before + 1);
+    assert_string_equal(wr_session_last_command(bench.session), "transform move=2,1 of=2,3");
+    document = document_of(&bench);
+    for (int k = 0; k < 2; k++) {
+        for (int i = 0; i < 97 * 61; i++)
+            assert_true(wr_field_get(document->layers[k + 1].heights, (i % 97 + 2) % 97,
+                                     (i / 97 + 60) % 61) == wr_field_get(old[k], i % 97, i / 97));
+        wr_field_free(old[k]);
+    }
+    finish(&bench);
+}
+
+/* Drag the frame's middle by that many texels; returns the move. */
+static double drag_frame(Bench *bench, double texels, int mods)
+{
+    const WrTransformState *hand = bench->app->transform;
+    WrCanvasView *view = bench->app->view;
+    double x, y,
+        middle[2] = { hand->box.i + 0.5 * hand->box.count_i,
+                      hand->box.j + 0.5 * hand->box.count_j };
+    view->zoom = 3.0;
+    view->centre_x = middle[0] + 0.5 * texels;
+    view->centre_y = middle[1];
+    wr_view_place(view, middle[0], middle[1], &x, &y);
+    bench->app->hand->mods = mods;
+    drag(bench, x, y, (int)rint(texels * view->zoom), 0);
+    bench->app->hand->mods = 0;
+    return hand->now.move[0];
+}
+
+static void a_dragged_frame_snaps_to_a_third_of_the_cell(void **state)
+{
+    (void)state;
+    Bench bench;
+    begin(&bench);
+    run(&bench, "table 197x161");
+    run(&bench, "layer add");
+    run(&bench, "dab 0.15,0.5 radius=10 hardness=1");
+    wr_action_run(bench.app, "transform");
+    settle(&bench);
+    const WrTransformState *hand = bench.app->transform;
+    const WrField *was = document_of(&bench)->layers[1].heights;
+    const double left = hand->box.i, way = 65.67 - 1.25 - left; /* a third is 65.67 */
+    assert_true(drag_frame(&bench, way, 0) == 66 - left);
+    push_key(bench.app, SDLK_ESCAPE, KMOD_NONE);
+    settle(&bench);
+    assert_true(drag_frame(&bench, way, WR_MOD_CTRL) == 64 - left);
+    push_key(bench.app, SDLK_ESCAPE, KMOD_NONE);
+    bench.app->settings->snap = false;
+    settle(&bench);
+    assert_true(drag_frame(&bench, way, 0) == 64 - left);
+    push_key(bench.app, SDLK_ESCAPE, KMOD_NONE);
+    settle(&bench);
+    assert_true(drag_frame(&bench, way, WR_MOD_CTRL) == 66 - left);
+    assert_ptr_equal(document_of(&bench)->layers[1].heights, was); /* only a preview so far */
+    push_key(bench.app, SDLK_ESCAPE, KMOD_NONE);
+    settle(&bench);
+    drag_frame(&bench, 41, WR_MOD_ALT); /* a copy */
+    push_key(bench.app, SDLK_RETURN, KMOD_NONE);
+    settle(&bench);
+    assert_string_equal(wr_session_last_command(bench.session), "transform move=41,0 leave=on");
+    const WrField *now = document_of(&bench)->layers[1].heights;
+    assert_true(wr_field_get(now, 30, 80) > 0.0f);
+    assert_true(wr_field_get(now, 71, 80) == wr_field_get(now, 30, 80));
+    assert_true(wr_field_get(now, 50, 80) == 0.0f);
     finish(&bench);
 }
 
@@ -840,9 +942,11 @@ static void a_dialog_that_keys_walked_leaves_the_input_free(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_dragged_frame_snaps_to_a_third_of_the_cell),
         cmocka_unit_test(a_dialog_that_keys_walked_leaves_the_input_free),
         cmocka_unit_test(a_lamp_is_dragged_while_the_patch_is_painted_on),
         cmocka_unit_test(a_transform_frame_is_that_of_the_content),
+        cmocka_unit_test(several_chosen_layers_are_transformed_together),
         cmocka_unit_test(what_is_copied_comes_back_in_its_place),
         cmocka_unit_test(a_stroke_on_a_mask_hides_in_full),
         cmocka_unit_test(a_hovering_stamp_leaves_the_greys_alone),

@@ -14,6 +14,7 @@
 #include "ui/canvas/outline.h"
 #include "ui/app/state/app_options.h"
 #include "ui/app/state/background_command.h"
+#include "ui/app/state/chosen_layers.h"
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/dialog.h"
 #include "ui/app/state/document.h"
@@ -528,6 +529,7 @@ typedef struct Store {
     WrPatchPaint paint;
     WrMarks marks;
     WrSelectState select;
+    WrChosenLayers chosen;
     WrLayersState layers;
     WrLayerPlanState layer_plan;
     WrHistoryState history;
@@ -572,6 +574,7 @@ WrApp *wr_store_new(void)
     app->paint = &store->paint;
     app->marks = &store->marks;
     app->select = &store->select;
+    app->chosen = &store->chosen;
     app->layers = &store->layers;
     app->layer_plan = &store->layer_plan;
     app->history = &store->history;

@@ -9,13 +9,6 @@
 #include <stdio.h>
 #include <string.h>
 
-WrChosenLayers *wr_app_chosen(const WrApp *app)
-{
-    WrChosenLayers *chosen = &app->layers->chosen;
-    wr_chosen_follow(chosen, wr_app_document(app), wr_session_last_command(app->session));
-    return chosen;
-}
-
 /* Layers that the list does not show are not chosen by ranges. */
 static void drop_unlisted(const WrApp *app, WrChosenLayers *chosen)
 {

@@ -6,8 +6,6 @@
 
 #include <stdbool.h>
 
-/* The chosen layers of the present document. */
-WrChosenLayers *wr_app_chosen(const WrApp *app);
 /* Choose layer `index`; true if a command was run, since another layer becomes active. */
 bool wr_layer_pick(WrApp *app, int index, WrChoosing how);
 /* Choose all layers of the list. */

@@ -40,7 +40,7 @@ void wr_panel_layers_forget(WrApp *app)
 {
     wr_thumb_list_free(&app->layers->thumbs);
     wr_thumb_list_free(&app->layers->steps);
-    wr_chosen_free(&app->layers->chosen);
+    wr_chosen_free(app->chosen);
 }
 
 /* ---- settings of the chosen layers: the active one's are shown ---- */
@@ -554,8 +554,8 @@ static void another(WrApp *app)
 {
     WrLayersState *hand = app->layers;
     hand->dragged = hand->renamed = hand->eyes_from = -1;
-    wr_chosen_free(&hand->chosen);
-    hand->chosen.count = 0;
+    wr_chosen_free(app->chosen);
+    app->chosen->count = 0;
 }
 
 const WrPart wr_part_layers = { .another = another, .forget = wr_panel_layers_forget };

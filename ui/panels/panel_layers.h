@@ -1,6 +1,5 @@
 /* panel_layers.h - layers panel. */
 #pragma once
-#include "ui/app/state/chosen_layers.h"
 #include "ui/panels/layer_rows.h"
 #include "ui/panels/thumb_list.h"
 #include "ui/app/state/app_state.h"
@@ -15,7 +14,6 @@
 #include <stdint.h>
 
 typedef struct WrLayersState {
-    WrChosenLayers chosen;
     int dragged;            /* index of the dragged layer, -1: none */
     WrLayerDrop drop;       /* where it would land */
     int eyes_from, eyes_to; /* rows whose eyes a drag passed over; eyes_from -1: no drag */

@@ -18,6 +18,7 @@ typedef struct WrCanvasMap WrCanvasMap;
 typedef struct WrCanvasRange WrCanvasRange;
 typedef struct WrCanvasView WrCanvasView;
 typedef struct WrCertificate WrCertificate;
+typedef struct WrChosenLayers WrChosenLayers;
 typedef struct WrCloneState WrCloneState;
 typedef struct WrDialogState WrDialogState;
 typedef struct WrDocument WrDocument;
@@ -145,6 +146,7 @@ struct WrApp {
     bool trying; /* the views show the edit preview */
     WrMarks *marks;
     WrSelectState *select;
+    WrChosenLayers *chosen; /* read by wr_app_chosen, which updates them */
     WrLayersState *layers;
     WrLayerPlanState *layer_plan;
     WrHistoryState *history;

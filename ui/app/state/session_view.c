@@ -1,6 +1,7 @@
 /* The document as displayed, including an edit preview or a dragged value. */
 #include "ui/app/state/session_view.h"
 #include "ui/app/state/app_state.h"
+#include "ui/app/state/chosen_layers.h"
 #include "ui/app/state/document.h"
 #include "ui/toolkit/words.h"
 #include "ui/app/jobs/edit_preview.h"
@@ -17,6 +18,12 @@
 const WrDocument *wr_app_document(const WrApp *app)
 {
     return wr_session_document(app->session);
+}
+
+WrChosenLayers *wr_app_chosen(const WrApp *app)
+{
+    wr_chosen_follow(app->chosen, wr_app_document(app), wr_session_last_command(app->session));
+    return app->chosen;
 }
 
 const WrField *wr_app_field(const WrApp *app)

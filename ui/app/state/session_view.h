@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 
+typedef struct WrChosenLayers WrChosenLayers;
 typedef struct WrDocument WrDocument;
 typedef struct WrField WrField;
 typedef struct WrScene WrScene;
@@ -17,6 +18,8 @@ const WrField *wr_app_canvas_field(const WrApp *app);
 /* True if the canvas shows the active layer's mask instead of heights. */
 bool wr_app_shows_mask(const WrApp *app);
 const WrDocument *wr_app_document(const WrApp *app);
+/* The chosen layers of the present document. */
+WrChosenLayers *wr_app_chosen(const WrApp *app);
 /* Start an edit preview; the document is unchanged. */
 void wr_app_try(WrApp *app, const WrEditPreviewRequest *ask);
 void wr_app_try_end(WrApp *app);

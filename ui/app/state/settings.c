@@ -28,6 +28,7 @@ WrSettings wr_settings_default(void)
         .lower = 0.52, /* six layers in a window of 1280 x 800 */
         .ants = true,
         .grid_parts = 8,
+        .snap = true,
         .turning = true,
         .brush = wr_brush_default(),
         .mask_strength = 1.0,
@@ -76,6 +77,7 @@ static int window_rows(WrSettings *s, Row *rows)
         { "ants", NULL, NULL, &s->ants, 0, 1 },
         { "grid", NULL, NULL, &s->grid, 0, 1 },
         { "grid_parts", NULL, &s->grid_parts, NULL, 1, 256 },
+        { "snap", NULL, NULL, &s->snap, 0, 1 },
         { "history_lines", NULL, NULL, &s->history_lines, 0, 1 },
         { "tiling", NULL, (int *)&s->tiling, NULL, 0, WR_TILINGS - 1 },
         { "join", NULL, &s->join, NULL, 0, 3 },

@@ -63,6 +63,7 @@ typedef struct WrSettings {
     bool ants;               /* animate the selection outline */
     bool grid;               /* visible; drawing tools then snap to it */
     int grid_parts;          /* parts of the cell along each axis */
+    bool snap;               /* the frame of Free transform snaps; Ctrl reverses it */
     bool history_lines;      /* the history shows command lines instead of names */
     WrTiling tiling;         /* display of the copies beside the cell */
     int join;                /* combination of a new selection with the present one: WrSelectMode */

@@ -1,14 +1,17 @@
 /* Transform tool: a drag inside the frame moves the selection, its handles scale it, a drag outside rotates it. Enter
-   applies, Escape cancels. Shift constrains to an axis, to the aspect ratio, to 15 degrees; Alt disables snapping. */
+   applies, Escape cancels. Shift constrains to an axis, to the aspect ratio, to 15 degrees; Ctrl reverses snapping; Alt leaves
+   a copy. */
 #include "ui/canvas/tools/tool_transform.h"
 #include "ui/canvas/view.h"
 #include "ui/app/state/action_list.h"
 #include "ui/app/state/background_command.h"
 #include "ui/app/state/app_state.h"
+#include "ui/app/state/chosen_layers.h"
 #include "ui/app/state/pointer_state.h"
 #include "ui/app/state/keys.h"
 #include "ui/app/state/line.h"
 #include "ui/app/state/session_view.h"
+#include "ui/app/state/settings.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 #include "ui/canvas/tools/option_row.h"
@@ -25,11 +28,12 @@
 
 #include <SDL.h>
 #include <math.h>
+#include <string.h>
 
-#define NEAR_UNITS 9.0   /* hit radius of a handle */
-#define SNAP_UNITS 6.0   /* snap distance to the cell's edges and centre */
-#define SNAP_DEGREES 2.0 /* snap angle to quarter turns */
-#define NEARLY_ALL 0.9   /* fraction of an axis that counts as filled */
+#define NEAR_UNITS 9.0      /* hit radius of a handle */
+#define SNAP_UNITS 6.0      /* snap distance */
+#define SNAPPED 0xd0f050c8u /* magenta: no height of the canvas has it */
+#define SNAP_DEGREES 2.0    /* snap angle to quarter turns */
 
 /* A drag changes `now` only; the line of the command is written from it and tried on a snapshot by a worker thread
    (wr_app_try). Applying runs the same line, so the preview and the step have the same bits. */
@@ -37,19 +41,15 @@ static const WrTransformValues still = { .scale = { 1.0, 1.0 } };
 
 /* ---- transformed piece ---- */
 
-/* Bounding box of the active layer's content; on an axis that it nearly fills, or for a layer without content, the
-   whole axis. */
-static WrSelectBox content_box(const WrDocument *document)
+/* The layers that will move; the members of a chosen group move with it. */
+static void find_layers(const WrApp *app, const bool chosen[WR_LAYERS_MAX], bool out[WR_LAYERS_MAX])
 {
-    const WrLayer *layer = &document->layers[document->active];
-    const int w = wr_field_width(layer->heights), h = wr_field_height(layer->heights);
-    WrSelectBox box = { 0, 0, w, h };
-    const WrField *content = layer->on_mask ? layer->mask : layer->cover ? layer->cover : NULL;
-    if (!wr_select_box(content ? content : layer->heights, &box))
-        return (WrSelectBox){ 0, 0, w, h };
-    if (box.count_i > NEARLY_ALL * w) box.i = 0, box.count_i = w;
-    if (box.count_j > NEARLY_ALL * h) box.j = 0, box.count_j = h;
-    return box;
+    const WrDocument *document = wr_app_document(app);
+    const bool all = app->transform->all;
+    for (int i = 0; i < WR_LAYERS_MAX; i++)
+        out[i] = i < document->layer_count && (all || chosen[i]);
+    for (int i = 0; i < document->layer_count; i++)
+        for (int k = wr_layers_first(document->layers, i); out[i] && k < i; k++) out[k] = true;
 }
 
 static void measure(WrApp *app)
@@ -57,8 +57,11 @@ static void measure(WrApp *app)
     WrTransformState *hand = app->transform;
     const WrDocument *document = wr_app_document(app);
     const WrField *like = document->layers[0].heights;
-    uint64_t revision = wr_session_revision(app->session);
-    if (hand->measured && hand->revision == revision) return;
+    const WrChosenLayers *chosen = wr_app_chosen(app);
+    const uint64_t revision = wr_session_revision(app->session);
+    const bool others = memcmp(hand->layers, chosen->chosen, sizeof hand->layers) != 0;
+    if (hand->measured && hand->revision == revision && !others) return;
+    if (hand->measured && others) wr_app_try_end(app); /* of the layers chosen before */
     *hand = (WrTransformState){ .measured = true,
                                 .revision = revision,
                                 .any = true,
@@ -67,8 +70,17 @@ static void measure(WrApp *app)
                                 .leave = hand->leave,
                                 .back = hand->back,
                                 .all = hand->all };
+    memcpy(hand->layers, chosen->chosen, sizeof hand->layers);
+    hand->layer_count = wr_chosen_count(chosen);
+    bool moved[WR_LAYERS_MAX];
+    find_layers(app, hand->layers, moved);
     if (document->selection) hand->any = wr_select_box(document->selection, &hand->box);
-    else if (!hand->all) hand->box = content_box(document);
+    else hand->box = wr_content_box(document, moved);
+}
+
+static bool leaves(const WrTransformState *hand)
+{
+    return hand->leave || hand->leave_once;
 }
 
 static bool is_still(const WrTransformState *hand)
@@ -89,6 +101,21 @@ static void place_of(const WrTransformState *hand, const WrTransformValues *v, d
     double c = cos(v->turn * WR_RAD_PER_DEG), s = sin(v->turn * WR_RAD_PER_DEG);
     out[0] = hand->box.i + 0.5 * hand->box.count_i + v->move[0] + c * x + s * y;
     out[1] = hand->box.j + 0.5 * hand->box.count_j - v->move[1] - s * x + c * y;
+}
+
+/* The upright rectangle around the transformed piece: left and top, right and bottom, in texels. */
+static void bounds_of(const WrTransformState *hand, const WrTransformValues *v, double low[2],
+                      double high[2])
+{
+    for (int k = 0; k < 2; k++) low[k] = INFINITY, high[k] = -INFINITY;
+    for (int corner = 0; corner < 4; corner++) {
+        double p[2];
+        place_of(hand, v, corner & 1, corner >> 1, p);
+        for (int k = 0; k < 2; k++) {
+            low[k] = fmin(low[k], p[k]);
+            high[k] = fmax(high[k], p[k]);
+        }
+    }
 }
 
 /* ---- lines ---- */
@@ -122,8 +149,11 @@ static void write_line(const WrApp *app, WrText *line)
     if (v->turn != 0.0) wr_line_number(line, "turn", v->turn);
     if (v->scale[0] != 1.0 || v->scale[1] != 1.0) add_pair(line, "scale", v->scale[0], v->scale[1]);
     add_middle(app, line);
-    if (hand->leave) wr_text_add(line, " leave=on");
+    if (leaves(hand)) wr_text_add(line, " leave=on");
     if (hand->all) wr_text_add(line, " layers=all");
+    if (hand->all || hand->layer_count < 2) return;
+    wr_text_add(line, " of=");
+    wr_layers_print(hand->layers, line);
 }
 
 /* Values are rounded to the digits of the line before they are used: otherwise the applied step would differ from the
@@ -159,6 +189,7 @@ static void cancel(WrApp *app)
     WrTransformState *hand = app->transform;
     hand->now = still;
     hand->part = WR_TRANSFORM_NONE;
+    hand->leave_once = false;
     wr_app_try_end(app);
     wr_app_redraw(app);
 }
@@ -171,6 +202,7 @@ static void apply(WrApp *app)
     write_line(app, &line);
     wr_app_try_end(app);
     hand->now = still;
+    hand->leave_once = false;
     wr_app_run_slow(app, wr_text_get(&line));
     wr_text_fini(&line);
 }
@@ -267,44 +299,72 @@ static void press(WrApp *app, const WrPointer *at)
     app->hints = false;
     measure(app);
     if (!hand->any) return;
+    bool moved[WR_LAYERS_MAX];
+    find_layers(app, hand->layers, moved);
+    wr_snap_measure(app, moved, &hand->others);
     from_middle(app, &hand->now, at, hand->from);
     hand->first = hand->now;
+    hand->leave_first = hand->leave_once;
     hand->part = find_handle(app, hand->from, hand->side) ? WR_TRANSFORM_SCALE
                  : is_inside(hand, hand->from)            ? WR_TRANSFORM_MOVE
                                                           : WR_TRANSFORM_TURN;
     wr_app_redraw(app);
 }
 
-/* Snap an edge or the centre of the piece to one of the cell's, or to the grid. */
-static double snapped(const WrApp *app, int axis, double move, double from, double count)
+static bool snaps(const WrApp *app, const WrPointer *at)
 {
-    const double cell = axis ? app->view->table_h : app->view->table_w;
-    double grid = wr_grid_step(app, axis), step = grid > 0.0 ? grid : 0.5 * cell;
-    double best = move, least = texels(app, SNAP_UNITS);
-    /* The piece's near edge, centre and far edge (k = 0, 1, 2) are compared with multiples of the step; the nearest within
-       reach wins. */
-    for (int k = 0; k < 3; k++) {
-        double at = from + 0.5 * k * count + move, way = step * rint(at / step) - at;
-        if (fabs(way) >= least) continue;
-        least = fabs(way);
-        best = move + way;
+    return app->settings->snap != ((at->mods & WR_MOD_CTRL) != 0);
+}
+
+/* The way from a position to a line in reach that is nearer than *least, which it replaces; else 0. */
+static double way_to_line(WrApp *app, int axis, double at, double *least)
+{
+    WrTransformState *hand = app->transform;
+    const double line = wr_snap_line(app, &hand->others, axis, at);
+    if (!(fabs(line - at) < *least)) return 0.0;
+    *least = fabs(line - at);
+    hand->snapped[axis] = true;
+    hand->lines[axis] = line;
+    return line - at;
+}
+
+/* Snap the left and top edges, the centre, or the right and bottom edges of the piece. */
+static void snap_move(WrApp *app, double m[2])
+{
+    WrTransformState *hand = app->transform;
+    WrTransformValues v = hand->first;
+    double low[2], high[2];
+    v.move[0] = m[0];
+    v.move[1] = -m[1];
+    bounds_of(hand, &v, low, high);
+    for (int axis = 0; axis < 2; axis++) {
+        double least = texels(app, SNAP_UNITS), best = 0.0;
+        for (int k = 0; k < 3; k++) {
+            const double at = low[axis] + 0.5 * k * (high[axis] - low[axis]);
+            const double way = way_to_line(app, axis, at, &least);
+            if (way != 0.0) best = way;
+        }
+        m[axis] += best;
     }
-    return best;
 }
 
 static void move(WrApp *app, const WrPointer *at, const double way[2])
 {
     WrTransformState *hand = app->transform;
     double m[2] = { way[0], way[1] }; /* right, down */
-    if (at->mods & WR_MOD_SHIFT) m[fabs(m[0]) < fabs(m[1]) ? 0 : 1] = 0.0;
+    const int fixed = fabs(m[0]) < fabs(m[1]) ? 0 : 1;
+    const bool straight = (at->mods & WR_MOD_SHIFT) != 0;
     m[0] += hand->first.move[0];
     m[1] -= hand->first.move[1];
-    if (!(at->mods & WR_MOD_ALT)) {
-        m[0] = rint(snapped(app, 0, m[0], hand->box.i, hand->box.count_i));
-        m[1] = rint(snapped(app, 1, m[1], hand->box.j, hand->box.count_j));
+    if (snaps(app, at)) snap_move(app, m);
+    if (straight) {
+        m[fixed] = fixed ? -hand->first.move[1] : hand->first.move[0];
+        hand->snapped[fixed] = false;
     }
-    hand->now.move[0] = m[0];
-    hand->now.move[1] = -m[1];
+    /* whole texels keep every height */
+    hand->now.move[0] = rint(m[0]);
+    hand->now.move[1] = -rint(m[1]);
+    hand->leave_once = hand->leave_first || (at->mods & WR_MOD_ALT);
 }
 
 static void turn(WrApp *app, const WrPointer *at, const double here[2])
@@ -314,9 +374,22 @@ static void turn(WrApp *app, const WrPointer *at, const double here[2])
     double by = atan2(-here[1], here[0]) - atan2(-hand->from[1], hand->from[0]);
     double deg = hand->first.turn + by * WR_DEG_PER_RAD, quarter = rint(deg / 90.0) * 90.0;
     if (at->mods & WR_MOD_SHIFT) deg = rint(deg / 15.0) * 15.0;
-    else if (!(at->mods & WR_MOD_ALT) && fabs(deg - quarter) < SNAP_DEGREES) deg = quarter;
+    else if (snaps(app, at) && fabs(deg - quarter) < SNAP_DEGREES) deg = quarter;
     else deg = wr_line_round(deg, 1);
     hand->now.turn = deg - 360.0 * rint(deg / 360.0);
+}
+
+/* The length of the piece along an axis with its dragged edge on a line, if one is near. Only upright pieces have their edges
+   along the lines. */
+static double snap_edge(WrApp *app, int axis, double wide)
+{
+    WrTransformState *hand = app->transform;
+    const WrTransformValues *v = &hand->first;
+    double fixed[2], least = texels(app, SNAP_UNITS);
+    if (v->turn != 0.0) return wide;
+    place_of(hand, v, 0.5 - 0.5 * hand->side[0], 0.5 - 0.5 * hand->side[1], fixed);
+    const double edge = fixed[axis] + hand->side[axis] * wide;
+    return wide + hand->side[axis] * way_to_line(app, axis, edge, &least);
 }
 
 /* The handle follows the pointer, and the opposite one is fixed. */
@@ -324,16 +397,17 @@ static void scale(WrApp *app, const WrPointer *at, const double here[2])
 {
     WrTransformState *hand = app->transform;
     const double count[2] = { hand->box.count_i, hand->box.count_j };
+    const bool even = (at->mods & WR_MOD_SHIFT) && hand->side[0] && hand->side[1];
     double own[2], stays[2], stays_now[2];
     WrTransformValues v = hand->first;
     to_own(&v, here, own);
     for (int k = 0; k < 2; k++) {
         if (hand->side[k] == 0) continue;
         double wide = hand->side[k] * own[k] + 0.5 * count[k] * hand->first.scale[k];
-        if (!(at->mods & WR_MOD_ALT)) wide = rint(wide);
-        v.scale[k] = near_one(wide / count[k]);
+        if (snaps(app, at) && !even) wide = snap_edge(app, k, wide);
+        v.scale[k] = near_one(rint(wide) / count[k]);
     }
-    if ((at->mods & WR_MOD_SHIFT) && hand->side[0] && hand->side[1]) {
+    if (even) {
         double by = fmax(v.scale[0] / hand->first.scale[0], v.scale[1] / hand->first.scale[1]);
         for (int k = 0; k < 2; k++) v.scale[k] = near_one(hand->first.scale[k] * by);
     }
@@ -353,7 +427,10 @@ static void drag(WrApp *app, const WrPointer *at)
     wr_view_to_texel(app->view, at->x, at->y, &x, &y);
     wr_view_to_texel(app->view, app->hand->start.x, app->hand->start.y, &x0, &y0);
     double way[2] = { x - x0, y - y0 };
-    for (int k = 0; k < 2; k++) here[k] = hand->from[k] + way[k];
+    for (int k = 0; k < 2; k++) {
+        here[k] = hand->from[k] + way[k];
+        hand->snapped[k] = false;
+    }
     if (hand->part == WR_TRANSFORM_MOVE) move(app, at, way);
     if (hand->part == WR_TRANSFORM_TURN) turn(app, at, here);
     if (hand->part == WR_TRANSFORM_SCALE) scale(app, at, here);
@@ -364,6 +441,7 @@ static void release(WrApp *app, const WrPointer *at)
 {
     (void)at;
     app->transform->part = WR_TRANSFORM_NONE;
+    app->transform->snapped[0] = app->transform->snapped[1] = false;
     wr_app_redraw(app);
 }
 
@@ -387,10 +465,22 @@ static bool key(WrApp *app, SDL_Keycode key)
 
 /* ---- drawing on the canvas ---- */
 
+/* Lines across the view where the piece snapped. */
+static void draw_snapped(const WrApp *app)
+{
+    const WrTransformState *hand = app->transform;
+    double low[2], high[2];
+    wr_view_bounds(app->view, low, high);
+    for (int axis = 0; axis < 2; axis++)
+        if (hand->snapped[axis])
+            wr_grid_line(app->view, axis, hand->lines[axis], low, high, SNAPPED);
+}
+
 static void marks(WrApp *app)
 {
     measure(app);
     const WrTransformState *hand = app->transform;
+    draw_snapped(app);
     WrSelectPoint frame[4];
     static const double corner[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
     if (!hand->any) return;
@@ -413,57 +503,111 @@ static void marks(WrApp *app)
 
 /* ---- option row ---- */
 
-static void number(WrApp *app, const char *id, double width, const WrNumber *spec, double *value)
+static bool number(WrApp *app, const char *id, double width, const WrNumber *spec, double *value)
 {
-    measure(app);
-    if (wr_gui_number(id, width, spec, value) != WR_EDIT_NONE) changed(app);
+    return wr_gui_number(id, width, spec, value) != WR_EDIT_NONE && app->transform->any;
 }
 
-static const WrNumber way = { .low = -512,
-                              .high = 512,
-                              .hard_low = -65536,
-                              .hard_high = 65536,
-                              .decimals = 0,
-                              .unit = "px",
-                              .tip = "Texels, to the right" };
-
-static void move_x(WrApp *app, double width)
+/* Left and lower edge of the rectangle around the piece, in texels from those of the cell. */
+static void corner_of(const WrApp *app, double out[2])
 {
-    number(app, "x", width, &way, &app->transform->now.move[0]);
+    double low[2], high[2];
+    bounds_of(app->transform, &app->transform->now, low, high);
+    out[0] = low[0];
+    out[1] = app->view->table_h - high[1];
 }
 
-static void move_y(WrApp *app, double width)
+static void place_corner(WrApp *app, const double at[2])
 {
-    WrNumber up = way;
-    up.tip = "Texels, upwards";
-    number(app, "y", width, &up, &app->transform->now.move[1]);
-}
-
-static void percent(WrApp *app, const char *id, double width, const char *tip, double *scale)
-{
-    WrNumber spec = { .low = 10,
-                      .high = 400,
-                      .hard_low = -6400,
-                      .hard_high = 6400,
-                      .reset = 100,
-                      .decimals = 1,
-                      .unit = "%",
-                      .tip = tip };
-    double value = *scale * 100.0, was = value;
-    number(app, id, width, &spec, &value);
-    if (value == was) return;
-    *scale = near_one(value / 100.0);
+    double now[2];
+    corner_of(app, now);
+    for (int k = 0; k < 2; k++) app->transform->now.move[k] += at[k] - now[k];
     changed(app);
 }
 
-static void scale_u(WrApp *app, double width)
+static void position(WrApp *app, const char *id, double width, int axis, const char *tip)
 {
-    percent(app, "w", width, "Width; a negative one mirrors", &app->transform->now.scale[0]);
+    const double cell = axis ? app->view->table_h : app->view->table_w;
+    const WrTransformState *hand = app->transform;
+    const WrNumber spec = { .low = -cell,
+                            .high = cell,
+                            .hard_low = -65536,
+                            .hard_high = 65536,
+                            .reset = axis ? cell - hand->box.j - hand->box.count_j : hand->box.i,
+                            .decimals = hand->now.turn != 0.0,
+                            .unit = "px",
+                            .tip = tip };
+    double at[2];
+    measure(app);
+    corner_of(app, at);
+    if (number(app, id, width, &spec, &at[axis])) place_corner(app, at);
 }
 
-static void scale_v(WrApp *app, double width)
+static void position_x(WrApp *app, double width)
 {
-    percent(app, "h", width, "Height; a negative one mirrors", &app->transform->now.scale[1]);
+    position(app, "x", width, 0, "Left edge, from the left edge of the cell");
+}
+
+static void position_y(WrApp *app, double width)
+{
+    position(app, "y", width, 1, "Lower edge, from the lower edge of the cell");
+}
+
+/* Other sizes; the left and lower edges are fixed. */
+static void set_scale(WrApp *app, double x, double y)
+{
+    double corner[2];
+    corner_of(app, corner);
+    app->transform->now.scale[0] = near_one(x);
+    app->transform->now.scale[1] = near_one(y);
+    place_corner(app, corner);
+}
+
+static void length(WrApp *app, const char *id, double width, int axis, const char *tip)
+{
+    measure(app);
+    const WrTransformState *hand = app->transform;
+    const double count = axis ? hand->box.count_j : hand->box.count_i;
+    const WrNumber spec = { .low = 1,
+                            .high = 2.0 * (axis ? app->view->table_h : app->view->table_w),
+                            .hard_low = -65536,
+                            .hard_high = 65536,
+                            .reset = count,
+                            .decimals = 0,
+                            .unit = "px",
+                            .tip = tip };
+    double value = count * hand->now.scale[axis];
+    if (!number(app, id, width, &spec, &value)) return;
+    set_scale(app, axis ? hand->now.scale[0] : value / count,
+              axis ? value / count : hand->now.scale[1]);
+}
+
+static void width_of(WrApp *app, double width)
+{
+    length(app, "w", width, 0, "Width; a negative one mirrors");
+}
+
+static void height_of(WrApp *app, double width)
+{
+    length(app, "h", width, 1, "Height; a negative one mirrors");
+}
+
+static void percent(WrApp *app, double width)
+{
+    const double *now = app->transform->now.scale;
+    const double size = fabs(now[0]);
+    const WrNumber spec = { .low = 10,
+                            .high = 400,
+                            .hard_low = 1.5625,
+                            .hard_high = 6400,
+                            .reset = 100,
+                            .decimals = 1,
+                            .unit = "%",
+                            .tip = "Width and height together" };
+    double value = size * 100.0;
+    measure(app);
+    if (number(app, "scale", width, &spec, &value))
+        set_scale(app, now[0] * value / (100.0 * size), now[1] * value / (100.0 * size));
 }
 
 static void turned(WrApp *app, double width)
@@ -475,16 +619,27 @@ static void turned(WrApp *app, double width)
                       .decimals = 1,
                       .unit = "\xc2\xb0",
                       .tip = "Turned anticlockwise" };
-    number(app, "turn", width, &spec, &app->transform->now.turn);
+    measure(app);
+    if (number(app, "turn", width, &spec, &app->transform->now.turn)) changed(app);
 }
 
 static void switches(WrApp *app, double width)
 {
     WrTransformState *hand = app->transform;
     (void)width;
-    bool leave = hand->leave, all = hand->all;
-    wr_gui_check("copy", &hand->leave);
-    wr_gui_tip("Transforms a copy of the selected heights");
+    const bool all = hand->all, left = leaves(hand);
+    bool leave = left;
+    wr_gui_check("snap", &app->settings->snap);
+    wr_gui_tip("Snaps edges and the centre to parts of the cell, to the grid and to other layers; "
+               "Ctrl reverses it "
+               "while you drag");
+    wr_gui_same_line(10);
+    if (wr_gui_check("copy", &leave)) {
+        hand->leave = leave;
+        hand->leave_once = false;
+    }
+    wr_gui_tip(
+        "Leaves the selection or the layer in place and transforms a copy; or drag with Alt");
     wr_gui_same_line(10);
     wr_gui_check("all layers", &hand->all);
     if (all != hand->all) { /* another frame with the same values */
@@ -493,7 +648,7 @@ static void switches(WrApp *app, double width)
         measure(app);
         hand->now = now;
     }
-    if (leave != hand->leave || all != hand->all) changed(app);
+    if (left != leaves(hand) || all != hand->all) changed(app);
 }
 
 static void buttons(WrApp *app, double width)
@@ -512,25 +667,24 @@ static void buttons(WrApp *app, double width)
 
 static void options(WrApp *app)
 {
-    const WrOption items[] = { { "X", 84, 0, move_x, true },    { "Y", 84, 0, move_y, true },
-                               { "W", 90, 0, scale_u, true },   { "H", 90, 0, scale_v, true },
-                               { "Turn", 84, 0, turned, true }, { "##", 0, 176, switches, true },
-                               { "##", 0, 180, buttons, true } };
+    const WrOption items[] = { { "X", 84, 0, position_x, true },  { "Y", 84, 0, position_y, true },
+                               { "W", 84, 0, width_of, true },    { "H", 84, 0, height_of, true },
+                               { "Scale", 84, 0, percent, true }, { "Turn", 84, 0, turned, true },
+                               { "##", 0, 246, switches, true },  { "##", 0, 180, buttons, true } };
     wr_option_row(app, items, (int)(sizeof items / sizeof *items));
 }
 
 /* ---- the row ---- */
 
-const WrTool wr_tool_transform = {
-    .action = WR_ACT(transform),
-    .icon = WR_ICON_TRANSFORM,
-    .help = "Drag the selection to move it, its handles to scale it, outside of it to turn it; "
-            "Enter applies, Escape cancels.",
-    .press = press,
-    .drag = drag,
-    .release = release,
-    .marks = marks,
-    .options = options,
-    .key = key,
-    .leave = leave
-};
+const WrTool wr_tool_transform = { .action = WR_ACT(transform),
+                                   .icon = WR_ICON_TRANSFORM,
+                                   .help = "Drag the selection or the layer's content to move it, "
+                                           "its handles to scale it, outside of it to "
+                                           "turn it; Enter applies, Escape cancels.",
+                                   .press = press,
+                                   .drag = drag,
+                                   .release = release,
+                                   .marks = marks,
+                                   .options = options,
+                                   .key = key,
+                                   .leave = leave };

@@ -1,7 +1,9 @@
 /* tool_transform.h - state of the transform tool until it is applied. */
 #pragma once
 #include "ui/app/state/app_state.h"
+#include "ui/canvas/tools/transform_snap.h"
 
+#include "document/document.h"
 #include "field/select.h"
 
 #include <stdbool.h>
@@ -22,16 +24,22 @@ typedef struct WrTransformValues {
 } WrTransformValues;
 
 typedef struct WrTransformState {
-    bool measured; /* the box is up to date for the document's revision, */
+    bool measured; /* the box is up to date for the document's revision and the layers, */
     uint64_t revision;
     bool any; /* and is not empty */
     WrSelectBox box;
+    bool layers[WR_LAYERS_MAX];   /* chosen when it was measured, */
+    int layer_count;              /* and their number */
     WrTransformValues now, first; /* first: at the start of the drag */
     bool leave, all;
+    bool leave_once, leave_first; /* a drag with Alt leaves a copy; first: at its start */
     WrTransformPart part;
     int side[2];    /* of the handle: -1, 0, 1 along the piece's axes, right and down */
     double from[2]; /* start of the drag, texels from the piece's centre at that time */
     int back;       /* 1 + index of the tool that Enter and Escape return to; 0: none */
+    WrSnapOthers others;
+    bool snapped[2]; /* along an axis in the drag, */
+    double lines[2]; /* to this line, texels */
 } WrTransformState;
 
 /* Choose the tool, with its frame about the layer that was just pasted; Enter and Escape return to the tool before. */
