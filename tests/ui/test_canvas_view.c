@@ -148,8 +148,8 @@ static void show(Shown *s, const WrCanvasView *view, const WrField *field)
     bool unfinished = true;
     while (unfinished) {
         wr_retained_frame_clear(s->kept, 0xff123456u);
-        unfinished =
-            wr_canvas_draw(s->canvas, s->kept, view, field, NULL, &look, false, 1.0, &range);
+        unfinished = wr_canvas_draw(s->canvas, s->kept, view, field, NULL, &look, WR_RANGE_RESTS,
+                                    1.0, &range);
         wr_retained_frame_end(s->kept);
     }
 }
@@ -351,15 +351,74 @@ static void normals_have_the_colours_of_a_map(void **state)
     WrField *p = wr_field_new(8, 8, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 1, NULL);
     WrField *q = wr_field_new(8, 8, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
     wr_retained_frame_clear(s.kept, 0xff123456u);
-    wr_canvas_draw(s.canvas, s.kept, &view, p, q, &look, false, 1, &range);
+    wr_canvas_draw(s.canvas, s.kept, &view, p, q, &look, WR_RANGE_RESTS, 1, &range);
     wr_retained_frame_end(s.kept);
     assert_int_equal(pixel(&s, 100, 100), 0xff2580da); /* 127.5 (1 - 1/sqrt 2, 1, 1 + 1/sqrt 2) */
     wr_retained_frame_clear(s.kept, 0xff123456u);
-    wr_canvas_draw(s.canvas, s.kept, &view, q, p, &look, false, 1, &range);
+    wr_canvas_draw(s.canvas, s.kept, &view, q, p, &look, WR_RANGE_RESTS, 1, &range);
     wr_retained_frame_end(s.kept);
     assert_int_equal(pixel(&s, 100, 100), 0xff8025da);
     wr_field_free(p);
     wr_field_free(q);
+    show_free(&s);
+}
+
+/* ---- the range ---- */
+
+/* Fields of two heights each. */
+static WrField *two_heights(float low, float high)
+{
+    WrField *field = wr_field_new(16, 12, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, low, NULL);
+    wr_field_set(field, 7, 5, high);
+    return field;
+}
+
+static void assert_greys(Shown *s, const WrField *field, const WrCanvasDisplay *look,
+                         WrRangeHold hold, double low, double high)
+{
+    const WrCanvasView view = { .w = WIDE, .h = TALL, .table_w = 16, .table_h = 12, .zoom = 9 };
+    WrCanvasRange range;
+    wr_canvas_draw(s->canvas, s->kept, &view, field, NULL, look, hold, 1, &range);
+    if (range.low != low || range.high != high)
+        fail_msg("shown: %g .. %g, not %g .. %g", range.low, range.high, low, high);
+}
+
+static void the_range_stays_during_edits_and_a_preview_widens_it_only_for_itself(void **state)
+{
+    (void)state;
+    const WrCanvasDisplay look = { .automatic = { true, true } };
+    WrField *before = two_heights(0.25f, 1), *raised = two_heights(0.25f, 3);
+    WrField *tried = two_heights(-2, 5);
+    Shown s = show_new();
+    assert_greys(&s, before, &look, WR_RANGE_RESTS, 0.25, 1);
+    const uint32_t grey = wr_canvas_colour(s.canvas, 0.5);
+    assert_greys(&s, raised, &look, WR_RANGE_STAYS, 0.25, 1);
+    assert_true(wr_canvas_colour(s.canvas, 0.5) == grey);
+    assert_greys(&s, raised, &look, WR_RANGE_RESTS, 0.25, 3);
+    assert_greys(&s, tried, &look, WR_RANGE_STAYS, 0.25, 3);
+    assert_greys(&s, tried, &look, WR_RANGE_TRIES, -2, 5);
+    assert_greys(&s, before, &look, WR_RANGE_STAYS, -2, 5); /* the preview is dragged on */
+    assert_greys(&s, raised, &look, WR_RANGE_RESTS, 0.25, 3);
+    wr_field_free(before);
+    wr_field_free(raised);
+    wr_field_free(tried);
+    show_free(&s);
+}
+
+static void each_end_of_the_range_is_automatic_or_fixed(void **state)
+{
+    (void)state;
+    WrCanvasDisplay look = { .automatic = { false, true }, .low = -7 };
+    WrField *field = two_heights(0.25f, 1), *higher = two_heights(0.25f, 3);
+    Shown s = show_new();
+    assert_greys(&s, field, &look, WR_RANGE_RESTS, -7, 1);
+    assert_greys(&s, higher, &look, WR_RANGE_RESTS, -7, 3);
+    look = (WrCanvasDisplay){ .automatic = { true, false }, .high = 1.5 };
+    assert_greys(&s, higher, &look, WR_RANGE_RESTS, 0.25, 1.5);
+    look.high = -4; /* below all heights: still darker below than above */
+    assert_greys(&s, higher, &look, WR_RANGE_RESTS, -5, -4);
+    wr_field_free(field);
+    wr_field_free(higher);
     show_free(&s);
 }
 
@@ -376,6 +435,8 @@ int main(void)
         cmocka_unit_test(contours_lie_between_two_pixels_that_differ),
         cmocka_unit_test(reliefs_are_lit_by_the_cosine_and_level_ground_is_grey),
         cmocka_unit_test(normals_have_the_colours_of_a_map),
+        cmocka_unit_test(the_range_stays_during_edits_and_a_preview_widens_it_only_for_itself),
+        cmocka_unit_test(each_end_of_the_range_is_automatic_or_fixed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -491,7 +491,9 @@ static void settings_survive_being_written_and_read(void **state)
     a.brush.opacity = 0.75;
     a.symmetry.radial = 5;
     a.drawing.tolerance = 0.125;
-    a.look = (WrCanvasDisplay){ WR_CANVAS_CAVITY, WR_CANVAS_SIGNED, true, true, -2, 3, 0.3, -0.4 };
+    a.look = (WrCanvasDisplay){
+        WR_CANVAS_CAVITY, WR_CANVAS_SIGNED, { true, false }, true, -2, 3, 0.3, -0.4
+    };
     wr_settings_add_recent(&a, "/one");
     wr_settings_add_recent(&a, "/with a space/two");
     WrText text = { 0 }, again = { 0 };

@@ -21,6 +21,7 @@
 #include "ui/app/state/session_view.h"
 #include "ui/app/state/settings.h"
 #include "ui/panels/layer_choice.h"
+#include "ui/panels/generate/generate_state.h"
 #include "ui/patch/patch.h"
 #include "ui/patch/patch_cube.h"
 #include "ui/patch/patch_paint.h"
@@ -328,12 +329,58 @@ static void a_hovering_stamp_leaves_the_greys_alone(void **state)
         settle(&bench);
         assert_true(bench.app->range->low == low && bench.app->range->high == high);
     }
-    /* a stroke below the lowest height moves black, and white stays */
+    /* a stroke below the lowest height moves black when it has ended, and white stays */
     wr_action_run(bench.app, "brush");
     bench.app->settings->brush.mode = WR_BRUSH_LOWER;
     bench.app->settings->brush.strength = 1.0;
-    drag(&bench, x, y, 6, 0);
+    push_button(bench.app, true, SDL_BUTTON_LEFT, (int)x, (int)y);
+    for (int i = 0; i < 6; i++) {
+        push_motion(bench.app, (int)x + i, (int)y);
+        draw_again(bench.app);
+        assert_true(bench.app->range->low == low && bench.app->range->high == high);
+    }
+    assert_true(bench.app->range->table_low < low); /* the stroke is there */
+    push_button(bench.app, false, SDL_BUTTON_LEFT, (int)x + 5, (int)y);
+    settle(&bench);
     assert_true(bench.app->range->low < low && bench.app->range->high == high);
+    finish(&bench);
+}
+
+static void settle_preview(Bench *bench)
+{
+    const double end = wr_clock_seconds() + PATIENCE;
+    settle(bench);
+    while (wr_edit_preview_busy(bench->app->trial, NULL, NULL) && wr_clock_seconds() < end)
+        wr_app_step(bench->app);
+    settle(bench);
+}
+
+/* A generator's preview is higher than the table: the greys make room for it, once, and none when it is cancelled. */
+static void a_generators_preview_leaves_the_greys_as_they_were(void **state)
+{
+    (void)state;
+    Bench bench;
+    begin(&bench);
+    const int tab = bench.app->settings->tab;
+    run(&bench, "noise value cells=5 amplitude=0.01 level=0.015");
+    settle(&bench);
+    const WrCanvasRange before = *bench.app->range;
+    wr_action_run(bench.app, "generate_noise_perlin");
+    settle_preview(&bench);
+    const WrCanvasRange tried = *bench.app->range;
+    assert_true(bench.app->trying && tried.high > before.high && tried.low <= before.low);
+    double x, y;
+    wr_view_to_pixel(bench.app->view, 32, 32, &x, &y);
+    for (int i = 0; i < 4; i++) {
+        push_motion(bench.app, (int)x + 9 * i, (int)y);
+        settle_preview(&bench);
+        assert_true(bench.app->range->low == tried.low && bench.app->range->high == tried.high);
+    }
+    wr_generate_cancel(bench.app);
+    settle(&bench);
+    assert_true(bench.app->range->low == before.low && bench.app->range->high == before.high);
+    wr_action_run(bench.app, "brush");
+    bench.app->settings->tab = tab;
     finish(&bench);
 }
 
@@ -958,6 +1005,7 @@ int main(void)
         cmocka_unit_test(a_rectangle_selects_its_texels),
         cmocka_unit_test(a_dragged_layer_changes_its_place),
         cmocka_unit_test(a_photo_is_seen_from_its_front),
+        cmocka_unit_test(a_generators_preview_leaves_the_greys_as_they_were),
         /* last: they leave settings of their own */
         cmocka_unit_test(every_tool_survives_every_interruption),
         cmocka_unit_test(every_place_survives_every_interruption),

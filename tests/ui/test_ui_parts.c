@@ -60,7 +60,7 @@ static void assert_range(const double range[2], double low, double high)
 static void assert_own(double low, double high, double black, double white)
 {
     double range[2] = { 0 };
-    wr_range_follow(range, low, high, WR_RANGE_RESTS);
+    wr_range_follow(range, low, high);
     assert_range(range, black, white);
 }
 
@@ -82,36 +82,60 @@ static void a_range_moves_only_the_end_that_is_passed(void **state)
 {
     (void)state;
     double range[2] = { 0, 1 };
-    wr_range_follow(range, -0.3, 1, WR_RANGE_RESTS); /* a stroke below 0 */
-    assert_range(range, -0.3, 1);
-    wr_range_follow(range, 0, 1, WR_RANGE_RESTS); /* undone */
-    assert_range(range, -0.3, 1);
-    wr_range_follow(range, -5, 7, WR_RANGE_STAYS); /* a stamp preview */
-    assert_range(range, -0.3, 1);
-    wr_range_follow(range, 0.4, 0.45, WR_RANGE_WIDENS);
-    assert_range(range, -0.3, 1);
-    wr_range_follow(range, 0.4, 0.45, WR_RANGE_RESTS); /* almost nothing would be visible */
+    wr_range_follow(range, -0.625, 1); /* a command far below 0: just as far */
+    assert_range(range, -0.625, 1);
+    wr_range_follow(range, 0, 1); /* undone */
+    assert_range(range, -0.625, 1);
+    double tried[2] = { range[0], range[1] };
+    wr_range_widen(tried, 0.5, 7); /* a preview */
+    assert_range(tried, -0.625, 7);
+    wr_range_widen(tried, 0, 0);
+    assert_range(tried, -0.625, 7);
+    wr_range_follow(range, 0.4, 0.45); /* almost nothing would be visible */
     assert_range(range, 0.4, 0.45);
-    wr_range_follow(range, 0.4, 0.4, WR_RANGE_RESTS); /* a single grey in any case */
+    wr_range_follow(range, 0.4, 0.4); /* a single grey in any case */
     assert_range(range, 0.4, 0.45);
 }
 
-static void a_range_only_widens_while_something_is_painted(void **state)
+/* Each of 100 strokes raises the top a little: not every one moves the range, and all heights stay within. */
+static void a_range_is_not_moved_by_every_stroke(void **state)
 {
     (void)state;
     double range[2] = { 0 }, before;
-    wr_range_follow(range, 0, 0, WR_RANGE_WIDENS);
+    wr_range_follow(range, 0, 0);
+    assert_range(range, -0.5, 0.5);
+    wr_range_follow(range, 0, 1 / 64.0); /* zero stays mid-grey */
+    assert_range(range, -1 / 64.0, 1 / 64.0);
     int changes = 0;
-    for (int i = 0; i <= 1000; i++) { /* an increasing stroke */
+    for (int i = 1; i <= 100; i++) {
         before = range[1];
-        wr_range_follow(range, 0, i / 100.0, WR_RANGE_WIDENS);
-        assert_true(range[0] == -0.5 && range[1] >= i / 100.0 && range[1] >= before);
+        wr_range_follow(range, 0, i / 64.0);
+        assert_true(range[0] == -1 / 64.0 && range[1] >= i / 64.0 && range[1] >= before);
         changes += range[1] != before;
     }
-    assert_in_range(changes, 1, 20); /* not with each dab */
-    before = range[1];
-    wr_range_follow(range, 0, 10, WR_RANGE_RESTS); /* released: no jump */
-    assert_true(range[1] == before);
+    assert_in_range(changes, 2, 33);
+}
+
+static void assert_ends(double low, double high, const char *black, const char *white)
+{
+    char texts[2][WR_RANGE_TEXT];
+    wr_range_print(low, high, texts[0], texts[1]);
+    assert_string_equal(texts[0], black);
+    assert_string_equal(texts[1], white);
+}
+
+static void ends_of_a_range_have_no_digits_that_cannot_be_seen(void **state)
+{
+    (void)state;
+    assert_ends(-0.000325, 1.03, "0", "1.03");
+    assert_ends(0, 1, "0", "1");
+    assert_ends(-0.5, 0.5, "-0.5", "0.5");
+    assert_ends(-0.25, 0.124, "-0.25", "0.124");
+    assert_ends(0.1234567, 0.1240567, "0.123457", "0.124057");
+    assert_ends(-12345.678, 4000, "-12346", "4000");
+    assert_ends(-100, 20, "-100", "20");
+    assert_ends(-3e9, 2e9, "-3e+09", "2e+09");
+    assert_ends(2, 2, "2", "2");
 }
 
 /* ---- icons ---- */
@@ -799,7 +823,8 @@ int main(void)
         cmocka_unit_test(the_beginning_of_a_label_counts_more_than_its_middle),
         cmocka_unit_test(a_range_shows_a_new_table_in_the_middle_and_signs_around_it),
         cmocka_unit_test(a_range_moves_only_the_end_that_is_passed),
-        cmocka_unit_test(a_range_only_widens_while_something_is_painted),
+        cmocka_unit_test(a_range_is_not_moved_by_every_stroke),
+        cmocka_unit_test(ends_of_a_range_have_no_digits_that_cannot_be_seen),
         cmocka_unit_test(every_icon_has_a_word_where_its_font_is_missing),
         cmocka_unit_test(every_driver_has_a_way_to_the_screen_that_it_knows),
         cmocka_unit_test(a_sheet_rocks_smoothly_and_never_shows_its_back),

@@ -206,11 +206,52 @@ static void type_number(Walk *walk, const char *text)
     tap(walk, SDL_SCANCODE_RETURN);
 }
 
+/* ---- rows that jump ---- */
+
+static WrKeyStop places[MAX_ROWS];
+static int place_count, places_compared;
+
+static void note_places(Walk *walk)
+{
+    const WrKeyStop *stops = wr_gui_stops(walk->app->gui, &place_count);
+    if (place_count > MAX_ROWS) fail_msg("%s: too many rows", walk->where);
+    memcpy(places, stops, (size_t)place_count * sizeof *places);
+}
+
+/* Where the rows are still the same ones, only values and notes have changed: no row may have moved. */
+static void see_places(Walk *walk, const WrKeyStop *stop, const char *act)
+{
+    int count;
+    const WrKeyStop *now = wr_gui_stops(walk->app->gui, &count);
+    bool same = count == place_count;
+    for (int i = 0; i < count && same; i++) same = now[i].id == places[i].id;
+    for (int i = 0; i < count && same; i++) {
+        if (fabs((double)(now[i].y0 - places[i].y0)) < 0.5) continue;
+        complaints++;
+        printf("%s: %s at %g,%g (kind %d): a row at %g,%g moves by %g\n", walk->where, act,
+               (double)stop->x0, (double)stop->y0, (int)stop->kind, (double)places[i].x0,
+               (double)places[i].y0, (double)(now[i].y0 - places[i].y0));
+        break;
+    }
+    places_compared += same;
+}
+
+/* The pointer above a row shows its tip and moves nothing. */
+static void hover(Walk *walk, const WrKeyStop *stop)
+{
+    note_places(walk);
+    walk_point(walk, 0.5 * (double)(stop->x0 + stop->x1), 0.5 * (double)(stop->y0 + stop->y1));
+    walk_frame(walk);
+    see_places(walk, stop, "the pointer above it");
+}
+
 static void by_keys(Walk *walk, const WrKeyStop *stop)
 {
+    note_places(walk);
     switch (stop->kind) {
     case WR_STOP_NUMBER:
         tap(walk, SDL_SCANCODE_RIGHT);
+        see_places(walk, stop, "an arrow on the number");
         tap(walk, SDL_SCANCODE_LEFT);
         see_messages(walk, stop, "an arrow on the number");
         type_number(walk, "1e12");
@@ -222,7 +263,9 @@ static void by_keys(Walk *walk, const WrKeyStop *stop)
     case WR_STOP_CHOICE:
         for (int i = 0; i < MAX_STEPS; i++) {
             const uint64_t before = wr_session_revision(walk->session);
+            note_places(walk);
             tap(walk, SDL_SCANCODE_DOWN);
+            see_places(walk, stop, "a step down the list");
             see_messages(walk, stop, "a step down the list");
             if (wr_session_revision(walk->session) == before && i > 2) break;
             if (wr_gui_focus_now(walk->app->gui) != stop->id) break;
@@ -241,7 +284,7 @@ static void by_keys(Walk *walk, const WrKeyStop *stop)
         tap(walk, SDL_SCANCODE_SPACE);
         tap(walk, SDL_SCANCODE_SPACE);
         break;
-    default: tap(walk, SDL_SCANCODE_SPACE);
+    default: tap(walk, SDL_SCANCODE_SPACE); see_places(walk, stop, "the space key");
     }
     see_messages(walk, stop, "keys");
 }
@@ -334,6 +377,7 @@ static void change_row(Walk *walk, unsigned id, const Base *base)
 {
     WrKeyStop stop;
     if (!come_to(walk, id, &stop)) return;
+    hover(walk, &stop);
     by_keys(walk, &stop);
     rows_of_document += wr_session_history_position(walk->session) != base->position;
     back_to(walk, base);
@@ -468,7 +512,7 @@ static void no_row_is_answered_by_an_error(void **state)
     for (int i = 0; i < WR_DIALOG_COUNT; i++)
         if (!dialogs_seen[i]) printf("dialog %d was not opened\n", i), complaints++;
     assert_int_equal(complaints, 0);
-    assert_true(rows_changed > 500 && rows_of_document > 200);
+    assert_true(rows_changed > 500 && rows_of_document > 200 && places_compared > 1000);
 }
 
 /* ---- actions, menus ---- */

@@ -208,13 +208,15 @@ static bool panels_shown(const WrApp *app)
 
 static void range_auto(WrApp *app)
 {
-    app->settings->look.automatic = !app->settings->look.automatic;
+    bool *automatic = app->settings->look.automatic;
+    const bool both = automatic[0] && automatic[1];
+    for (int k = 0; k < 2; k++) automatic[k] = !both;
 }
 
 static void range_unit(WrApp *app)
 {
     WrCanvasDisplay *look = &app->settings->look;
-    look->automatic = false;
+    look->automatic[0] = look->automatic[1] = false;
     look->low = 0.0;
     look->high = 1.0;
 }
@@ -231,7 +233,7 @@ static bool is_marks(const WrApp *app)
 
 static bool is_auto(const WrApp *app)
 {
-    return app->settings->look.automatic;
+    return app->settings->look.automatic[0] && app->settings->look.automatic[1];
 }
 
 static void ants(WrApp *app)

@@ -1,8 +1,11 @@
 /* Canvas view: the table's picture and overlays. */
 #include "ui/app/canvas_view.h"
+#include "ui/app/jobs/edit_preview.h"
 #include "ui/canvas/canvas.h"
+#include "ui/canvas/canvas_colors.h"
 #include "ui/app/state/action.h"
 #include "ui/app/state/app_state.h"
+#include "ui/app/state/background_command.h"
 #include "ui/app/state/layout.h"
 #include "ui/app/state/session_view.h"
 #include "ui/app/state/settings.h"
@@ -37,6 +40,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#define RAMP_ROOM 0.25 /* of the table's range, shown on both sides of it */
+
 /* ---- range popup: displays and range of greys ---- */
 
 const WrCanvasMapRow wr_canvas_maps[WR_CANVAS_SHOWN] = {
@@ -56,44 +61,97 @@ static const char *const looks[] = { [WR_ROW(WR_CANVAS_GREY)] = "Grey",
                                      [WR_ROW(WR_CANVAS_CONTOURS)] = "Contours" };
 WR_ROWS_END(looks, WR_CANVAS_LOOKS);
 
-/* Colour ramp over all existing or displayed heights, lowest first, in the canvas colours: heights beyond the range
-   are visible at its ends. */
-static void ramp(const WrApp *app, const char *id, double wide, double tall)
+static const WrCanvasRange *shown_range(const WrApp *app)
 {
-    const WrCanvasRange *r = app->map_shown ? app->map_range : app->range;
-    double low = fmin(r->low, r->table_low), high = fmax(r->high, r->table_high);
+    return app->map_shown ? app->map_range : app->range;
+}
+
+/* Move the nearer end of a range to a height, keeping black below white. */
+static void drag_end(WrCanvasDisplay *look, const WrCanvasRange *r, double height, double least)
+{
+    const int end = fabs(height - r->high) < fabs(height - r->low);
+    look->low = r->low;
+    look->high = r->high;
+    look->automatic[end] = false;
+    if (end) look->high = fmax(height, r->low + least);
+    else look->low = fmin(height, r->high - least);
+}
+
+/* Colour ramp over the table's heights and a bit beyond, lowest first, in the canvas colours. Dragging moves the nearer
+   end of the range. The ramp's own ends are independent of the range: it does not move under the pointer. */
+static void ramp(WrApp *app, const char *id, double wide, double tall)
+{
+    const WrCanvasRange *r = shown_range(app);
+    const double span = r->table_high > r->table_low ? r->table_high - r->table_low : 1.0;
+    const double low = r->table_low - RAMP_ROOM * span, high = r->table_high + RAMP_ROOM * span;
     WrPad pad = wr_gui_pad_begin(id, wide, tall);
     for (int x = 0; x < (int)pad.w; x++) {
         double height = low + (high - low) * (x + 0.5) / pad.w;
         wr_gui_draw_fill(pad.x + x, pad.y, 1, pad.h, wr_canvas_colour(app->canvas, height), 0);
+    }
+    if (pad.held && !app->map_shown && !wr_app_shows_mask(app)) {
+        const double part = fmin(fmax((pad.pointer_x - pad.x) / pad.w, 0.0), 1.0);
+        drag_end(&app->settings->look, r, low + (high - low) * part, span / 64.0);
     }
     wr_gui_pad_end();
 }
 
 static void ramp_tip(const WrApp *app)
 {
-    const WrCanvasRange *r = app->map_shown ? app->map_range : app->range;
-    char tip[160];
-    bool beyond = r->table_low < r->low || r->table_high > r->high;
-    snprintf(tip, sizeof tip, wr_words("The %s goes from %.4g to %.4g%s"),
-             wr_words(app->map_shown ? "map" : "table"), r->table_low, r->table_high,
+    const WrCanvasRange *r = shown_range(app);
+    char tip[240], low[WR_RANGE_TEXT], high[WR_RANGE_TEXT];
+    const bool beyond = r->table_low < r->low || r->table_high > r->high;
+    wr_range_print(r->table_low, r->table_high, low, high);
+    snprintf(tip, sizeof tip, wr_words("The %s goes from %s to %s%s"),
+             wr_words(app->map_shown ? "map" : "table"), low, high,
              beyond ? wr_words(": some of it lies beyond the range that is shown") : "");
     wr_gui_tip(tip);
 }
 
-static bool is_unit(const WrCanvasDisplay *look)
+/* Index of the present range in the list of range_popup; -1: none of them. */
+static int way_of(const WrCanvasDisplay *look)
 {
-    return !look->automatic && look->low == 0.0 && look->high == 1.0;
+    if (look->automatic[0] && look->automatic[1]) return 0;
+    if (look->automatic[0] || look->automatic[1]) return -1;
+    return look->low == 0.0 && look->high == 1.0 ? 1 : 2;
 }
 
 static void choose_way(WrApp *app, int way)
 {
     WrCanvasDisplay *look = &app->settings->look;
-    look->automatic = way == 0;
+    look->automatic[0] = look->automatic[1] = way == 0;
     if (way == 0) wr_canvas_fit_range(app->canvas);
     if (way == 0) return;
     look->low = way == 1 ? 0.0 : app->range->low;
     look->high = way == 1 ? 1.0 : app->range->high;
+}
+
+/* One end of the range, typed or dragged, and whether it follows the table instead. end: 0 black, 1 white. */
+static void range_end(WrApp *app, int end)
+{
+    WrCanvasDisplay *look = &app->settings->look;
+    const double low = app->range->low, high = app->range->high;
+    const WrNumber spec = { .low = end ? 0 : -1,
+                            .high = end ? 2 : 1,
+                            .hard_low = end ? low + 1e-6 : -1e30,
+                            .hard_high = end ? 1e30 : high - 1e-6,
+                            .reset = end,
+                            .decimals = 3,
+                            .tip = end ? "Height shown as white" : "Height shown as black" };
+    double value = end ? high : low;
+    wr_gui_label(end ? "White" : "Black");
+    if (wr_gui_number(end ? "high" : "low", wr_gui_px(120), &spec, &value)) {
+        look->automatic[end] = false;
+        *(end ? &look->high : &look->low) = value;
+    }
+    wr_gui_same_line(8);
+    wr_gui_next_id(end ? "white_follows" : "black_follows");
+    if (wr_gui_chip(look->automatic[end] ? WR_ICON_CHECK : WR_ICON_ROUND, "Automatic")) {
+        look->automatic[end] = !look->automatic[end];
+        *(end ? &look->high : &look->low) = value;
+        if (look->automatic[end]) wr_canvas_fit_range(app->canvas);
+    }
+    wr_gui_tip("Follows the table after each edit, and stays during one");
 }
 
 /* Choice of display in two rows: the table and its slopes, and maps of it. */
@@ -119,7 +177,7 @@ static void range_popup(WrApp *app)
 {
     static const char *const ways[] = { "As the table", "0 to 1", "As it is now" };
     WrCanvasDisplay *look = &app->settings->look;
-    int chosen = (int)look->colours, way = look->automatic ? 0 : is_unit(look) ? 1 : 2;
+    int chosen = (int)look->colours, way = way_of(look);
     if (!wr_gui_popup_begin("range")) return;
     choose_shown(look);
     if (look->shown != WR_CANVAS_HEIGHTS) {
@@ -135,28 +193,8 @@ static void range_popup(WrApp *app)
     ramp_tip(app);
     wr_gui_check("Mark heights beyond", &look->marks);
     wr_gui_tip("Warm above the range, cool below it");
-    double field = 120 * wr_gui_scale();
-    WrNumber low = { .low = -1,
-                     .high = 1,
-                     .hard_low = -1e30,
-                     .hard_high = look->high - 1e-6,
-                     .reset = 0,
-                     .decimals = 3,
-                     .tip = "Height shown as black" };
-    WrNumber high = { .low = 0,
-                      .high = 2,
-                      .hard_low = look->low + 1e-6,
-                      .hard_high = 1e30,
-                      .reset = 1,
-                      .decimals = 3,
-                      .tip = "Height shown as white" };
-    wr_gui_disable(look->automatic);
-    double l = app->range->low, h = app->range->high;
-    wr_gui_label("Black");
-    if (wr_gui_number("low", field, &low, &l) && l < look->high) look->low = l;
-    wr_gui_label("White");
-    if (wr_gui_number("high", field, &high, &h) && h > look->low) look->high = h;
-    wr_gui_disable_end();
+    range_end(app, 0);
+    range_end(app, 1);
     wr_gui_popup_end();
 }
 
@@ -171,7 +209,11 @@ static void chip_text(const WrApp *app, const WrCanvasRange *range, char *text, 
     else if (!map && !wr_app_shows_mask(app) && look->colours == WR_CANVAS_CONTOURS)
         snprintf(text, size, wr_words("Contours every %.3g"),
                  wr_canvas_contour_interval(app->canvas));
-    else snprintf(text, size, "%s %.3g \xe2\x80\x93 %.3g", name, range->low, range->high);
+    else {
+        char low[WR_RANGE_TEXT], high[WR_RANGE_TEXT];
+        wr_range_print(range->low, range->high, low, high);
+        snprintf(text, size, "%s %s \xe2\x80\x93 %s", name, low, high);
+    }
 }
 
 /* Light direction of relief shading: a shaded ball in the corner; dragging it moves the light. */
@@ -213,14 +255,43 @@ static void relief_switch(WrApp *app)
     wr_gui_tip(wr_action_help(app, wr_action_find(app, WR_ACT(look_relief))));
 }
 
+/* Banner at the upper edge while strokes go to a mask, with a button back to the layer's heights. */
+static void mask_banner(WrApp *app)
+{
+    const SDL_Rect *room = &app->layout->canvas;
+    const WrDocument *document = wr_app_document(app);
+    const double s = wr_gui_scale(), tall = 32 * s;
+    const char *back = "Back to the layer";
+    char text[WR_LAYER_NAME_MAX + 60];
+    snprintf(text, sizeof text, wr_words("Editing the mask of \"%s\""),
+             document->layers[document->active].name);
+    const double button = wr_gui_text_width(WR_FONT_TEXT, wr_words(back)) + 30 * s;
+    const double most = fmin(room->w - 24 * s - button, 420 * s);
+    const double written = fmin(wr_gui_text_width(WR_FONT_TEXT, text), most - 16 * s);
+    const double wide = written + 16 * s + button, x = rint(room->x + (room->w - wide) / 2);
+    /* below the range and the seams, unless there is room between them */
+    const double beside = 400 * s, y = room->y + (room->w > wide + 2 * beside ? 10 : 48) * s;
+    if (most < 60 * s) return;
+    wr_gui_draw_fill(x, y, wide, tall, WR_COLOUR_SELECTED, 4 * s);
+    wr_gui_draw_clip((SDL_Rect){ (int)x, (int)y, (int)(16 * s + written), (int)tall });
+    wr_gui_draw_text(x + 10 * s, y + (tall - wr_gui_line_height(WR_FONT_TEXT)) / 2, WR_FONT_TEXT,
+                     WR_COLOUR_STRONG, text);
+    wr_gui_draw_unclip();
+    wr_gui_overlay_begin("##mask_banner", (int)(x + wide - 4 * s), (int)(y + tall / 2), 1, 0.5);
+    wr_busy_hold(app);
+    if (wr_gui_chip(NULL, back)) wr_action_run(app, WR_ACT(mask_edit));
+    wr_busy_hold_end();
+    wr_gui_tip("Strokes change the layer's heights again");
+    wr_gui_overlay_end();
+}
+
 static void canvas_chip(WrApp *app)
 {
     const SDL_Rect *room = &app->layout->canvas;
     int gap = wr_gui_px(12);
     char text[96];
     const WrCanvasDisplay *look = &app->settings->look;
-    const WrCanvasRange *range = app->map_shown ? app->map_range : app->range;
-    chip_text(app, range, text, sizeof text);
+    chip_text(app, shown_range(app), text, sizeof text);
     wr_gui_overlay_begin("##range", room->x + gap, room->y + gap, 0, 0);
     wr_gui_next_id("range"); /* the numbers change under the pointer */
     if (wr_gui_chip(WR_ICON_DOWN, text)) wr_gui_popup_open("range");
@@ -244,11 +315,14 @@ static void canvas_chip(WrApp *app)
 #define MEANS_BUDGET 0.012 /* time limit in seconds for averaging a large table in one frame */
 #define GRID_FROM 8.0      /* zoom from which a pixel grid is drawn */
 
+/* The range follows the table at rest only: not while something is painted or dragged, nor a preview that follows the
+   pointer. A finished preview of a dialog or a generator may widen it until it ends. */
 static WrRangeHold range_hold(const WrApp *app)
 {
-    if (app->stamp->trying) return WR_RANGE_STAYS;
-    const bool held = app->hand->grab != WR_GRAB_NONE || app->brush->jobs.count > 0;
-    return held ? WR_RANGE_WIDENS : WR_RANGE_RESTS;
+    const bool drawn = app->hand->grab != WR_GRAB_NONE || app->brush->jobs.count > 0;
+    if (drawn || app->stamp->trying || wr_gui_holds_mouse(app->gui)) return WR_RANGE_STAYS;
+    if (!app->trying) return WR_RANGE_RESTS;
+    return wr_edit_preview_busy(app->trial, NULL, NULL) ? WR_RANGE_STAYS : WR_RANGE_TRIES;
 }
 
 /* The requested map in place of the table; NULL: none, or not ready. second: its second component, or NULL. */
@@ -280,10 +354,12 @@ static void canvas_view_draw(WrApp *app)
     if (map) {
         const WrCanvasMapRow *now = &wr_canvas_maps[look.shown];
         look.colours = now->colours;
-        const double lowest = app->map_range->table_low;
-        look.automatic = look.marks = false;
+        look.marks = false;
+        look.automatic[0] = now->low == now->high;
+        look.automatic[1] = false;
         look.low = now->low, look.high = now->high;
-        if (look.low == look.high) look.low = lowest < 0 ? lowest : -1;
+    } else {
+        look.shown = WR_CANVAS_HEIGHTS; /* the map is not ready */
     }
     if (wr_app_shows_mask(app))
         look = (WrCanvasDisplay){ .colours = WR_CANVAS_GREY, .low = 0.0, .high = 1.0 };
@@ -297,7 +373,6 @@ static void canvas_view_draw(WrApp *app)
         wr_canvas_draw(app->canvas, wr_gui_kept(app->gui), app->view, map ? map : field,
                        map ? second : NULL, &look, range_hold(app), MEANS_BUDGET, &range);
     app->map_shown = map != NULL;
-    if (map && range.table_low != app->map_range->table_low) wr_app_redraw(app);
     if (map) *app->map_range = range;
     else *app->range = range;
     if (app->canvas_unfinished) wr_app_redraw(app);
@@ -386,6 +461,7 @@ void wr_canvas_view_overlay(WrApp *app)
     if (app->hints && app->file->starter) hints(app);
     wr_gui_draw_unclip();
     if (room->w > wr_gui_px(140)) canvas_chip(app);
+    if (wr_paints_mask(app)) mask_banner(app);
     wr_panel_symmetry(app);
     if (room->w > wr_gui_px(240)) wr_panel_seam_meter(app);
 }

@@ -14,6 +14,7 @@
 #include <math.h>
 #include <string.h>
 
+#define LEAST_RANGE 1.0
 #define DIRTY_MAX 4096 /* tiles; with more, the whole picture is redrawn */
 
 struct WrCanvas {
@@ -34,7 +35,8 @@ struct WrCanvas {
     WrCanvasView view, flat; /* view of the present picture, and without rotation */
     WrCanvasDisplay look;
     double low, high;
-    double follows[2]; /* the automatic range; empty: to be chosen again */
+    /* automatic ranges of the table and of its maps; empty: to be chosen again. tried: of a preview */
+    double follows[WR_CANVAS_SHOWN][2], tried[2];
     float table_low, table_high;
     bool valid, flooded;
     WR_ARRAY(SDL_Point) dirty; /* tiles */
@@ -49,7 +51,7 @@ WrCanvas *wr_canvas_new(void)
 
 void wr_canvas_fit_range(WrCanvas *canvas)
 {
-    canvas->follows[0] = canvas->follows[1] = 0.0;
+    memset(canvas->follows, 0, sizeof canvas->follows);
 }
 
 void wr_canvas_forget(WrCanvas *canvas)
@@ -342,15 +344,28 @@ static bool has_buffers(const WrCanvas *canvas, const WrCanvasView *view)
            (canvas->turned != NULL) == (view->turn != 0.0) && canvas->view.table_w == view->table_w;
 }
 
+/* The automatic range: that of the table at rest, or of a finished preview. While it stays, nothing is followed: heights beyond
+   it are clipped. */
+static void follow(WrCanvas *canvas, WrCanvasShown shown, WrRangeHold hold)
+{
+    double *range = canvas->follows[shown];
+    const double low = (double)canvas->table_low, high = (double)canvas->table_high;
+    if (hold == WR_RANGE_RESTS || !(range[1] > range[0])) wr_range_follow(range, low, high);
+    else if (hold == WR_RANGE_STAYS && shown == canvas->look.shown) return;
+    memcpy(canvas->tried, range, sizeof canvas->tried);
+    if (hold == WR_RANGE_TRIES) wr_range_widen(canvas->tried, low, high);
+}
+
 static void choose_range(WrCanvas *canvas, const WrCanvasDisplay *look, WrRangeHold hold)
 {
     double shown[2] = { look->low, look->high };
     wr_canvas_mips_range(canvas->cells[0], &canvas->table_low, &canvas->table_high);
-    if (look->automatic) {
-        wr_range_follow(canvas->follows, (double)canvas->table_low, (double)canvas->table_high,
-                        hold);
-        memcpy(shown, canvas->follows, sizeof shown);
-    }
+    if (look->automatic[0] || look->automatic[1]) follow(canvas, look->shown, hold);
+    for (int k = 0; k < 2; k++)
+        if (look->automatic[k]) shown[k] = canvas->tried[k];
+    /* a fixed end beyond all heights: the automatic one keeps its distance */
+    if (!(shown[1] > shown[0]) && look->automatic[0]) shown[0] = shown[1] - LEAST_RANGE;
+    else if (!(shown[1] > shown[0]) && look->automatic[1]) shown[1] = shown[0] + LEAST_RANGE;
     double low = shown[0], high = shown[1];
     if (!(high - low > 1e-30)) high = low + 1e-30; /* avoids a division by zero */
     if (low != canvas->low || high != canvas->high || look->colours != canvas->look.colours ||

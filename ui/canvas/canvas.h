@@ -12,11 +12,11 @@ typedef struct WrRetainedFrame WrRetainedFrame;
 
 typedef struct WrCanvas WrCanvas;
 
-/* How the automatic range follows the heights: wr_range_follow in canvas_colors.h. */
+/* How the automatic range follows the heights. */
 typedef enum WrRangeHold {
-    WR_RANGE_RESTS,  /* no edit in progress */
-    WR_RANGE_WIDENS, /* painting in progress */
-    WR_RANGE_STAYS   /* the table is a preview that follows the pointer */
+    WR_RANGE_RESTS, /* no edit in progress: it follows (wr_range_follow in canvas_colors.h) */
+    WR_RANGE_TRIES, /* the table is a finished preview of an edit: it widens until the preview ends */
+    WR_RANGE_STAYS /* painting, dragging, or a preview that follows the pointer: it stays */
 } WrRangeHold;
 
 typedef enum WrCanvasColours {
@@ -44,9 +44,9 @@ typedef enum WrCanvasShown {
 typedef struct WrCanvasDisplay {
     WrCanvasShown shown;
     WrCanvasColours colours; /* of heights; SIGNED: blue below zero, white at zero, orange above */
-    bool automatic;          /* low and high are adjusted to the table (wr_range_follow) */
+    bool automatic[2];       /* low, high: adjusted to the table (wr_range_follow) */
     bool marks;              /* tint heights beyond the range: warm above, cool below */
-    double low, high;        /* heights displayed as black and white; low < high */
+    double low, high;        /* heights displayed as black and white, unless automatic */
     /* of shaded relief: right and up components of the unit vector towards the light */
     double light_x, light_y;
 } WrCanvasDisplay;

@@ -4,6 +4,8 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
 
 #define BEYOND 0.01f /* of a code: tolerance before a value counts as beyond the range */
 #define MAJOR 5      /* every fifth contour is a major one */
@@ -158,7 +160,8 @@ void wr_canvas_ink_slopes(const WrCanvasInk *ink, const float *p, const float *q
 /* ---- range of greys ---- */
 
 #define LEVEL_REACH 0.5 /* least range on each side of zero for a level table */
-#define ROOM 0.25       /* margin, as a fraction of the range */
+#define ROOM 0.125      /* margin, as a fraction of the range */
+#define NEAR 0.5        /* an end passed by less than this fraction gets the margin */
 #define USED_MIN 0.125  /* least used fraction of the range */
 #define SLIGHT                                                                                     \
     0.25 /* if dents are much shallower than bumps are high, they must not take half of the greys */
@@ -172,18 +175,50 @@ static void own_range(double range[2], double low, double high)
     range[1] = signs ? reach : high;
 }
 
-void wr_range_follow(double range[2], double low, double high, WrRangeHold hold)
+static bool is_empty(const double range[2])
 {
-    const double span = range[1] - range[0];
+    return !(range[1] - range[0] > 0.0);
+}
+
+void wr_range_follow(double range[2], double low, double high)
+{
+    const double span = range[1] - range[0], room = ROOM * span;
     const bool spare = high > low && high - low < USED_MIN * span;
-    if (!(span > 0.0) || (spare && hold == WR_RANGE_RESTS)) {
-        own_range(range, low, high);
+    if (is_empty(range) || spare) {
+        const bool signs = spare && range[0] == -range[1]; /* zero stays mid-grey */
+        own_range(range, signs ? -fmax(fabs(low), fabs(high)) : low, high);
         return;
     }
-    if (hold == WR_RANGE_STAYS) return;
-    const double more = hold == WR_RANGE_WIDENS ? ROOM * span : 0.0;
-    if (low < range[0]) range[0] = low - more;
-    if (high > range[1]) range[1] = high + more;
+    if (low < range[0]) range[0] = range[0] - low < NEAR * span ? low - room : low;
+    if (high > range[1]) range[1] = high - range[1] < NEAR * span ? high + room : high;
+}
+
+void wr_range_widen(double range[2], double low, double high)
+{
+    if (is_empty(range)) own_range(range, low, high);
+    range[0] = fmin(range[0], low);
+    range[1] = fmax(range[1], high);
+}
+
+/* With `decimals`, but without trailing zeros and without "-0". */
+static void print_end(double value, int decimals, char text[WR_RANGE_TEXT])
+{
+    const double unit = pow(10.0, decimals);
+    if (!(fabs(value) < 1e6)) snprintf(text, WR_RANGE_TEXT, "%.3g", value);
+    else snprintf(text, WR_RANGE_TEXT, "%.*f", decimals, rint(value * unit) / unit + 0.0);
+    if (!strchr(text, '.')) return;
+    size_t length = strlen(text);
+    while (text[length - 1] == '0') length--;
+    if (text[length - 1] == '.') length--;
+    text[length] = '\0';
+}
+
+void wr_range_print(double low, double high, char black[WR_RANGE_TEXT], char white[WR_RANGE_TEXT])
+{
+    const double span = high - low, leading = span > 0.0 ? floor(log10(span)) : 0.0;
+    const int decimals = (int)fmax(0.0, fmin(12.0, 2.0 - leading));
+    print_end(low, decimals, black);
+    print_end(high, decimals, white);
 }
 
 /* ---- thumbnails ---- */

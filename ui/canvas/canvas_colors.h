@@ -40,10 +40,15 @@ void wr_canvas_ink_slopes(const WrCanvasInk *ink, const float *p, const float *q
  *
  * An empty range (black >= white) becomes the table's own. In it zero is mid-grey if the table is level or goes well
  * below zero, so that raising and lowering are both visible. Otherwise the picture is kept as far as possible: a
- * height beyond the range moves only that end, and the other keeps its grey. A range of which the table uses less
- * than an eighth becomes the table's own, at rest. WR_RANGE_WIDENS: an end moves by more than necessary, so that not
- * every dab redraws the picture. */
-void wr_range_follow(double range[2], double low, double high, WrRangeHold hold);
+ * height beyond the range moves only that end, and the other keeps its grey. An end that is passed by little, as by a
+ * stroke, moves by more than necessary, so that not every stroke moves it. A range of which the table uses less than
+ * an eighth becomes the table's own, with zero in the middle if it was there. */
+void wr_range_follow(double range[2], double low, double high);
+/* Widen the range just as far as the heights low..high need. */
+void wr_range_widen(double range[2], double low, double high);
+/* The ends as text, "-0.25", "1": to a hundredth of the range's leading digit, so that nothing invisible is shown. */
+#define WR_RANGE_TEXT 40
+void wr_range_print(double low, double high, char black[WR_RANGE_TEXT], char white[WR_RANGE_TEXT]);
 
 /* ---- thumbnails of tables for lists ---- */
 

@@ -79,7 +79,7 @@ static void map_row(WrForms *f)
     WR_ROWS_END(titles, WR_BAKE_KINDS);
     wr_gui_label("Map");
     wr_gui_choice("map", 0, titles, WR_BAKE_KINDS, &f->bake_map);
-    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_bakes[f->bake_map].help);
+    wr_gui_note(WR_COLOUR_LABEL, wr_bakes[f->bake_map].help, 2);
 }
 
 static void cage_row(const WrApp *app, WrForms *f)

@@ -53,7 +53,6 @@ static void basic(WrApp *app)
                       .reset = own.hardness,
                       .decimals = 2,
                       .tip = "Share of the radius with full strength" };
-    const WrNumber strength = wr_strength_slider(app);
     WrNumber to = { .low = 0,
                     .high = 1,
                     .hard_low = -1e30,
@@ -71,7 +70,10 @@ static void basic(WrApp *app)
     double diameter = 2.0 * b->radius;
     if (number("Size", &size, &diameter)) b->radius = diameter / 2.0;
     number("Hardness", &hard, &b->hardness);
-    if (uses & WR_USES_STRENGTH) number("Strength", &strength, wr_strength_setting(app));
+    if (uses & WR_USES_STRENGTH) {
+        wr_gui_label("Strength");
+        wr_strength_number(app, "Strength", 0);
+    }
     if (uses & WR_USES_TO) number("Height", &to, &b->to);
     if (uses & WR_USES_REACH) number("Reach", &reach, &b->reach);
     percent("Opacity", "Opacity of the whole stroke: overlaps never exceed it", &b->opacity);

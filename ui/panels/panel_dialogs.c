@@ -256,7 +256,7 @@ void wr_dialog_export(WrApp *app)
     for (int i = 0; i < WR_EXPORT_KIND_COUNT; i++) kinds[i] = wr_export_kinds[i].label;
     wr_gui_label("What");
     wr_gui_choice("kind", 0, kinds, WR_EXPORT_KIND_COUNT, &f->kind);
-    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_export_kinds[f->kind].help);
+    wr_gui_note(WR_COLOUR_LABEL, wr_export_kinds[f->kind].help, 2);
     if (wr_export_kinds[f->kind].prepare) { /* the kind has a range */
         wr_gui_label("Black and white");
         wr_gui_choice("range", 0, ranges, WR_RANGES, &f->range);

@@ -119,7 +119,8 @@ static bool row(WrApp *app, const WrSearchEntry *entry, int i, bool chosen)
         entry->action && !entry->row ? wr_action_find(app, entry->action) : NULL;
     const bool enabled = !action || wr_action_can(app, action);
     const WrRow r = wr_gui_row_begin(i, ROW_UNITS, chosen);
-    if (chosen) wr_gui_row_see();
+    if (chosen && i != app->finder->seen) wr_gui_row_see(); /* else the wheel scrolls */
+    if (chosen) app->finder->seen = i;
     const double side = wr_gui_px(22), left = wr_gui_px(44);
     SDL_Texture *picture = picture_of(app, entry);
     wr_gui_row_set_cursor(wr_gui_px(picture ? 10 : 13), picture ? side : 0);
@@ -194,6 +195,7 @@ static void answer(WrFinder *finder)
     finder->found_count =
         wr_search_index_find(&finder->index, finder->text, finder->found, WR_SEARCH_SHOWN);
     finder->found_at = finder->index.made;
+    finder->seen = -1;
     memcpy(finder->found_for, finder->text, sizeof finder->found_for);
 }
 

@@ -11,7 +11,7 @@ typedef struct WrFinder { /* the search */
     /* a command was just chosen: the field contains its verb and needs the keyboard focus */
     bool fill;
     bool line; /* the text is a command line, not a search */
-    int chosen;
+    int chosen, seen; /* row chosen, and that which was last scrolled to */
     bool empty; /* Return in an empty field: restore the keyboard focus */
     WrSearchIndex index;
     /* results for a text, and the state of the index then */

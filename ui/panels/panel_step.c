@@ -116,11 +116,11 @@ static void trouble(WrApp *app)
     WrHistoryState *hand = app->history;
     WrError err;
     if (wr_edit_preview_error(app->trial, &err)) hand->err = err;
-    if (!hand->err.text[0]) return;
     char text[WR_ERROR_TEXT + WR_ERROR_MESSAGE];
+    const char *said =
+        hand->err.text[0] ? wr_words_message(wr_error_message(&hand->err), text, sizeof text) : "";
     wr_gui_as_it_is(true);
-    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_RAISE,
-                        wr_words_message(wr_error_message(&hand->err), text, sizeof text));
+    wr_gui_note(WR_COLOUR_RAISE, said, 2);
     wr_gui_as_it_is(false);
 }
 

@@ -188,6 +188,9 @@ typedef enum WrFont {
 } WrFont;
 void wr_gui_text(WrFont font, WrColour colour, const char *text);
 void wr_gui_text_wrapped(WrFont font, WrColour colour, const char *text);
+/* A wrapped text that comes and goes or changes, as a help or a warning: it always has the room of `lines` lines, so
+   that the rows below stay in place. "" only keeps the room. */
+void wr_gui_note(WrColour colour, const char *text, int lines);
 void wr_gui_heading(const char *text); /* heading of a group of rows: small, capitals as given */
 void wr_gui_label(const char *text);   /* left part of a row; the field follows in the same line */
 double wr_gui_text_width(WrFont font, const char *text);

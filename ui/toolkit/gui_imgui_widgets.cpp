@@ -203,6 +203,16 @@ try {
 }
 WR_CAUGHT()
 
+extern "C" void wr_gui_note(WrColour colour, const char *text, int lines)
+try {
+    const float from = ImGui::GetCursorPosY();
+    const float room = (float)(lines * wr_gui_line_height(WR_FONT_SMALL));
+    if (text[0]) wr_gui_text_wrapped(WR_FONT_SMALL, colour, text);
+    const float left = from + room + ImGui::GetStyle().ItemSpacing.y - ImGui::GetCursorPosY();
+    if (left > 0.0f) ImGui::SetCursorPosY(ImGui::GetCursorPosY() + left);
+}
+WR_CAUGHT()
+
 extern "C" void wr_gui_heading(const char *text)
 try {
     wr_gui_pin_step();

@@ -381,15 +381,15 @@ static void show_entries(WrFiles *files, bool *done)
     wr_free(full);
 }
 
-/* Warn about overwriting an existing file below the field, before the question. */
-static void warn_overwrite(const WrFiles *files)
+/* An existing file has the typed name. */
+static bool overwrites(const WrFiles *files)
 {
-    if (!wr_file_purpose_writes(files->purpose) || files->field[0] == '\0') return;
+    if (!wr_file_purpose_writes(files->purpose) || files->field[0] == '\0') return false;
     char *path = typed_path(files), *full = with_ending(files, path);
-    if (wr_path_is_there(full) && !is_folder(path))
-        wr_gui_text(WR_FONT_SMALL, WR_COLOUR_CELL, "There is a file of this name.");
+    const bool there = wr_path_is_there(full) && !is_folder(path);
     wr_free(full);
     wr_free(path);
+    return there;
 }
 
 WrFilePurpose wr_files_purpose(const WrFiles *files)
@@ -436,9 +436,8 @@ int wr_files_panel(WrFiles *files, const char *note, char *const recent[])
     }
     bool entered = wr_gui_text_field("##name", 0, files->field, sizeof files->field, files->focus);
     files->focus = false;
-    warn_overwrite(files);
-    if (files->trouble.text[0])
-        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_BAD, wr_error_message(&files->trouble));
+    if (files->trouble.text[0]) wr_gui_note(WR_COLOUR_BAD, wr_error_message(&files->trouble), 1);
+    else wr_gui_note(WR_COLOUR_CELL, overwrites(files) ? "There is a file of this name." : "", 1);
     wr_gui_space(4);
     if (wr_gui_button(purposes[files->purpose].done, true)) done = true;
     wr_gui_same_line(8);

@@ -44,7 +44,11 @@ WrSettings wr_settings_default(void)
         .steady_smooth = 24.0,
         .steady_string = 40.0,
         .fake = { .slow = 60.0, .fast = 2000.0, .least = 0.15, .held = 1.0, .now = 1.0 },
-        .look = { .automatic = true, .marks = true, .high = 1.0, .light_x = -0.5, .light_y = 0.6 }
+        .look = { .automatic = { true, true },
+                  .marks = true,
+                  .high = 1.0,
+                  .light_x = -0.5,
+                  .light_y = 0.6 }
     };
 }
 
@@ -184,7 +188,8 @@ static int view_rows(WrSettings *s, Row *rows)
         { "mouse_least", &s->fake.least, NULL, NULL, 0, 1 },
         { "shown", NULL, (int *)&s->look.shown, NULL, 0, WR_CANVAS_SHOWN - 1 },
         { "colours", NULL, (int *)&s->look.colours, NULL, 0, WR_CANVAS_LOOKS - 1 },
-        { "range_follows", NULL, NULL, &s->look.automatic, 0, 1 },
+        { "range_follows", NULL, NULL, &s->look.automatic[0], 0, 1 },
+        { "range_follows_white", NULL, NULL, &s->look.automatic[1], 0, 1 },
         { "range_marks", NULL, NULL, &s->look.marks, 0, 1 },
         { "light_x", &s->look.light_x, NULL, NULL, -1, 1 },
         { "light_y", &s->look.light_y, NULL, NULL, -1, 1 },

@@ -67,8 +67,7 @@ void wr_option_hardness(WrApp *app, double width)
 
 void wr_option_strength(WrApp *app, double width)
 {
-    const WrNumber spec = wr_strength_slider(app);
-    wr_gui_number("strength", width, &spec, wr_strength_setting(app));
+    wr_strength_number(app, "strength", width);
 }
 
 static void percent(const char *id, double width, const char *tip, double *part)

@@ -79,7 +79,7 @@ extern const WrPart wr_part_strokes;
 bool wr_paints_mask(const WrApp *app);
 /* The setting changed by strength sliders and keys; valid as long as the settings. */
 double *wr_strength_setting(WrApp *app);
-/* Its slider. */
-WrNumber wr_strength_slider(const WrApp *app);
+/* Its slider, in percent while a mask is painted. width: pixels; <= 0: the rest of the row. */
+void wr_strength_number(WrApp *app, const char *id, double width);
 /* The brush with its present strength. */
 WrBrush wr_brush_now(const WrApp *app);
