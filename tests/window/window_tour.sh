@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A painter's first hours, by hand: thirty-six tasks in the real window, each checked by what was saved or written, a
+# A painter's first hours, by hand: fifty tasks in the real window, each checked by what was saved or written, a
 # screenshot of each kept.  window_tour.sh PROGRAM SOURCE-FOLDER [PICTURES [WIDTHxHEIGHT [SCALE [THEME [MANAGER]]]]]
 #
 # PICTURES: a folder that keeps the screenshots, or none. THEME: 0 dark, 1 light, 2 high contrast. MANAGER: a window
@@ -357,6 +357,100 @@ search 'Export...'
 done_with
 key Return
 type_path out.png
+
+task 'several layers moved together'
+search 'Choose all layers'
+search 'Free transform'
+settle
+key Right
+key Return
+became 'transform *of=*'
+done_with
+
+task 'a brush by its name'
+search 'Chisel'
+stroke 170 380 320 420
+became 'stroke *preset=* points=*'
+search 'Round brush'
+done_with
+
+task 'a seam made seamless'
+search 'Make seamless...'
+settle
+key Return
+became 'adjust seamless*'
+done_with
+
+task 'two edges matched'
+search 'Match edges...'
+settle
+key Return
+became 'adjust match-edges*'
+done_with
+
+task 'evened light'
+search 'Even out light...'
+settle
+key Return
+became 'adjust even-light*'
+done_with
+
+task 'gold'
+search 'Gold'
+became 'material *gold*'
+done_with
+
+task 'raking light'
+search 'Raking light'
+became 'light preset raking*'
+done_with
+
+task 'a mug'
+search 'Mug'
+became 'model mug*'
+done_with
+
+task 'a row by the search, a number typed'
+row 'bump height'
+click $((row_end - 40)) "$row_y"
+rest
+key ctrl+a
+xdotool type --delay 15 0.25
+key Return
+became 'bump *height=0.25*'
+done_with
+
+task 'relief on the canvas'
+search 'Shaded relief'
+shot relief
+key alt+1
+shot grey
+[[ $(differs relief grey "$(place_x 200)x$(place_y 300)+$(place_x 120)+$(place_y 350)") != 0 ]] || complain "$name: the canvas is the same"
+done_with
+
+task 'workspaces'
+key ctrl+2
+settle
+shot generating
+key ctrl+1
+settle
+shot painting
+[[ $(differs generating painting "$(place_x 200)x$(place_y 600)+$(place_x 790)+$(place_y 150)") != 0 ]] || complain "$name: the panel is the same"
+done_with
+
+task 'an earlier step switched off, and on'
+search 'History'
+save stepped
+"$program" run history.wrinkle >/dev/null 2>&1
+done_with
+
+task 'the cost of accuracy'
+search 'Tour: cost of accuracy'
+sleep 2 # it measures, and so never rests
+shot study
+key alt+5
+done_with
+search 'Brushes'
 
 task 'history as a script'
 search 'Save history as script...'
