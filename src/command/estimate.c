@@ -177,9 +177,10 @@ static double brush(const Job *job, const Need *need)
 {
     const double r = number(job, "radius", 0);
     const WrArg *path = has(job, "points") ? wr_call_arg(job->call, "points") : NULL;
+    const int width = path ? wr_arg_width(&job->call->specs[path - job->call->args]) : 0;
     double length = 0.0;
     for (int i = 1; path && i < path->rows; i++) {
-        const double *a = path->numbers + (i - 1) * 6, *b = a + 6;
+        const double *a = path->numbers + (i - 1) * width, *b = a + width;
         length += hypot((b[0] - a[0]) * job->width, (b[1] - a[1]) * job->height);
     }
     return need->bytes * fmin(PI * r * r + 2.0 * r * length, job->texels);
