@@ -725,7 +725,7 @@ static bool move_selection(Moving *m, WrDocument *document, WrError *err)
     return true;
 }
 
-/* Layers that a line moves, groups with their members, the lowest first. active: NULL if the line says which. */
+/* Layers that a line moves, groups with their members, the lowest first. active: NULL if the line names the layers. */
 static bool find_moved(const WrCall *call, const WrDocument *document, const WrLayer *active,
                        WrLayerList *out, WrError *err)
 {

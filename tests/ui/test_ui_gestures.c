@@ -14,6 +14,7 @@
 #include "ui/app/state/action.h"
 #include "ui/app/state/pointer_state.h"
 #include "ui/app/state/dialog.h"
+#include "ui/app/state/dropped_files.h"
 #include "ui/app/state/keys.h"
 #include "ui/app/state/layout.h"
 #include "ui/app/state/messages.h"
@@ -239,6 +240,74 @@ static void a_dragged_frame_snaps_to_a_third_of_the_cell(void **state)
     assert_true(wr_field_get(now, 71, 80) == wr_field_get(now, 30, 80));
     assert_true(wr_field_get(now, 50, 80) == 0.0f);
     finish(&bench);
+}
+
+static void push_drop(const char *file)
+{
+    SDL_PushEvent(&(SDL_Event){ .drop = { .type = SDL_DROPFILE, .file = SDL_strdup(file) } });
+}
+
+/* A drop of two pictures opens one dialog; the likely use is a layer for heights, normals for a normal map. */
+static void dropped_pictures_are_asked_about_once(void **state)
+{
+    (void)state;
+    Bench bench;
+    begin(&bench);
+    run(&bench, "table 97x61");
+    run(&bench, "noise value cells=7 seed=5");
+    run(&bench, "export height grey.png");
+    run(&bench, "export normal+y normals.png");
+    const int before = wr_session_history_position(bench.session);
+    push_drop("grey.png");
+    push_drop("normals.png");
+    settle(&bench);
+    assert_int_equal(bench.app->dialog->now, WR_DIALOG_DROP);
+    assert_int_equal(bench.app->dropped->paths.count, 2);
+    assert_int_equal(bench.app->dropped->guess, WR_DROP_LAYER);
+    push_key(bench.app, SDLK_ESCAPE, KMOD_NONE);
+    settle(&bench);
+    assert_int_equal(bench.app->dialog->now, WR_DIALOG_NONE);
+    assert_int_equal(wr_session_history_position(bench.session), before);
+    push_drop("grey.png");
+    push_drop("normals.png");
+    settle(&bench);
+    push_key(bench.app, SDLK_RETURN, KMOD_NONE);
+    settle(&bench);
+    assert_int_equal(document_of(&bench)->layer_count, 3);
+    assert_ptr_equal(wr_tool_now(bench.app), &wr_tool_transform);
+    push_drop("normals.png");
+    settle(&bench);
+    assert_int_equal(bench.app->dropped->guess, WR_DROP_NORMALS);
+    push_key(bench.app, SDLK_RETURN, KMOD_NONE);
+    settle(&bench);
+    const WrDocument *document = document_of(&bench);
+    assert_int_equal(document->layer_count, 4);
+    assert_non_null(document->layers[3].line);
+    assert_memory_equal(document->layers[3].line, "picture normals", 15);
+    finish(&bench);
+}
+
+static void the_use_of_a_picture_is_guessed(void **state)
+{
+    (void)state;
+    static const struct {
+        int width, height;
+        bool floats;
+        uint8_t rgb[6];
+        WrDropUse use;
+    } cases[] = {
+        { 200, 100, true, { 90, 120, 200, 60, 50, 40 }, WR_DROP_SURROUND },
+        { 201, 100, true, { 90, 120, 200, 60, 50, 40 }, WR_DROP_COLOUR },
+        { 200, 100, false, { 90, 120, 200, 60, 50, 40 }, WR_DROP_COLOUR },
+        { 200, 100, true, { 90, 90, 90, 60, 60, 60 }, WR_DROP_LAYER },
+        { 33, 77, false, { 250, 250, 250, 7, 7, 8 }, WR_DROP_LAYER },
+        { 33, 77, false, { 160, 100, 240, 100, 150, 230 }, WR_DROP_NORMALS },
+        { 33, 77, false, { 20, 60, 240, 30, 50, 230 }, WR_DROP_COLOUR },
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
+        assert_int_equal(
+            wr_drop_guess(cases[k].width, cases[k].height, cases[k].floats, cases[k].rgb, 2),
+            cases[k].use);
 }
 
 static void what_is_copied_comes_back_in_its_place(void **state)
@@ -989,6 +1058,8 @@ static void a_dialog_that_keys_walked_leaves_the_input_free(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(dropped_pictures_are_asked_about_once),
+        cmocka_unit_test(the_use_of_a_picture_is_guessed),
         cmocka_unit_test(a_dragged_frame_snaps_to_a_third_of_the_cell),
         cmocka_unit_test(a_dialog_that_keys_walked_leaves_the_input_free),
         cmocka_unit_test(a_lamp_is_dragged_while_the_patch_is_painted_on),

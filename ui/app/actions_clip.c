@@ -251,56 +251,23 @@ static bool find_picture(Clip *clip, bool *none, WrError *err)
     return good;
 }
 
-/* Position of the copy; else the centre of the visible canvas. */
-static void add_at(const WrApp *app, const char *path, WrText *line)
+/* Position of the copy; NULL: it is no such copy. */
+static const double *place_in(const char *path, double at[2])
 {
-    double at[2];
-    if (!find_place(path, at)) {
-        wr_view_middle(app->view, at);
-        for (int k = 0; k < 2; k++) at[k] = wr_line_round(at[k], 6);
-    }
-    wr_line_number(line, "at", at[0]);
-    wr_text_add(line, ",");
-    wr_text_add_number(line, at[1]);
-}
-
-/* Scale a picture down that is larger than the table. */
-static bool add_size(const WrApp *app, const char *path, WrText *line, WrError *err)
-{
-    WrImageRows *rows = wr_image_rows_open(path, &(WrImageRequest){ 0 }, err);
-    if (!rows) return false;
-    const double w = wr_image_rows_head(rows)->width, h = wr_image_rows_head(rows)->height;
-    const double by = fmin(app->view->table_w / w, app->view->table_h / h);
-    if (by < 1.0) wr_line_number(line, "size", floor(w * by));
-    wr_image_rows_close(rows);
-    return true;
+    return find_place(path, at) ? at : NULL;
 }
 
 /* On a mask the picture is placed interactively like a generator; on heights it becomes a layer at once. */
 static void paste_on_mask(WrApp *app, const char *path)
 {
+    double at[2];
     WrText line = { 0 };
     wr_text_add(&line, "picture paste ");
     wr_text_add_word(&line, path);
-    add_at(app, path, &line);
+    wr_transform_add_place(app, place_in(path, at), &line);
     wr_generate_open(app, wr_generator_find("picture", "paste"));
     if (wr_generate_load(app, wr_text_get(&line))) wr_generate_changed(app);
     wr_text_fini(&line);
-}
-
-static bool paste_layer(WrApp *app, const char *path, WrError *err)
-{
-    WrText line = { 0 };
-    wr_text_add(&line, "layer paste ");
-    wr_text_add_word(&line, path);
-    add_at(app, path, &line);
-    const bool good = add_size(app, path, &line, err);
-    if (good && wr_app_run_line(app, wr_text_get(&line))) {
-        wr_transform_pasted(app);
-        wr_app_say(app, "Pasted as a new layer: drag it to its place, Enter keeps it");
-    }
-    wr_text_fini(&line);
-    return good;
 }
 
 void wr_act_paste(WrApp *app)
@@ -308,12 +275,13 @@ void wr_act_paste(WrApp *app)
     Clip clip = { .data = NULL };
     WrError err;
     const WrDocument *document = wr_app_document(app);
+    double at[2];
     bool none, good = find_picture(&clip, &none, &err);
     const char *path = wr_text_get(&clip.path);
     if (good && (clip.data || wr_svg_named(path)))
         wr_app_add_drawing(app, clip.data ? NULL : path, clip.data, clip.name);
     else if (good && document->layers[document->active].on_mask) paste_on_mask(app, path);
-    else good = good && paste_layer(app, path, &err);
+    else good = good && wr_transform_paste(app, path, place_in(path, at), &err);
     if (none) wr_app_say_why(app, &err);
     else if (!good) wr_app_fail(app, &err);
     wr_text_fini(&clip.path);

@@ -18,7 +18,7 @@
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/dialog.h"
 #include "ui/app/state/document.h"
-#include "ui/app/state/drawing.h"
+#include "ui/app/state/dropped_files.h"
 #include "ui/app/state/pointer_state.h"
 #include "ui/app/state/keys.h"
 #include "ui/app/state/action.h"
@@ -182,6 +182,8 @@ void wr_app_end(WrApp *app)
     wr_guide_free(app);
     wr_search_index_free(&app->finder->index);
     if (app->renderer) wr_panel_layers_forget(app);
+    if (app->renderer) wr_panel_drop_forget(app);
+    wr_dropped_free(app->dropped);
     wr_missing_files_free(app);
     wr_history_panel_free(app);
     wr_canvas_free(app->canvas);
@@ -530,6 +532,7 @@ typedef struct Store {
     WrMarks marks;
     WrSelectState select;
     WrChosenLayers chosen;
+    WrDroppedFiles dropped;
     WrLayersState layers;
     WrLayerPlanState layer_plan;
     WrHistoryState history;
@@ -575,6 +578,7 @@ WrApp *wr_store_new(void)
     app->marks = &store->marks;
     app->select = &store->select;
     app->chosen = &store->chosen;
+    app->dropped = &store->dropped;
     app->layers = &store->layers;
     app->layer_plan = &store->layer_plan;
     app->history = &store->history;

@@ -57,7 +57,9 @@ void wr_dialog_film(WrApp *app);
 void wr_file_take_film(WrApp *app, const char *path);
 void wr_file_take_render(WrApp *app, const char *path); /* handler of the chosen file name */
 void wr_dialog_file(WrApp *app);
-void wr_dialog_preset(WrApp *app); /* name of a preset to save */
+void wr_dialog_drop(WrApp *app);       /* use of dropped pictures */
+void wr_panel_drop_forget(WrApp *app); /* free its texture */
+void wr_dialog_preset(WrApp *app);     /* name of a preset to save */
 void wr_dialog_select_open(WrApp *app, WrOutlineKind kind);
 void wr_dialog_select(WrApp *app);
 void wr_dialog_mask(WrApp *app);

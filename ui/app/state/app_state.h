@@ -24,6 +24,7 @@ typedef struct WrDialogState WrDialogState;
 typedef struct WrDocument WrDocument;
 typedef struct WrDocumentState WrDocumentState;
 typedef struct WrDrawState WrDrawState;
+typedef struct WrDroppedFiles WrDroppedFiles;
 typedef struct WrFiles WrFiles;
 typedef struct WrFinder WrFinder;
 typedef struct WrPreferences WrPreferences;
@@ -146,7 +147,9 @@ struct WrApp {
     bool trying; /* the views show the edit preview */
     WrMarks *marks;
     WrSelectState *select;
-    WrChosenLayers *chosen; /* read by wr_app_chosen, which updates them */
+    WrDroppedFiles *dropped;
+    struct SDL_Texture *dropped_picture; /* the first of them; owned */
+    WrChosenLayers *chosen;              /* read by wr_app_chosen, which updates them */
     WrLayersState *layers;
     WrLayerPlanState *layer_plan;
     WrHistoryState *history;

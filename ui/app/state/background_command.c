@@ -4,7 +4,7 @@
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/dialog.h"
 #include "ui/app/state/document.h"
-#include "ui/app/state/drawing.h"
+#include "ui/app/state/dropped_files.h"
 #include "ui/app/state/pointer_state.h"
 #include "ui/app/state/messages.h"
 #include "ui/app/state/registry.h"

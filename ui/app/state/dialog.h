@@ -38,6 +38,7 @@ typedef enum WrDialog {
     WR_DIALOG_TABLET,
     WR_DIALOG_BAKE, /* maps of a detailed mesh */
     WR_DIALOG_CASES,
+    WR_DIALOG_DROP, /* use of dropped pictures */
     WR_DIALOG_HELP,
     WR_DIALOG_ABOUT,
     WR_DIALOG_COUNT

@@ -1,7 +1,6 @@
 #include "ui/app/state/drawing.h"
 
 #include "ui/app/state/background_command.h"
-#include "ui/app/state/document.h"
 #include "ui/app/state/line.h"
 #include "ui/app/state/messages.h"
 #include "ui/app/state/session_view.h"
@@ -12,7 +11,6 @@
 #include "document/document.h"
 #include "field/field.h"
 #include "field/select.h"
-#include "image/svg.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -52,10 +50,4 @@ void wr_app_add_drawing(WrApp *app, const char *path, const char *data, const ch
         wr_app_say(app, "Added as a generator layer; a double click on it opens its values");
     wr_text_fini(&from);
     wr_text_fini(&line);
-}
-
-void wr_app_drop(WrApp *app, const char *path)
-{
-    if (wr_svg_named(path)) wr_app_add_drawing(app, path, NULL, NULL);
-    else wr_app_open_path(app, path);
 }

@@ -2,8 +2,6 @@
 #pragma once
 #include "ui/app/state/app_state.h"
 
-/* A file dropped on the window: a drawing becomes a layer, any other file is opened. */
-void wr_app_drop(WrApp *app, const char *path);
 /* Add a generator layer of an SVG file; or, with path NULL, of path data. Its longer side is three quarters of the shorter
    side of the selection or the table; it lies in the middle of the selection, or of the visible canvas. name: the layer's;
    NULL: the file's name. */

@@ -10,6 +10,7 @@
 #include "ui/app/state/pointer_state.h"
 #include "ui/app/state/keys.h"
 #include "ui/app/state/line.h"
+#include "ui/app/state/messages.h"
 #include "ui/app/state/session_view.h"
 #include "ui/app/state/settings.h"
 #include "ui/toolkit/gui.h"
@@ -22,9 +23,11 @@
 
 #include "base/exactmath.h"
 #include "base/text.h"
+#include "command/command_line.h"
 #include "command/session.h"
 #include "document/document.h"
 #include "field/field.h"
+#include "image/image.h"
 
 #include <SDL.h>
 #include <math.h>
@@ -216,12 +219,40 @@ static bool go_back(WrApp *app)
     return back > 0;
 }
 
-void wr_transform_pasted(WrApp *app)
+static void choose_pasted(WrApp *app)
 {
     const int before = app->tool, tool = wr_tool_find(app, WR_ACT(transform));
     if (tool == before) return;
     wr_tool_choose(app, tool);
     app->transform->back = before + 1;
+}
+
+void wr_transform_add_place(const WrApp *app, const double at[2], WrText *line)
+{
+    double middle[2];
+    wr_view_middle(app->view, middle);
+    for (int k = 0; k < 2; k++) middle[k] = wr_line_round(middle[k], 6);
+    add_pair(line, "at", at ? at[0] : middle[0], at ? at[1] : middle[1]);
+}
+
+bool wr_transform_paste(WrApp *app, const char *path, const double at[2], WrError *err)
+{
+    WrImageRows *rows = wr_image_rows_open(path, &(WrImageRequest){ .channel = NULL }, err);
+    if (!rows) return false;
+    const double w = wr_image_rows_head(rows)->width, h = wr_image_rows_head(rows)->height;
+    const double by = fmin(app->view->table_w / w, app->view->table_h / h);
+    wr_image_rows_close(rows);
+    WrText line = { 0 };
+    wr_text_add(&line, "layer paste ");
+    wr_text_add_word(&line, path);
+    wr_transform_add_place(app, at, &line);
+    if (by < 1.0) wr_line_number(&line, "size", floor(w * by));
+    if (wr_app_run_line(app, wr_text_get(&line))) {
+        choose_pasted(app);
+        wr_app_say(app, "Pasted as a new layer: drag it to its place, Enter keeps it");
+    }
+    wr_text_fini(&line);
+    return true;
 }
 
 /* On a change of the tool the result is kept as a step; on a change of the document it is dropped. */

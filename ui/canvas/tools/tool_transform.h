@@ -9,6 +9,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+typedef struct WrError WrError;
+typedef struct WrText WrText;
+
 typedef enum WrTransformPart {
     WR_TRANSFORM_NONE,
     WR_TRANSFORM_MOVE,
@@ -42,5 +45,8 @@ typedef struct WrTransformState {
     double lines[2]; /* to this line, texels */
 } WrTransformState;
 
-/* Choose the tool, with its frame about the layer that was just pasted; Enter and Escape return to the tool before. */
-void wr_transform_pasted(WrApp *app);
+/* Paste a picture as a layer above the active one, at most as large as the table, and choose the tool with its frame about
+   it; Enter and Escape return to the tool before. at: u, v of its centre; NULL: the middle of the canvas. */
+bool wr_transform_paste(WrApp *app, const char *path, const double at[2], WrError *err);
+/* Add that position to the line of a paste. */
+void wr_transform_add_place(const WrApp *app, const double at[2], WrText *line);
