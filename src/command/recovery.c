@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/message.h"
 #include "base/progress.h"
 #include "command/session_internal.h"
 #include "document/recover.h"
@@ -79,28 +80,29 @@ typedef struct Replay {
     const char *journal;
     const WrJournalRead *read;
     bool beyond;
-    bool saved;         /* starts from the last saved file */
-    int from, end;      /* lines[from..end) will run */
-    int done;           /* lines that have run */
-    bool cut;           /* the last command was left out though it may have completed */
-    bool known;         /* the start state is verified */
-    bool missing;       /* steps are missing: */
-    int floor, ceiling; /* history positions that undo and redo may still reach */
-    bool differs;       /* a difference was reported */
-    int sentences;      /* about single commands */
-    WrText *report;
+    bool saved;                /* starts from the last saved file */
+    int from, end;             /* lines[from..end) will run */
+    int done;                  /* lines that have run */
+    bool cut;                  /* the last command was left out though it may have completed */
+    bool known;                /* the start state is verified */
+    bool missing;              /* steps are missing: */
+    int floor, ceiling;        /* history positions that undo and redo may still reach */
+    bool differs;              /* a difference was reported */
+    int sentences;             /* about single commands */
+    WrText *messages, dropped; /* sentences; those beyond SENTENCES_MAX */
 } Replay;
 
-static void tell(Replay *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
-static void tell(Replay *r, const char *format, ...)
+/* The text that the next sentence is appended to: each is a message on a line of its own. */
+static WrText *sentence(WrText *messages)
 {
-    char text[512];
-    va_list args;
-    if (r->sentences++ >= SENTENCES_MAX) return;
-    va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
-    va_end(args);
-    wr_text_addf(r->report, "%s\n", text);
+    if (messages->length > 0) wr_text_add(messages, "\n");
+    return messages;
+}
+
+/* The same for sentences about single commands, of which there may be very many. */
+static WrText *command_sentence(Replay *r)
+{
+    return sentence(r->sentences++ < SENTENCES_MAX ? r->messages : &r->dropped);
 }
 
 /* Mark a possible gap in the history: undo must not go below this position. */
@@ -141,8 +143,10 @@ static bool update_start(Replay *r, WrError *err)
     if (!r->beyond)
         return wr_fail(err, "%s: its first line is damaged: what it began with is not known",
                        r->journal);
-    tell(r, "the journal's first line is damaged: it may have begun with something else than %s",
-         start->kind == WR_JOURNAL_EMPTY ? "an empty table" : what);
+    wr_message_addf(
+        command_sentence(r),
+        "the journal's first line is damaged: it may have begun with something else than %s",
+        start->kind == WR_JOURNAL_EMPTY ? "an empty table" : what);
     note_missing(r);
     return true;
 }
@@ -175,13 +179,14 @@ static bool last_is_safe(Replay *r, const char *line)
     switch (wr_journal_trial(try_line, &attempt, TRIAL_SECONDS, 0, &why)) {
     case WR_PROBE_TRUE: return true;
     case WR_PROBE_FALSE:
-        wr_text_addf(r->report, "the last command failed and was left out: %s\n", why.text);
+        wr_message_addf(sentence(r->messages), "the last command failed and was left out: %s",
+                        wr_error_message(&why));
         r->done++; /* it failed then as well, or would have: the document never contained it */
         return false;
     default:
-        wr_text_addf(r->report,
-                     "stopped before the last command, which may be what crashed (%s): %.200s\n",
-                     why.text, line);
+        wr_message_addf(sentence(r->messages),
+                        "stopped before the last command, which may be what crashed (%s): %.200s",
+                        wr_error_message(&why), line);
         r->cut = true;
         return false;
     }
@@ -237,8 +242,10 @@ static bool go_carefully(Replay *r, int index, int steps, WrError *err)
     if (to < r->floor) to = r->floor;
     if (to > r->ceiling) to = r->ceiling;
     if (to != position + steps)
-        tell(r, "command %d, %s %d, goes back to what is missing: %d of its steps were made",
-             index + 1, steps < 0 ? "undo" : "redo", abs(steps), abs(to - position));
+        wr_message_addf(
+            command_sentence(r),
+            "command %d, %s %d, goes back to what is missing: %d of its steps were made", index + 1,
+            steps < 0 ? "undo" : "redo", abs(steps), abs(to - position));
     return to == position || wr_session_go_to(r->session, to, err);
 }
 
@@ -265,10 +272,13 @@ static bool replay_line(Replay *r, int index)
     const WrJournalLine *line = &r->read->lines[index];
     bool last = r->read->unfinished && index == r->read->total - 1;
     if (line->lost) {
-        tell(r, "before command %d %d lines of the journal are lost", index + 1, line->lost);
+        wr_message_addf(command_sentence(r), "before command %d %d lines of the journal are lost",
+                        index + 1, line->lost);
         note_missing(r);
     }
-    if (line->holed) tell(r, "command %d is a stroke of which some points are lost", index + 1);
+    if (line->holed)
+        wr_message_addf(command_sentence(r), "command %d is a stroke of which some points are lost",
+                        index + 1);
     char *text = with_copies(r->journal, line->text);
     WrProgressPart part;
     const WrProgress *whole =
@@ -280,15 +290,17 @@ static bool replay_line(Replay *r, int index)
     wr_free(text);
     if (stop || wr_progress_stopped()) return false; /* its result may be half done */
     if (!good) {
-        tell(r, "command %d failed%s: %s", index + 1,
-             r->beyond ? "" : ", and what came after it was left out", why.text);
+        wr_message_addf(command_sentence(r), "command %d failed%s: %s", index + 1,
+                        r->beyond ? "" : ", and what came after it was left out",
+                        wr_error_message(&why));
         note_missing(r);
         return r->beyond;
     }
     r->done++;
     if (line->hashed && !r->differs && !wr_hash_equal(line->hash, wr_session_hash(r->session))) {
         r->differs = true;
-        tell(r, "from command %d on the document is not what it was", index + 1);
+        wr_message_addf(command_sentence(r), "from command %d on the document is not what it was",
+                        index + 1);
     }
     return true;
 }
@@ -334,15 +346,20 @@ static void sum_up(Replay *r, WrRecovered *out)
     out->whole = nothing_is_missing(r);
     out->more = !r->beyond && r->done < out->commands - (r->cut ? 1 : 0);
     if (r->sentences > SENTENCES_MAX)
-        wr_text_addf(r->report, "and %d more of that kind\n", r->sentences - SENTENCES_MAX);
+        wr_message_addf(sentence(r->messages), "and %d more of that kind",
+                        r->sentences - SENTENCES_MAX);
     if (r->saved)
-        wr_text_addf(r->report, "went on from %s as it was saved last\n", read->saved.path);
-    wr_text_addf(r->report, "%d of %d commands were brought back\n", out->done, out->commands);
+        wr_message_addf(sentence(r->messages), "went on from %s as it was saved last",
+                        read->saved.path);
+    wr_message_addf(sentence(r->messages), "%d of %d commands were brought back", out->done,
+                    out->commands);
     if (*read->damage && !out->whole)
-        wr_text_addf(r->report, "%d lines of the journal are damaged or missing (the first: %s)\n",
-                     read->lost, read->damage);
+        wr_message_addf(sentence(r->messages),
+                        "%d lines of the journal are damaged or missing (the first: %s)",
+                        read->lost, read->damage);
     if (read->gap[0])
-        wr_text_addf(r->report, "what came after is not in the journal: %s\n", read->gap);
+        wr_message_addf(sentence(r->messages), "what came after is not in the journal: %s",
+                        read->gap);
 }
 
 /* Replay into a fresh state; the session's own state is restored if the start state cannot be loaded. */
@@ -352,6 +369,13 @@ static bool attempt(Replay *r, WrSessionState *old, bool from_saved, WrError *er
     if (replay(r, from_saved, err)) return true;
     wr_session_restore_state(r->session, old);
     return false;
+}
+
+static void begin_again(Replay *r, const Replay *fresh)
+{
+    wr_text_clear(r->messages);
+    wr_text_fini(&r->dropped);
+    *r = *fresh;
 }
 
 /* Replay from the last saved file. Replay from the start state instead if that file is gone or changed, or if steps
@@ -365,12 +389,10 @@ static bool bring_back(Replay *r, WrSessionState *old, WrError *err)
     bool all = could && (r->done == r->end - r->from || r->cut);
     if (all || (could && wr_journal_sound_end(read, 0, false) < read->saved.at)) return true;
     if (could) wr_session_restore_state(r->session, old);
-    wr_text_clear(r->report);
-    *r = fresh;
+    begin_again(r, &fresh);
     if (attempt(r, old, false, err)) return true;
     if (wr_progress_stopped()) return false;
-    wr_text_clear(r->report);
-    *r = fresh;
+    begin_again(r, &fresh);
     return could && attempt(r, old, true, err);
 }
 
@@ -381,7 +403,9 @@ static void change_journals(WrSession *session, WrRecovered *out)
     wr_session_journal_drop(session);
     if (!session->options.journal) return;
     bool safe = wr_session_journal_anew(session, &trouble);
-    if (!safe) wr_text_addf(&out->report, "the old journal was kept: %s\n", trouble.text);
+    if (!safe)
+        wr_message_addf(sentence(&out->messages), "the old journal was kept: %s",
+                        wr_error_message(&trouble));
     if (safe && out->whole) out->removed = wr_journal_claim_remove(out->claim, NULL);
     else wr_journal_claim_free(out->claim);
     out->claim = NULL;
@@ -426,6 +450,17 @@ static void take_path(WrSession *session, const WrJournalRead *read)
     if (path && own_stands(read, &err)) session->state.stamp = stamp;
 }
 
+/* The messages in English. */
+static void print_report(WrRecovered *out)
+{
+    if (out->messages.length == 0) return;
+    char *plain = wr_alloc(out->messages.length + 1, 1);
+    wr_text_addf(
+        &out->report, "%s\n",
+        wr_message_print(wr_text_get(&out->messages), NULL, plain, out->messages.length + 1));
+    wr_free(plain);
+}
+
 bool wr_session_recover(WrSession *session, const char *journal, bool beyond, WrRecovered *out,
                         WrError *err)
 {
@@ -439,7 +474,7 @@ bool wr_session_recover(WrSession *session, const char *journal, bool beyond, Wr
                  .journal = journal,
                  .read = &read,
                  .beyond = beyond,
-                 .report = &out->report };
+                 .messages = &out->messages };
     bool good = bring_back(&r, &old, err);
     if (good) {
         wr_session_keep_state(session, &old);
@@ -448,6 +483,8 @@ bool wr_session_recover(WrSession *session, const char *journal, bool beyond, Wr
         sum_up(&r, out);
         change_journals(session, out);
     }
+    print_report(out);
+    wr_text_fini(&r.dropped);
     wr_journal_read_fini(&read);
     return good;
 }
@@ -468,6 +505,7 @@ void wr_recovered_fini(WrRecovered *recovered)
 {
     wr_journal_claim_free(recovered->claim);
     wr_text_fini(&recovered->report);
+    wr_text_fini(&recovered->messages);
     *recovered = (WrRecovered){ 0 };
 }
 

@@ -31,12 +31,13 @@ void wr_recovery_list_free(WrRecoverable *list, int count);
 
 /* Result of a recovery. */
 typedef struct WrRecovered {
-    int commands;  /* recorded since the start state */
-    int done;      /* recovered commands */
-    bool whole;    /* complete: nothing failed, was damaged or was missing */
-    bool more;     /* more commands are recorded; continuing past the damage might recover them */
-    bool removed;  /* the old journal was removed, since a new one holds all of it */
-    WrText report; /* sentences for the user, one for each line */
+    int commands;    /* recorded since the start state */
+    int done;        /* recovered commands */
+    bool whole;      /* complete: nothing failed, was damaged or was missing */
+    bool more;       /* more commands are recorded; continuing past the damage might recover them */
+    bool removed;    /* the old journal was removed, since a new one holds all of it */
+    WrText report;   /* sentences for the user, one for each line */
+    WrText messages; /* the same as messages (base/message.h), for translation */
     struct WrJournalClaim *claim; /* lock on the old journal while it is held */
 } WrRecovered;
 

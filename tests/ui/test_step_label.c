@@ -42,7 +42,7 @@ static void lines_are_said_in_words(void **state)
         { "layer delete 2,4", "2 layers deleted" },
         { "image /tmp/pictures/bark.v2.png", "Heights of a picture, bark.v2" },
         { "table 512x256", "New table, 512x256" },
-        { "light directional to=1,1,1 # noon", "Light, directional, to 1,1,1" },
+        { "light directional to=1,1,1 # noon", "Light source, directional, to 1,1,1" },
         { "bump height=0.25 method=blinn", "Bump, height 0.25, method blinn" },
         { "step set 3 line=\"fill 0.5\"", "Change of the history, set 3, line fill 0.5" },
         { "hum 3", "Hum, 3" },

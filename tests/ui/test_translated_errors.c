@@ -33,7 +33,7 @@ static const struct {
         "dab: u,v 0.5 : doit être 2 nombres séparés par des virgules, chacun -1e9..1e9" } },
     { "dab 0.5,0.5 radius=3 radius=4",
       "dab: radius= is given twice",
-      { "dab: radius= steht zweimal da", "dab: radius= est donné deux fois" } },
+      { "dab: radius= steht zweimal da", "dab : radius= est donné deux fois" } },
     { "solid sphere radius=-2",
       "solid sphere: radius=-2: must be a number, above 0, up to 16384 texels",
       { "solid sphere: radius=-2: muss eine Zahl, \xc3\xbc"

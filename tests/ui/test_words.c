@@ -204,6 +204,31 @@ static void messages_are_said_by_their_formats(void **state)
     assert_string_equal(wr_words_message(wr_error_message(&inner), said, sizeof said), inner.text);
 }
 
+static void numbers_of_texts_have_the_mark_of_the_language(void **state)
+{
+    (void)state;
+    static const char *const wanted[] = { NULL, "0.50 of 2.5 MB, x.5 and 3: 1..4 -1e-05",
+                                          "0,50 of 2,5 MB, x.5 and 3: 1..4 -1e-05",
+                                          "0,50 of 2,5 MB, x.5 and 3: 1..4 -1e-05" };
+    char text[80], small[4];
+    for (int i = 1; i < WR_LENGTH(wanted); i++) {
+        wr_words_choose(i);
+        if (strcmp(wr_words_language(), wr_languages[i].code) != 0) continue; /* without msgfmt */
+        const int length = wr_words_print(text, sizeof text, "%.2f of %.3g MB, %s and %d: 1..4 %g",
+                                          0.5, 2.5, "x.5", 3, -1e-5);
+        assert_string_equal(text, wanted[i]);
+        assert_int_equal(length, strlen(text));
+        wr_words_print(small, sizeof small, "%.2f", 0.25);
+        assert_string_equal(small, wr_languages[i].mark == ',' ? "0,2" : "0.2");
+        snprintf(text, sizeof text, "1.2.3");
+        assert_string_equal(wr_words_number(text), "1.2.3");
+        snprintf(text, sizeof text, "+12.75");
+        assert_string_equal(wr_words_number(text),
+                            wr_languages[i].mark == ',' ? "+12,75" : "+12.75");
+    }
+    wr_words_choose(1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -213,6 +238,7 @@ int main(void)
         cmocka_unit_test(lengths_that_run_over_the_end_of_numbers_are_refused),
         cmocka_unit_test(the_environment_chooses_as_gettext_does),
         cmocka_unit_test(english_is_itself),
+        cmocka_unit_test(numbers_of_texts_have_the_mark_of_the_language),
         cmocka_unit_test(every_language_of_the_table_has_its_file),
         cmocka_unit_test(messages_are_said_by_their_formats),
     };

@@ -96,12 +96,19 @@ static void ramp(WrApp *app, const char *id, double wide, double tall)
     wr_gui_pad_end();
 }
 
+static void print_range(double from, double to, char low[WR_RANGE_TEXT], char high[WR_RANGE_TEXT])
+{
+    wr_range_print(from, to, low, high);
+    wr_words_number(low);
+    wr_words_number(high);
+}
+
 static void ramp_tip(const WrApp *app)
 {
     const WrCanvasRange *r = shown_range(app);
     char tip[240], low[WR_RANGE_TEXT], high[WR_RANGE_TEXT];
     const bool beyond = r->table_low < r->low || r->table_high > r->high;
-    wr_range_print(r->table_low, r->table_high, low, high);
+    print_range(r->table_low, r->table_high, low, high);
     snprintf(tip, sizeof tip, wr_words("The %s goes from %s to %s%s"),
              wr_words(app->map_shown ? "map" : "table"), low, high,
              beyond ? wr_words(": some of it lies beyond the range that is shown") : "");
@@ -207,11 +214,11 @@ static void chip_text(const WrApp *app, const WrCanvasRange *range, char *text, 
                                                        : looks[look->colours]);
     if (map && map->two) snprintf(text, size, "%s", name);
     else if (!map && !wr_app_shows_mask(app) && look->colours == WR_CANVAS_CONTOURS)
-        snprintf(text, size, wr_words("Contours every %.3g"),
-                 wr_canvas_contour_interval(app->canvas));
+        wr_words_print(text, size, wr_words("Contours every %.3g"),
+                       wr_canvas_contour_interval(app->canvas));
     else {
         char low[WR_RANGE_TEXT], high[WR_RANGE_TEXT];
-        wr_range_print(range->low, range->high, low, high);
+        print_range(range->low, range->high, low, high);
         snprintf(text, size, "%s %s \xe2\x80\x93 %s", name, low, high);
     }
 }

@@ -416,11 +416,13 @@ static void diagnose(const WrPenUnit *unit, WrText *words)
                                       : "It has no pressure: every touch counts as 1. If it should "
                                         "have one, another driver may know it better."));
     } else if (is_mute(unit)) {
-        wr_text_addf(
-            words,
+        char text[400];
+        wr_words_print(
+            text, sizeof text,
             wr_words("It promises pressure, but sends %.3g whatever the hand does: every touch "
                      "counts as 1. Look at the tablet's settings, or try another driver."),
             unit->raw);
+        wr_text_add(words, text);
     } else if (d->bad_values > 0) {
         wr_text_addf(
             words,
@@ -428,11 +430,13 @@ static void diagnose(const WrPenUnit *unit, WrText *words)
                      "if strokes jump, the driver is wrong."),
             (long long)d->bad_values);
     } else if (d->presses >= 3 && d->raw_most < 0.6) {
-        wr_text_addf(
-            words,
+        char text[400];
+        wr_words_print(
+            text, sizeof text,
             wr_words("The hardest press so far was %.2f of its range. Bring the curve's maximum "
                      "down to about that."),
             d->raw_most);
+        wr_text_add(words, text);
     }
 }
 

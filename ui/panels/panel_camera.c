@@ -199,8 +199,10 @@ static void tone(WrApp *app)
     }
     wr_gui_check("Mark clipped parts", &app->patch->look.marked);
     wr_gui_tip("Marks over-exposed pixels with stripes");
-    wr_text_addf(&line, wr_words("%.1f %% of the picture is clipped"), 100 * app->patch->clipped);
-    wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_text_get(&line));
+    char clipped[120];
+    wr_words_print(clipped, sizeof clipped, wr_words("%.1f %% of the picture is clipped"),
+                   100 * app->patch->clipped);
+    wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, clipped);
     wr_text_fini(&line);
 }
 

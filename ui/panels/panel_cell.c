@@ -62,11 +62,11 @@ static WrEdit rows(WrCellSize *cell)
 
 static void report_texel(const WrCellSize *cell, const WrField *field)
 {
-    WrText text = { 0 };
-    wr_text_addf(&text, wr_words("%.4g x %.4g %s a texel"), cell->w / wr_field_width(field),
-                 cell->h / wr_field_height(field), wr_words(cell->mm ? "mm" : "scene units"));
-    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_text_get(&text));
-    wr_text_fini(&text);
+    char text[120];
+    wr_words_print(text, sizeof text, wr_words("%.4g x %.4g %s a texel"),
+                   cell->w / wr_field_width(field), cell->h / wr_field_height(field),
+                   wr_words(cell->mm ? "mm" : "scene units"));
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
 }
 
 void wr_panel_cell(WrApp *app)

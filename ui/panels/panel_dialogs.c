@@ -353,8 +353,8 @@ static void film_numbers(WrForms *f)
     number("Width", 16, 1920, 1, 8192, 640, 0, "pixels", &f->film_width);
     number("Height", 16, 1920, 1, 8192, 640, 0, "pixels", &f->film_height);
     if (f->film_fps > most) f->film_fps = most;
-    snprintf(text, sizeof text, wr_words("%.4g seconds, %.3g degrees a frame."),
-             f->film_frames / f->film_fps, 360.0 / f->film_frames);
+    wr_words_print(text, sizeof text, wr_words("%.4g seconds, %.3g degrees a frame."),
+                   f->film_frames / f->film_fps, 360.0 / f->film_frames);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
 }
 

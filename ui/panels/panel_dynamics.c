@@ -184,15 +184,15 @@ static void grid(const WrPad *pad, const WrPointsSpan *span)
         wr_gui_draw_fill(pad->x, floor(pad->y + pad->h * i / 4), pad->w, 1,
                          i == 2 ? WR_COLOUR_LABEL : WR_COLOUR_GRID, 0);
     }
-    snprintf(text, sizeof text, "%+.3g", span->high);
+    wr_words_print(text, sizeof text, "%+.3g", span->high);
     wr_gui_draw_text(pad->x + gap, pad->y + gap, WR_FONT_SMALL, WR_COLOUR_LABEL, text);
-    snprintf(text, sizeof text, "%+.3g", span->low);
+    wr_words_print(text, sizeof text, "%+.3g", span->low);
     wr_gui_draw_text(pad->x + gap, pad->y + pad->h - line - gap, WR_FONT_SMALL, WR_COLOUR_LABEL,
                      text);
-    snprintf(text, sizeof text, "%.3g", span->right);
+    wr_words_print(text, sizeof text, "%.3g", span->right);
     wr_gui_draw_text(pad->x + pad->w - gap - wr_gui_text_width(WR_FONT_SMALL, text),
                      pad->y + pad->h / 2 + gap, WR_FONT_SMALL, WR_COLOUR_LABEL, text);
-    snprintf(text, sizeof text, "%.3g", span->left);
+    wr_words_print(text, sizeof text, "%.3g", span->left);
     wr_gui_draw_text(pad->x + gap, pad->y + pad->h / 2 + gap, WR_FONT_SMALL, WR_COLOUR_LABEL, text);
 }
 

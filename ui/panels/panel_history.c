@@ -27,9 +27,9 @@
 
 static void print_bytes(double bytes, char *text, size_t size)
 {
-    if (bytes >= 1e9) snprintf(text, size, "%.3g GB", bytes / 1e9);
-    else if (bytes >= 1e6) snprintf(text, size, "%.3g MB", bytes / 1e6);
-    else snprintf(text, size, "%.3g kB", bytes / 1e3);
+    if (bytes >= 1e9) wr_words_print(text, size, wr_words("%.3g GB"), bytes / 1e9);
+    else if (bytes >= 1e6) wr_words_print(text, size, wr_words("%.3g MB"), bytes / 1e6);
+    else wr_words_print(text, size, wr_words("%.3g kB"), bytes / 1e3);
 }
 
 static void tip_of(const WrApp *app, int step, bool kept)

@@ -25,9 +25,11 @@ static const WrLayerPlan *plan_of(WrApp *app)
 static void print_cost(const WrLayerPlan *plan, char *text, size_t size)
 {
     const double mb = 1e-6 * (double)plan->bytes;
-    if (plan->seconds >= 1.0) snprintf(text, size, "%.2f s  %.1f MB", plan->seconds, mb);
-    else if (plan->seconds > 0.0) snprintf(text, size, "%.3g ms  %.1f MB", 1e3 * plan->seconds, mb);
-    else snprintf(text, size, "%.1f MB", mb);
+    if (plan->seconds >= 1.0)
+        wr_words_print(text, size, wr_words("%.2f s  %.1f MB"), plan->seconds, mb);
+    else if (plan->seconds > 0.0)
+        wr_words_print(text, size, wr_words("%.3g ms  %.1f MB"), 1e3 * plan->seconds, mb);
+    else wr_words_print(text, size, wr_words("%.1f MB"), mb);
 }
 
 static void row(const WrLayer *layer, const WrLayerPlan *plan, double longest)

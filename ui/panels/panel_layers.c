@@ -165,8 +165,9 @@ static void describe(const WrLayer *layer, char *text, size_t size)
 {
     /* the default of filters */
     const bool plain = layer->filter.op && layer->blend == WR_BLEND_MIX;
-    snprintf(text, size, "%s %.4g %%", wr_words(plain ? "filter" : wr_blends[layer->blend].name),
-             rint((double)layer->opacity * 1000.0) / 10.0);
+    wr_words_print(text, size, "%s %.4g %%",
+                   wr_words(plain ? "filter" : wr_blends[layer->blend].name),
+                   rint((double)layer->opacity * 1000.0) / 10.0);
 }
 
 /* The name, with blend mode and opacity beside it, or below it in a narrow panel. */

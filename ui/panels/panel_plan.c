@@ -13,6 +13,7 @@
 
 #include <stdbool.h>
 #include <stdio.h>
+#include <string.h>
 
 /* Toggle of a row: the picture without the effect, or with it; a second press restores the plan. */
 static void eye(WrApp *app, int effect, bool runs)
@@ -78,7 +79,7 @@ static void sort(const WrApp *app, const WrPreviewPicture *picture)
 static void name_of_row(const char *name, bool runs)
 {
     const double room = wr_gui_available() - wr_gui_px(76); /* beside its time */
-    const bool wide = wr_gui_text_width(WR_FONT_TEXT, name) > room;
+    const bool wide = wr_gui_text_width(WR_FONT_TEXT, wr_words(name)) > room;
     wr_gui_text(wide ? WR_FONT_SMALL : WR_FONT_TEXT, runs ? WR_COLOUR_STRONG : WR_COLOUR_MUTED,
                 name);
 }
@@ -90,13 +91,24 @@ static void print_time(const WrPreviewPicture *picture, double seconds, double l
     double stages[WR_PICTURE_STAGES];
     const double work = picture->plan.work;
     const double ms = work > 0.0 ? wr_picture_time(picture, stages) * seconds / work : 0.0;
-    snprintf(text, sizeof text, ms < 0.1 ? "%.3f ms" : ms < 10.0 ? "%.2f ms" : "%.1f ms", ms);
+    wr_words_print(text, sizeof text, ms < 0.1 ? "%.3f ms" : ms < 10.0 ? "%.2f ms" : "%.1f ms", ms);
     wr_gui_same_line(8);
     wr_gui_move_to(wr_gui_width() - wr_gui_text_width(WR_FONT_SMALL, text) - wr_gui_px(24));
     wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
     wr_gui_tip("Milliseconds of the newest picture, measured");
     wr_gui_space(-4);
     wr_gui_bar(longest > 0.0 ? seconds / longest : 0.0);
+}
+
+/* The reason in the window's language; its start says whether the user toggled the effect. */
+static const char *reason_words(const char *reason, char *out, size_t size)
+{
+    static const char *const starts[] = { "forced: ", "forced off: ", "" };
+    int i = 0;
+    while (strncmp(reason, starts[i], strlen(starts[i])) != 0) i++;
+    snprintf(out, size, "%s%s", i < 2 ? wr_words(starts[i]) : "",
+             wr_words(reason + strlen(starts[i])));
+    return out;
 }
 
 static void effect_reason(const WrPlanRow *e)
@@ -106,12 +118,15 @@ static void effect_reason(const WrPlanRow *e)
                                           [WR_ROW(WR_PROOF_BOUNDED)] = "bounded",
                                           [WR_ROW(WR_PROOF_POLICY)] = "by choice" };
     WR_ROWS_END(proofs, WR_PROOF_COUNT);
-    char text[240];
+    char text[320], why[240];
     /* The proof applies to the planner's own decision, not to an effect that the user disabled. */
-    if (e->run || e->verdict == WR_VERDICT_RUN)
-        snprintf(text, sizeof text, "%s", wr_words(e->reason));
-    else snprintf(text, sizeof text, "%s: %s", wr_words(proofs[e->proof]), wr_words(e->reason));
+    if (e->run || e->verdict == WR_VERDICT_RUN) reason_words(e->reason, text, sizeof text);
+    else
+        snprintf(text, sizeof text, wr_words("%s: %s"), wr_words(proofs[e->proof]),
+                 reason_words(e->reason, why, sizeof why));
+    wr_gui_as_it_is(true); /* already translated */
     wr_gui_text_wrapped(WR_FONT_SMALL, e->run ? WR_COLOUR_LABEL : WR_COLOUR_FAINT, text);
+    wr_gui_as_it_is(false);
     wr_gui_tip(e->rule);
 }
 

@@ -302,7 +302,7 @@ static void seam_rows(WrApp *app)
              (int)seams->edges);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
     for (int i = 0; i < WR_TEXTURE_SEAMS && i < seams->runs; i++) {
-        snprintf(text, sizeof text, wr_words("%.4g long"), seams->run[i].length);
+        wr_words_print(text, sizeof text, wr_words("%.4g long"), seams->run[i].length);
         wr_gui_push_id(i);
         wr_gui_as_it_is(true);
         wr_gui_label(text);

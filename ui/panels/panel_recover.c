@@ -100,6 +100,23 @@ static bool recover_work(WrSession *session, void *ctx, WrError *err)
     return wr_session_recover(session, call->journal, call->beyond, &call->recovered, err);
 }
 
+/* The report in the window's language, a sentence for each line; owned by the caller. */
+static char *translated(const WrText *messages)
+{
+    WrText text = { 0 };
+    char *copy = wr_strdup(wr_text_get(messages)), said[WR_WORDS_MESSAGE];
+    for (char *at = copy, *next; at; at = next) {
+        next = strchr(at, '\n');
+        if (next) *next++ = '\0';
+        wr_text_addf(&text, "%s%s", text.length > 0 ? "\n" : "",
+                     wr_words_message(at, said, sizeof said));
+    }
+    wr_free(copy);
+    char *result = wr_strdup(wr_text_get(&text));
+    wr_text_fini(&text);
+    return result;
+}
+
 /* Ask about the rest of a partly recovered journal. */
 static void ask_about_rest(WrApp *app, const Call *call)
 {
@@ -108,7 +125,7 @@ static void ask_about_rest(WrApp *app, const Call *call)
     for (int i = 0; recovery && i < recovery->count; i++) {
         if (strcmp(recovery->list[i].journal, call->journal) != 0) continue;
         recovery->chosen = i;
-        recovery->partial_report = wr_strdup(wr_text_get(&call->recovered.report));
+        recovery->partial_report = translated(&call->recovered.messages);
         recovery->more = call->recovered.more;
     }
 }
@@ -120,7 +137,9 @@ static void recover(WrApp *app, const char *journal, bool beyond)
     if (wr_busy_run(app, WR_BUSY_ANOTHER, "Recovering", recover_work, &call, &err)) {
         app->file->starter = false;
         wr_app_changed_document(app);
-        wr_app_say_each_line(app, wr_text_get(&call.recovered.report));
+        char *report = translated(&call.recovered.messages);
+        wr_app_say_each_line(app, report);
+        wr_free(report);
         if (!call.recovered.removed) ask_about_rest(app, &call);
     } else {
         wr_busy_fail(app, "recovering", &err);
@@ -184,7 +203,9 @@ static void tell(const WrRecovery *recovery)
 {
     const WrRecoverable *r = &recovery->list[recovery->chosen];
     if (recovery->partial_report) {
+        wr_gui_as_it_is(true); /* already translated */
         wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, recovery->partial_report);
+        wr_gui_as_it_is(false);
         wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
                             "The rest of it stays until it is discarded.");
         return;

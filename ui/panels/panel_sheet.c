@@ -490,8 +490,8 @@ static void choose_where(WrSheetState *sheet)
 
 static void add_bytes(double bytes, char *text, size_t size)
 {
-    if (bytes >= 1e6) snprintf(text, size, "%.3g MB", bytes / 1e6);
-    else snprintf(text, size, "%.0f kB", fmax(1, bytes / 1e3));
+    if (bytes >= 1e6) wr_words_print(text, size, wr_words("%.3g MB"), bytes / 1e6);
+    else wr_words_print(text, size, wr_words("%.0f kB"), fmax(1, bytes / 1e3));
 }
 
 /* Heights of the lowest and highest code for the whole table, since the picture contains only a part. */
@@ -529,11 +529,11 @@ static void facts_of(const WrSheetLook *look, int i, char *text, size_t size)
     if (depth != 32 && strcmp(map->kind->name, "height") == 0) {
         double low, high;
         code_range(look, i, &low, &high);
-        used += (size_t)snprintf(text + used, size - used, wr_words(", codes are %.3g to %.3g"),
-                                 low, high);
+        used += (size_t)wr_words_print(text + used, size - used,
+                                       wr_words(", codes are %.3g to %.3g"), low, high);
     }
     if (report->convention)
-        used += (size_t)snprintf(text + used, size - used, ", %s", report->convention);
+        used += (size_t)snprintf(text + used, size - used, ", %s", wr_words(report->convention));
     snprintf(text + used, size - used, wr_words("; up to %s"), bytes);
 }
 
@@ -666,11 +666,11 @@ static void numbers(const WrApp *app, WrSheetState *sheet)
     wr_certificate_text(&look->seam, &seam);
     const double texels =
         (double)wr_field_width(wr_app_field(app)) * wr_field_height(wr_app_field(app));
-    snprintf(line, sizeof line,
-             wr_words("Heights %.4g to %.4g, %.3g %% clipped; all files up to %s; seam %s"),
-             look->histogram.low, look->histogram.high,
-             100.0 * (double)look->histogram.outside / texels, bytes,
-             wr_words(wr_certificate_word(wr_certificate_continuity(&look->seam))));
+    wr_words_print(line, sizeof line,
+                   wr_words("Heights %.4g to %.4g, %.3g %% clipped; all files up to %s; seam %s"),
+                   look->histogram.low, look->histogram.high,
+                   100.0 * (double)look->histogram.outside / texels, bytes,
+                   wr_words(wr_certificate_word(wr_certificate_continuity(&look->seam))));
     wr_gui_as_it_is(true); /* assembled from translated parts */
     wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_TEXT, line, wr_gui_available());
     wr_gui_as_it_is(false);

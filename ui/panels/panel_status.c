@@ -67,14 +67,14 @@ static void under_pointer(const WrApp *app)
     }
     wr_field_sample(wr_app_canvas_field(app), scene->scheme, 1, &u, &v, &f, &fu, &fv);
     double slope = hypot(fu, fv) * fabs(scene->height);
-    snprintf(text, sizeof text, "%.3f", u);
+    wr_words_print(text, sizeof text, "%.3f", u);
     pair("u", text);
-    snprintf(text, sizeof text, "%.3f", v);
+    wr_words_print(text, sizeof text, "%.3f", v);
     pair("v", text);
-    snprintf(text, sizeof text, "%.4g", f);
+    wr_words_print(text, sizeof text, "%.4g", f);
     pair("F", text);
     wr_gui_tip("Height in the table; the inspector's F is this times the bump height");
-    snprintf(text, sizeof text, "%.1f\xc2\xb0", wr_atan2(slope, 1.0) / WR_RAD_PER_DEG);
+    wr_words_print(text, sizeof text, "%.1f\xc2\xb0", wr_atan2(slope, 1.0) / WR_RAD_PER_DEG);
     pair("slope", text);
     wr_gui_tip("Angle of the relief over the unit cell at the scene's bump height");
 }
@@ -262,10 +262,10 @@ static void memory(WrApp *app)
     const WrMeter *m = app->meter;
     char text[48], tip[200];
     measure(app);
-    snprintf(text, sizeof text, "%.3g MB", m->all / 1e6);
+    wr_words_print(text, sizeof text, wr_words("%.3g MB"), m->all / 1e6);
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, text);
     double rest = m->all - m->tiles - m->undo;
-    snprintf(
+    wr_words_print(
         tip, sizeof tip,
         wr_words(
             "Memory\nlayers and selection %.3g MB\nundo %.3g MB\npictures, caches and the program "
@@ -284,12 +284,12 @@ static void picture(const WrApp *app, bool with_stages, char *text, size_t size)
     if (!p->serial) return;
     char moving[WR_PICTURE_MOVING];
     wr_picture_moving(p, moving);
-    int used = snprintf(text, size, "%s  \xc2\xb7  %.1f ms%s%s",
-                        wr_words(wr_surfaces[wr_app_scene(app)->shape.kind]->label), all,
-                        !moving[0]               ? ""
-                        : app->settings->turning ? wr_words("  \xc2\xb7  turning: ")
-                                                 : wr_words("  \xc2\xb7  moving: "),
-                        moving);
+    int used = wr_words_print(text, size, "%s  \xc2\xb7  %.1f ms%s%s",
+                              wr_words(wr_surfaces[wr_app_scene(app)->shape.kind]->label), all,
+                              !moving[0]               ? ""
+                              : app->settings->turning ? wr_words("  \xc2\xb7  turning: ")
+                                                       : wr_words("  \xc2\xb7  moving: "),
+                              moving);
     if (!with_stages) return;
     used += snprintf(text + used, size - (size_t)used, "   ");
     stages(ms, all, text, size, used);
@@ -304,8 +304,8 @@ static void picture_tip(const WrApp *app)
     wr_picture_words(p, tip);
     size_t used = strlen(tip);
     for (int i = 0; i < WR_PICTURE_STAGES; i++)
-        used += (size_t)snprintf(tip + used, sizeof tip - used, "\n%s %.2f ms",
-                                 wr_words(wr_picture_stages[i]), ms[i]);
+        used += (size_t)wr_words_print(tip + used, sizeof tip - used, "\n%s %.2f ms",
+                                       wr_words(wr_picture_stages[i]), ms[i]);
     wr_gui_tip(tip);
 }
 
@@ -460,8 +460,8 @@ void wr_panel_status(WrApp *app)
         bool narrow = show && wide - left < wr_gui_px(360);
         if (!narrow) {
             under_pointer(app);
-            snprintf(text, sizeof text, app->view->zoom < 0.1 ? "%.1f %%" : "%.0f %%",
-                     app->view->zoom * 100.0);
+            wr_words_print(text, sizeof text, app->view->zoom < 0.1 ? "%.1f %%" : "%.0f %%",
+                           app->view->zoom * 100.0);
             pair(app->view->mirrored ? "mirror" : "zoom", text);
             if (app->view->turn != 0.0) {
                 snprintf(text, sizeof text, "%.0f\xc2\xb0", app->view->turn);

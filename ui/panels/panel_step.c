@@ -104,7 +104,7 @@ static void cost(const WrApp *app, int step)
     else snprintf(text, sizeof text, wr_words("Runs %d steps again"), count);
     if (seconds >= 0.05) {
         const size_t length = strlen(text);
-        snprintf(text + length, sizeof text - length, wr_words(": about %.1f s"), seconds);
+        wr_words_print(text + length, sizeof text - length, wr_words(": about %.1f s"), seconds);
     }
     wr_gui_as_it_is(true);
     wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, text);

@@ -7,6 +7,7 @@
 #include "ui/input/pen_curve.h"
 #include "ui/app/state/dialog.h"
 #include "ui/app/state/settings.h"
+#include "ui/toolkit/words.h"
 
 #include "base/array.h"
 #include "base/exactmath.h"
@@ -138,7 +139,7 @@ static void put(Lines *at, const char *label, WrColour colour, const char *forma
     char text[96];
     va_list args;
     va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
+    wr_words_vprint(text, sizeof text, format, args);
     va_end(args);
     double w = wr_gui_text_width(WR_FONT_TEXT, text);
     wr_gui_draw_text(at->x, floor(at->y), WR_FONT_TEXT, WR_COLOUR_LABEL, label);
@@ -151,7 +152,7 @@ static void put_bar(Lines *at, const char *label, double value, WrColour colour)
     char text[32];
     double bar = wr_gui_px(8), from = at->x + wr_gui_px(70), to = at->x + at->w - wr_gui_px(50);
     double line = wr_gui_line_height(WR_FONT_TEXT), top = floor(at->y + (line - bar) / 2) + 1;
-    snprintf(text, sizeof text, "%.3f", value);
+    wr_words_print(text, sizeof text, "%.3f", value);
     wr_gui_draw_text(at->x, floor(at->y), WR_FONT_TEXT, WR_COLOUR_LABEL, label);
     wr_gui_draw_fill(from, top, to - from, bar, WR_COLOUR_BUTTON, 0);
     wr_gui_draw_fill(from, top, (to - from) * value, bar, colour, 0);

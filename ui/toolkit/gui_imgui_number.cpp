@@ -30,6 +30,7 @@ static double place_of(const WrNumber *spec, double value)
     return t < 0 ? 0 : t > 1 ? 1 : t;
 }
 
+/* In the C locale. */
 static void print_value(const WrNumber *spec, double value, char *text, size_t size)
 {
     if (spec->decimals >= 0) snprintf(text, size, "%.*f", spec->decimals, value);
@@ -55,11 +56,14 @@ static double value_at(const WrNumber *spec, double t)
 
 static bool read_value(const WrNumber *spec, const char *text, double *value)
 {
+    char plain[64];
     while (*text == ' ') text++;
-    size_t length = strspn(text, "0123456789.+-eE");
+    size_t length = strspn(text, "0123456789.,+-eE");
     if (length > 0 && (text[length - 1] == 'e' || text[length - 1] == 'E')) length--;
+    if (length >= sizeof plain) return false;
+    for (size_t i = 0; i < length; i++) plain[i] = text[i] == ',' ? '.' : text[i];
     double typed;
-    if (!wr_number_parse(text, length, &typed)) return false;
+    if (!wr_number_parse(plain, length, &typed)) return false;
     *value = allowed(spec, typed);
     return true;
 }
@@ -96,11 +100,13 @@ static void start_typing(WrGui *gui, ImGuiID item, const WrNumber *spec, double 
     gui->typing_focus = true;
     if (spec->decimals >= 0) print_value(spec, value, gui->typed, sizeof gui->typed);
     else wr_number_print(value, gui->typed);
+    wr_words_number(gui->typed);
 }
 
 static void print_field(const WrNumber *spec, double value, char *text, size_t size)
 {
     print_value(spec, value, text, size - 24);
+    wr_words_number(text);
     const size_t used = strlen(text);
     if (spec->unit) snprintf(text + used, size - used, " %s", wr_gui_said(spec->unit));
 }

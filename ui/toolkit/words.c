@@ -17,11 +17,13 @@
 #define MAGIC 0x950412deu
 #define MAX_MOST (8u << 20) /* size limit of a file */
 
-const WrLanguage wr_languages[] = { { "", "As the system" },
-                                    { "en", "English" },
-                                    { "de", "Deutsch" },
-                                    { "fr", "Fran\xc3\xa7"
-                                            "ais" } };
+const WrLanguage wr_languages[] = { { "", "As the system", '.' },
+                                    { "en", "English", '.' },
+                                    { "de", "Deutsch", ',' },
+                                    { "fr",
+                                      "Fran\xc3\xa7"
+                                      "ais",
+                                      ',' } };
 const int wr_language_count = WR_LENGTH(wr_languages);
 
 void (*wr_words_missed)(const char *english);
@@ -205,6 +207,47 @@ const char *wr_words_message(const char *message, char *out, size_t size)
     static const WrMessageWords words = { print_format, print_value };
     const char *whole = find(message); /* a text that no format wrote */
     return wr_message_print(whole ? whole : message, &words, out, size);
+}
+
+char *wr_words_number(char *text)
+{
+    char *point = strchr(text, '.');
+    const bool number = text[strspn(text, " +-0123456789.eE")] == '\0';
+    if (point && number && !strchr(point + 1, '.')) *point = wr_languages[spoken.now].mark;
+    return text;
+}
+
+static const char *itself(const char *format)
+{
+    return format;
+}
+
+static const char *print_number(const char *value)
+{
+    static char text[64];
+    const size_t length = strlen(value);
+    if (length >= sizeof text) return value;
+    memcpy(text, value, length + 1);
+    return wr_words_number(text);
+}
+
+int wr_words_vprint(char *out, size_t size, const char *format, va_list args)
+{
+    static const WrMessageWords numbers = { itself, print_number };
+    char message[WR_WORDS_MESSAGE];
+    if (wr_languages[spoken.now].mark == '.') return vsnprintf(out, size, format, args);
+    wr_message_format(out, size, message, sizeof message, format, args);
+    if (message[0]) wr_message_print(message, &numbers, out, size);
+    return (int)strlen(out);
+}
+
+int wr_words_print(char *out, size_t size, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    const int length = wr_words_vprint(out, size, format, args);
+    va_end(args);
+    return length;
 }
 
 const char *wr_words(const char *english)

@@ -2,6 +2,7 @@
    gettext's .mo files, built from ui/words/NAME.po. The C library's locale is not used: numbers, files and commands
    are unchanged, and languages not installed in the system are available. Window thread only. */
 #pragma once
+#include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -20,6 +21,7 @@ wr_words(const char *english);
 typedef struct WrLanguage {
     const char *code; /* "de"; "" uses the environment */
     const char *name; /* name in the language itself */
+    char mark;        /* decimal mark of shown numbers */
 } WrLanguage;
 extern const WrLanguage wr_languages[];
 extern const int wr_language_count;
@@ -32,6 +34,12 @@ void wr_words_choose(int language);
    "value"; the rest stays English. out: size bytes, at least 1; longer texts are cut at a character. Returns out. */
 const char *wr_words_message(const char *message, char *out, size_t size);
 #define WR_WORDS_MESSAGE 1200 /* bytes: enough for the longest error */
+/* vsnprintf for the window: numbers of the values get the language's decimal mark. format: translated by the caller. */
+int wr_words_vprint(char *out, size_t size, const char *format, va_list args);
+int wr_words_print(char *out, size_t size, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* Replaces the points of a number by the language's decimal mark, in place; any other text stays. Returns text. */
+char *wr_words_number(char *text);
 /* The present language: "en" or the code of a translation. */
 const char *wr_words_language(void);
 /* The first code requested by the environment that is in wr_languages; "en" if none is requested. Each may be

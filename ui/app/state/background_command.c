@@ -361,7 +361,7 @@ static void bar(WrApp *app, bool refused, double now)
     wr_gui_move_to(wr_gui_px(30) + wide);
     wr_gui_progress(long_bar, busy->furthest > 0.0 ? busy->furthest : -1.0);
     wr_gui_same_line(12);
-    snprintf(seconds, sizeof seconds, "%.1f s", took);
+    wr_words_print(seconds, sizeof seconds, "%.1f s", took);
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, seconds);
     wr_gui_same_line(12);
     wr_gui_move_to(end + wr_gui_px(70));

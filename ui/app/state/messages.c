@@ -53,7 +53,7 @@ void wr_app_say(WrApp *app, const char *format, ...)
     char text[512];
     va_list args;
     va_start(args, format);
-    vsnprintf(text, sizeof text, wr_words(format), args);
+    wr_words_vprint(text, sizeof text, wr_words(format), args);
     va_end(args);
     add(app, text, false);
 }

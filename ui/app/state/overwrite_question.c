@@ -68,9 +68,8 @@ static void describe(const WrReplace *replace, char *text, size_t size)
     time_t t = (time_t)stamp.seconds;
     double bytes = (double)stamp.bytes, unit = bytes < 1e3 ? 1.0 : bytes < 1e6 ? 1e3 : 1e6;
     const char *word = bytes < 1e3 ? "bytes" : bytes < 1e6 ? "kB" : "MB";
-    if (wr_clock_local(t, &parts)) strftime(when, sizeof when, "%e %B %Y, %H:%M:%S", &parts);
-    snprintf(text, size, wr_words("%.3g %s, written %s"), bytes / unit, word,
-             when + strspn(when, " "));
+    if (wr_clock_local(t, &parts)) strftime(when, sizeof when, "%Y-%m-%d %H:%M:%S", &parts);
+    wr_words_print(text, size, wr_words("%.3g %s, written %s"), bytes / unit, wr_words(word), when);
 }
 
 /* Return to the file dialog with the chosen name. */

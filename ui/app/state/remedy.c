@@ -42,7 +42,9 @@ static int length_before(const char *text, const char *quote)
 {
     const char *colon = quote;
     while (colon > text && *colon != ':') colon--;
-    return (int)(colon > text ? colon - text : quote - text);
+    if (colon == text) return (int)(quote - text);
+    if (colon > text + 1 && strncmp(colon - 2, "\xc2\xa0", 2) == 0) colon -= 2; /* French */
+    return (int)(colon - text);
 }
 
 bool wr_remedy_find(const char *text, WrRemedy *remedy)

@@ -10,6 +10,7 @@
 
 #include <ctype.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <string.h>
 
 #define WORDS_MAX 48 /* words of a line that are parsed */
@@ -143,7 +144,7 @@ static const struct {
     { "normalmap", "Normal map" },
     { "roughness", "Roughness" },
     { "metalness", "Metalness" },
-    { "light", "Light" },
+    { "light", "Light source" },
     { "environment", "Surroundings" },
     { "background", "Background" },
     { "tone", "Exposure" },
@@ -174,14 +175,37 @@ static const char *name_of(const char *verb)
 #define NAMED_MAX 2         /* values that are said */
 #define NAMED_LENGTH_MAX 14 /* bytes of one */
 
-/* The first short values with a name: ", height 0.1". */
-static void add_named(const Words *w, WrText *out)
+/* A parameter's name in the window's language, by its label if the word itself has no translation. */
+static const char *name_words(const char *name, const WrParam *params)
+{
+    const char *said = wr_words(name);
+    for (const WrParam *p = params; said == name && p && p->name; p++)
+        if (strcmp(p->name, name) == 0 && wr_words(p->label) != p->label) return wr_words(p->label);
+    return said;
+}
+
+/* A value is a word of a list, or a number; names and files are not translated. */
+static void add_value(const char *name, const char *value, WrText *out)
+{
+    static const char *const own[] = { "name", "file", "text", "font", "picture" };
+    char number[NAMED_LENGTH_MAX + 1];
+    bool said = true;
+    for (int i = 0; i < WR_LENGTH(own); i++) said = said && strcmp(name, own[i]) != 0;
+    snprintf(number, sizeof number, "%s", value);
+    wr_text_add(out, said ? wr_words(wr_words_number(number)) : value);
+}
+
+/* The first short values with a name: ", height 0.1". params: of the generator; NULL: none */
+static void add_named(const Words *w, const WrParam *params, WrText *out)
 {
     int said = 0;
     for (int i = 1; i < w->count && said < NAMED_MAX; i++) {
-        const char *name = w->word[i].text, *value = w->word[i].value;
+        const char *value = w->word[i].value;
+        char name[40];
         if (!value || !*value || strlen(value) > NAMED_LENGTH_MAX || strchr(value, ';')) continue;
-        wr_text_addf(out, ", %.*s %s", (int)(value - 1 - name), name, value);
+        snprintf(name, sizeof name, "%.*s", (int)(value - 1 - w->word[i].text), w->word[i].text);
+        wr_text_addf(out, ", %s ", name_words(name, params));
+        add_value(name, value, out);
         said++;
     }
 }
@@ -195,9 +219,9 @@ static void other_words(const Words *w, WrText *out)
     for (int i = 1; i <= 2 && plain(w, i); i++) {
         wr_text_add(out, i == 1 ? ", " : " ");
         if (strchr(plain(w, i), '/')) file_name(plain(w, i), out);
-        else wr_text_addf(out, "%.40s", plain(w, i));
+        else wr_text_addf(out, "%.40s", i == 1 ? wr_words(plain(w, i)) : plain(w, i));
     }
-    add_named(w, out);
+    add_named(w, NULL, out);
 }
 
 /* Texts for a layer (%.20s is its number) and for several (%d is how many). */
@@ -228,7 +252,7 @@ static bool layer_words(const Words *w, WrText *out)
     if (!form) return false;
     if (strcmp(form, "add") == 0) {
         wr_text_add(out, wr_words("New layer"));
-        if (list) wr_text_addf(out, ": %.40s", list);
+        if (list) wr_text_addf(out, wr_words(": %.40s"), list);
         return true;
     }
     int layers = 1;
@@ -240,7 +264,7 @@ static bool layer_words(const Words *w, WrText *out)
         if (argument && (!value || strcmp(value, layer_deeds[i].value) != 0)) continue;
         if (layers > 1 && several) wr_text_addf(out, wr_words(several), layers);
         else wr_text_addf(out, wr_words(layer_deeds[i].one), list);
-        if (!argument && strcmp(form, "set") == 0) add_named(w, out);
+        if (!argument && strcmp(form, "set") == 0) add_named(w, NULL, out);
         return true;
     }
     return false;
@@ -257,14 +281,15 @@ void wr_step_label(const char *line, WrText *out)
     else if (strcmp(verb, "sculpt") == 0) brush_words(&w, "Stroke on the mesh", out);
     else if (strcmp(verb, "dab") == 0) brush_words(&w, "Dab", out);
     else if (kind && strcmp(verb, "text") == 0) {
-        wr_text_addf(out, "%s: %.40s", wr_words("Text"), kind);
-        add_named(&w, out);
+        wr_text_add(out, wr_words("Text"));
+        wr_text_addf(out, wr_words(": %.40s"), kind);
+        add_named(&w, generator ? generator->params : NULL, out);
     } else if (kind && strcmp(verb, "layer") == 0 && strcmp(kind, "paste") == 0)
         wr_text_add(out, wr_words("Pasted"));
     else if (strcmp(verb, "layer") == 0 && layer_words(&w, out)) (void)0;
     else if (op || (generator && generator->label)) {
         wr_text_add(out, wr_words(op ? op->label : generator->label));
-        add_named(&w, out);
+        add_named(&w, op ? NULL : generator->params, out);
     } else if (w.count > 0) other_words(&w, out);
     free_words(&w);
 }

@@ -40,11 +40,13 @@ static const char *word_of(const WrSeamEdge *edge)
 static void add_numbers(WrText *tip, const WrSeamEdge *edge)
 {
     if (!edge->measured) return;
-    wr_text_addf(tip,
-                 wr_words("\n   height %.3g across the edge, %.3g across the worst line inside"
-                          "\n   slope %.3g a texel, inside %.3g"),
-                 edge->across[WR_SEAM_STEP], edge->inside[WR_SEAM_STEP],
-                 edge->across[WR_SEAM_SLOPE], edge->inside[WR_SEAM_SLOPE]);
+    char numbers[200];
+    wr_words_print(numbers, sizeof numbers,
+                   wr_words("\n   height %.3g across the edge, %.3g across the worst line inside"
+                            "\n   slope %.3g a texel, inside %.3g"),
+                   edge->across[WR_SEAM_STEP], edge->inside[WR_SEAM_STEP],
+                   edge->across[WR_SEAM_SLOPE], edge->inside[WR_SEAM_SLOPE]);
+    wr_text_add(tip, numbers);
 }
 
 /* Measure with the canvas's tiling, while the table is unchanged; not during strokes, which wrap and make no

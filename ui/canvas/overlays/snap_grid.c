@@ -3,6 +3,7 @@
 #include "ui/app/state/settings.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -32,7 +33,7 @@ static void number(const WrCanvasView *v, int axis, double px, double py, double
 {
     char text[24];
     double from = texel - most * floor(texel / most), tall = wr_gui_line_height(WR_FONT_SMALL);
-    snprintf(text, sizeof text, "%.5g", from);
+    wr_words_print(text, sizeof text, "%.5g", from);
     double wide = wr_gui_text_width(WR_FONT_SMALL, text), gap = 3.0 * wr_gui_scale();
     double x = axis ? v->x + v->w - wide - 2 * gap : px + gap,
            y = axis ? py : v->y + v->h - tall - gap;

@@ -10,6 +10,7 @@
 #include "ui/toolkit/theme.h"
 #include "ui/input/stroke_smoothing.h"
 #include "ui/canvas/tools/stroke_input.h"
+#include "ui/toolkit/words.h"
 
 #include "base/array.h"
 #include "base/exactmath.h"
@@ -204,7 +205,7 @@ void wr_brush_show_string(const WrApp *app)
 static void show_size(const WrApp *app, const WrPointer *at)
 {
     char text[48];
-    snprintf(text, sizeof text, "%.4g px", 2.0 * app->settings->brush.radius);
+    wr_words_print(text, sizeof text, "%.4g px", 2.0 * app->settings->brush.radius);
     double w = wr_gui_text_width(WR_FONT_TEXT, text), h = wr_gui_line_height(WR_FONT_TEXT);
     double pad = 6.0 * wr_gui_scale();
     wr_gui_draw_fill(at->x - w / 2 - pad, at->y - h / 2 - pad, w + 2 * pad, h + 2 * pad,

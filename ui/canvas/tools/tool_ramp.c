@@ -15,6 +15,7 @@
 #include "ui/canvas/tools/tool_rows.h"
 #include "ui/canvas/tools/tool_shape.h"
 #include "ui/canvas/overlays/marks.h"
+#include "ui/toolkit/words.h"
 
 #include "base/text.h"
 #include "base/enum_rows.h"
@@ -117,7 +118,7 @@ static void end_label(const WrApp *app, double x, double y, double height)
 {
     char text[40];
     double px, py;
-    snprintf(text, sizeof text, "%.4g", height);
+    wr_words_print(text, sizeof text, "%.4g", height);
     wr_view_to_pixel(app->view, x, y, &px, &py);
     wr_overlay_label(px, py - 16.0 * wr_gui_scale(), text);
 }

@@ -26,6 +26,7 @@
 #include "ui/toolkit/theme.h"
 #include "ui/canvas/tools/preset_browser.h"
 #include "ui/canvas/tools/thumbs.h"
+#include "ui/toolkit/words.h"
 
 #include "base/array.h"
 #include "base/error.h"
@@ -479,7 +480,7 @@ static void marks(WrApp *app)
     const WrStampState *draw = app->stamp;
     char text[64];
     if (!draw->placed || !draw->dragged) return;
-    snprintf(text, sizeof text, "%.4g px  %.0f\xc2\xb0", 2.0 * draw->radius, draw->angle_deg);
+    wr_words_print(text, sizeof text, "%.4g px  %.0f\xc2\xb0", 2.0 * draw->radius, draw->angle_deg);
     wr_overlay_label(app->hand->start.x, app->hand->start.y, text);
 }
 

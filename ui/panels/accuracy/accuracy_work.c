@@ -1,6 +1,7 @@
 #include "ui/panels/accuracy/accuracy_work.h"
 #include "ui/panels/accuracy/accuracy_schedule.h"
 #include "ui/app/jobs/job.h"
+#include "ui/toolkit/words.h"
 
 #include "accuracy/illusion.h"
 #include "accuracy/accuracy_benchmark.h"
@@ -197,8 +198,8 @@ char *wr_accuracy_probe_number_text(double value, char text[24])
     if (!isfinite(value))
         snprintf(text, 24, "%s", isnan(value) ? "\xe2\x80\x93" : value < 0 ? "-inf" : "inf");
     else if (value == rint(value) && size < 1e5) snprintf(text, 24, "%.0f", value + 0.0);
-    else if (size < 5e-4 || size >= 1e5) snprintf(text, 24, "%.2e", value);
-    else snprintf(text, 24, "%.*f", size < 10 ? 4 : size < 1000 ? 2 : 0, value);
+    else if (size < 5e-4 || size >= 1e5) wr_words_print(text, 24, "%.2e", value);
+    else wr_words_print(text, 24, "%.*f", size < 10 ? 4 : size < 1000 ? 2 : 0, value);
     return text;
 }
 

@@ -197,7 +197,8 @@ static void stages(WrApp *app)
                       { wr_series[stage_colours[i + 1]], wr_picture_stages[i + 1], tips[i + 1],
                         "" } };
         for (int k = 0; k < 2; k++)
-            snprintf(c[k].value, sizeof c[k].value, ms[i + k] < 10 ? "%.2f" : "%.1f", ms[i + k]);
+            wr_words_print(c[k].value, sizeof c[k].value, ms[i + k] < 10 ? "%.2f" : "%.1f",
+                           ms[i + k]);
         cells(&c[0], &c[1]);
     }
     wr_picture_words(picture, words);

@@ -95,8 +95,8 @@ void wr_picture_words(const WrPreviewPicture *picture, char text[WR_PICTURE_WORD
     char way[WR_PICTURE_MOVING], moving[WR_PICTURE_MOVING + 4] = "";
     double ms[WR_PICTURE_STAGES], total = wr_picture_time(picture, ms);
     wr_picture_moving(picture, way);
-    if (way[0]) snprintf(moving, sizeof moving, ": %s", way);
-    snprintf(
+    if (way[0]) snprintf(moving, sizeof moving, wr_words(": %s"), way);
+    wr_words_print(
         text, WR_PICTURE_WORDS,
         wr_words(
             "%.1f ms by the clock for the newest picture of the patch, conversion for the screen "
