@@ -45,7 +45,7 @@ static const struct {
     { "table 5",
       "table: WxH 5: must be WxH, two whole numbers, each 1..16384 texels",
       { "table: WxH 5: muss WxH, zwei ganze Zahlen, jede 1..16384 Texel sein",
-        "table : WxH 5 : doit être WxH, deux nombres entiers, chacun 1..16384 texels" } },
+        "table: WxH 5 : doit être WxH, deux nombres entiers, chacun 1..16384 texels" } },
     { "layer set 9 opacity=0.5",
       "layer 9: must be 1..1",
       { "Ebene 9: muss 1..1 sein", "calque 9 : doit être 1..1" } },
@@ -72,14 +72,14 @@ static const struct {
     { "image /nothere/x.png",
       "image: /nothere/x.png: No such file or directory",
       { "image: /nothere/x.png: Datei oder Ordner nicht gefunden",
-        "image: /nothere/x.png: aucun fichier ou dossier de ce nom" } },
+        "image: /nothere/x.png : aucun fichier ou dossier de ce nom" } },
     /* From the reader process. */
     { "image " WR_SOURCE_DIR "/tests/CMakeLists.txt",
       "image: " WR_SOURCE_DIR "/tests/CMakeLists.txt: is not a picture of a kind that can be read",
       { "image: " WR_SOURCE_DIR
         "/tests/CMakeLists.txt: ist kein Bild einer Art, die gelesen werden kann",
         "image: " WR_SOURCE_DIR
-        "/tests/CMakeLists.txt: n’est pas une image d’un genre qui peut être lu" } },
+        "/tests/CMakeLists.txt : n’est pas une image d’un genre qui peut être lu" } },
     /* An error inside an error. */
     { "stroke points=0.1,0.1 set=foo",
       "stroke: set: settings: 'foo': must be NAME=VALUE or NAME:INPUT=X,Y|X,Y|..., with ; between "

@@ -5,6 +5,7 @@
 
 #include "command/command_table.h"
 
+#include "render/plan/plan.h"
 #include "shade/reflection.h"
 #include "ui/app/registry_list.h"
 #include "ui/app/state/action_list.h"
@@ -202,14 +203,17 @@ static void note_request(const char *english)
     requested = requested || strcmp(english, searched_help) == 0;
 }
 
-/* Only the help of the current model is shown, as a tip: no walk through the panels requests the others. */
-static void every_reflection_model_has_a_help_line(void **state)
+/* Only the help of the current model is shown, as a tip, and the plan only of a picture: no walk through the panels requests
+   the others. */
+static void every_reflection_model_and_effect_has_words(void **state)
 {
     (void)state;
     int missing = 0;
     for (int l = 0; l < wr_language_count; l++)
         for (int i = 0; i < wr_reflect_count && speaks(l); i++)
             missing += lacks(wr_reflects[i].help);
+    for (int l = 0; l < wr_language_count; l++)
+        for (int i = 0; i < WR_EFFECT_COUNT && speaks(l); i++) missing += lacks(wr_effects[i].name);
     assert_int_equal(missing, 0);
 }
 
@@ -334,7 +338,7 @@ int main(void)
         cmocka_unit_test(every_page_of_the_guide_has_a_title_in_every_language),
         cmocka_unit_test(every_action_stands_in_a_menu),
         cmocka_unit_test(every_action_has_a_help_line),
-        cmocka_unit_test(every_reflection_model_has_a_help_line),
+        cmocka_unit_test(every_reflection_model_and_effect_has_words),
         cmocka_unit_test(every_command_is_reached_by_the_search),
         cmocka_unit_test(no_key_does_two_things),
         cmocka_unit_test(no_text_is_cut),

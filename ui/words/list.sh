@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# list.sh FILE: the window's texts as gettext's template: those that its source gives to widgets, messages and wr_words. The
+# list.sh FILE: the window's texts as gettext's template: those that its source gives to widgets, messages and wr_words, and
+# the reasons of the plan. The
 # tables' are besides what a walk through the window asks for (tests/ui/test_ui_words.c prints those that a language lacks).
-# What a language lacks of them: msgcmp ui/words/de.po FILE
+# What a language lacks of them: msgcmp ui/words/LANGUAGE.po FILE
 # list.sh FILE errors: the formats of errors and notes of src/ and ui/ (wr_fail and others); those of commands that run
 # without a window, and of the hard cases, are left out.
 set -euo pipefail
@@ -14,9 +15,9 @@ if [[ $what == errors ]]; then
     functions='wr_fail|wr_error_prefix|wr_session_note|wr_message_addf'
     keys=(-kwr_fail:2 -kwr_error_prefix:2 -kwr_session_note:2 -kwr_message_addf:2 -kWR_MESSAGE:1)
 else
-    folders=(ui)
-    functions='wr_words|wr_app_say|wr_gui_(?:text|text_wrapped|text_cut|heading|label|tip|button|chip|fold|hold|menu_item|dialog_begin)'
-    keys=(-kwr_words -kwr_app_say:2 -kwr_gui_text:3 -kwr_gui_text_wrapped:3 -kwr_gui_text_cut:3 -kwr_gui_heading:1
+    folders=(ui src/render/plan)
+    functions='say|wr_words|wr_app_say|wr_gui_(?:text|text_wrapped|text_cut|heading|label|tip|button|chip|fold|hold|menu_item|dialog_begin)'
+    keys=(-ksay:3 -kwr_words -kwr_app_say:2 -kwr_gui_text:3 -kwr_gui_text_wrapped:3 -kwr_gui_text_cut:3 -kwr_gui_heading:1
         -kwr_gui_label:1 -kwr_gui_tip:1 -kwr_gui_button:1 -kwr_gui_chip:2 -kwr_gui_hint_field:2 -kwr_gui_fold:1
         -kwr_gui_menu_begin:1 -kwr_gui_menu_item:1 -kwr_gui_dialog_begin:1 -kwr_gui_draw_text:6 -kROW:2 -kEDIT:2)
 fi

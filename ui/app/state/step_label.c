@@ -175,6 +175,18 @@ static const char *name_of(const char *verb)
 #define NAMED_MAX 2         /* values that are said */
 #define NAMED_LENGTH_MAX 14 /* bytes of one */
 
+/* A word of the command language in the window's: by itself, or as a label begins, or as it is. */
+static const char *word_words(const char *word)
+{
+    static char label[NAMED_LENGTH_MAX + 1];
+    const char *said = wr_words(word);
+    if (said != word || strlen(word) >= sizeof label) return said;
+    snprintf(label, sizeof label, "%s", word);
+    label[0] = (char)toupper((unsigned char)label[0]);
+    said = wr_words(label);
+    return said == label ? word : said;
+}
+
 /* A parameter's name in the window's language, by its label if the word itself has no translation. */
 static const char *name_words(const char *name, const WrParam *params)
 {
@@ -189,10 +201,10 @@ static void add_value(const char *name, const char *value, WrText *out)
 {
     static const char *const own[] = { "name", "file", "text", "font", "picture" };
     char number[NAMED_LENGTH_MAX + 1];
-    bool said = true;
-    for (int i = 0; i < WR_LENGTH(own); i++) said = said && strcmp(name, own[i]) != 0;
+    bool free = false;
+    for (int i = 0; i < WR_LENGTH(own); i++) free = free || strcmp(name, own[i]) == 0;
     snprintf(number, sizeof number, "%s", value);
-    wr_text_add(out, said ? wr_words(wr_words_number(number)) : value);
+    wr_text_add(out, free ? value : word_words(wr_words_number(number)));
 }
 
 /* The first short values with a name: ", height 0.1". params: of the generator; NULL: none */
@@ -219,7 +231,7 @@ static void other_words(const Words *w, WrText *out)
     for (int i = 1; i <= 2 && plain(w, i); i++) {
         wr_text_add(out, i == 1 ? ", " : " ");
         if (strchr(plain(w, i), '/')) file_name(plain(w, i), out);
-        else wr_text_addf(out, "%.40s", i == 1 ? wr_words(plain(w, i)) : plain(w, i));
+        else wr_text_addf(out, "%.40s", i == 1 ? word_words(plain(w, i)) : plain(w, i));
     }
     add_named(w, NULL, out);
 }
