@@ -217,6 +217,29 @@ static void every_reflection_model_and_effect_has_words(void **state)
     assert_int_equal(missing, 0);
 }
 
+static int lacking_helps(const WrArgSpec *args)
+{
+    int missing = 0;
+    for (; args && args->name; args++) missing += args->help && lacks(args->help);
+    return missing;
+}
+
+/* The dialog Change step shows the help of each value as a tip. */
+static void every_value_of_an_edit_has_a_help_line(void **state)
+{
+    (void)state;
+    int missing = 0;
+    for (int l = 0; l < wr_language_count; l++)
+        for (const WrCommand *const *c = wr_commands; *c && speaks(l); c++) {
+            if ((*c)->kind != WR_CLASS_EDIT && (*c)->kind != WR_CLASS_SCENE) continue;
+            missing += lacking_helps((*c)->args) + lacking_helps((*c)->more);
+            WrForm form;
+            for (int i = 0; (*c)->form && (*c)->form(i, &form); i++)
+                missing += lacking_helps(form.args);
+        }
+    assert_int_equal(missing, 0);
+}
+
 /* The search finds commands by verb and then accepts the line; their help is translated. */
 static void every_command_is_reached_by_the_search(void **state)
 {
@@ -339,6 +362,7 @@ int main(void)
         cmocka_unit_test(every_action_stands_in_a_menu),
         cmocka_unit_test(every_action_has_a_help_line),
         cmocka_unit_test(every_reflection_model_and_effect_has_words),
+        cmocka_unit_test(every_value_of_an_edit_has_a_help_line),
         cmocka_unit_test(every_command_is_reached_by_the_search),
         cmocka_unit_test(no_key_does_two_things),
         cmocka_unit_test(no_text_is_cut),

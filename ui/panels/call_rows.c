@@ -1,5 +1,6 @@
 #include "ui/panels/call_rows.h"
 #include "ui/app/state/line.h"
+#include "ui/app/state/step_label.h"
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
 
@@ -99,7 +100,7 @@ static WrEdit choice_row(WrCall *call, int i)
     const char *words[WORDS_MAX];
     int count = 0, chosen = call->args[i].choice;
     for (const char *word; count < WORDS_MAX && (word = wr_arg_word(&call->specs[i], count));)
-        words[count++] = word;
+        words[count++] = wr_step_word(word);
     if (!wr_gui_choice("choice", 0, words, count, &chosen)) return WR_EDIT_NONE;
     call->args[i].choice = chosen;
     return WR_EDIT_DONE;

@@ -175,8 +175,7 @@ static const char *name_of(const char *verb)
 #define NAMED_MAX 2         /* values that are said */
 #define NAMED_LENGTH_MAX 14 /* bytes of one */
 
-/* A word of the command language in the window's: by itself, or as a label begins, or as it is. */
-static const char *word_words(const char *word)
+const char *wr_step_word(const char *word)
 {
     static char label[NAMED_LENGTH_MAX + 1];
     const char *said = wr_words(word);
@@ -204,7 +203,7 @@ static void add_value(const char *name, const char *value, WrText *out)
     bool free = false;
     for (int i = 0; i < WR_LENGTH(own); i++) free = free || strcmp(name, own[i]) == 0;
     snprintf(number, sizeof number, "%s", value);
-    wr_text_add(out, free ? value : word_words(wr_words_number(number)));
+    wr_text_add(out, free ? value : wr_step_word(wr_words_number(number)));
 }
 
 /* The first short values with a name: ", height 0.1". params: of the generator; NULL: none */
@@ -231,7 +230,7 @@ static void other_words(const Words *w, WrText *out)
     for (int i = 1; i <= 2 && plain(w, i); i++) {
         wr_text_add(out, i == 1 ? ", " : " ");
         if (strchr(plain(w, i), '/')) file_name(plain(w, i), out);
-        else wr_text_addf(out, "%.40s", i == 1 ? word_words(plain(w, i)) : plain(w, i));
+        else wr_text_addf(out, "%.40s", i == 1 ? wr_step_word(plain(w, i)) : plain(w, i));
     }
     add_named(w, NULL, out);
 }
