@@ -20,6 +20,7 @@
 #include "ui/app/state/app_options.h"
 #include "ui/canvas/view.h"
 #include "ui/app/state/background_command.h"
+#include "ui/app/state/dialog.h"
 #include "ui/app/state/document.h"
 #include "ui/app/state/pointer_state.h"
 #include "ui/app/state/layout.h"
@@ -312,14 +313,26 @@ static void a_number_is_where_the_button_went_up(void **state)
 typedef struct Opening {
     int frames;         /* atomic: drawn so far */
     int before_its_end; /* frames drawn when the reading ended */
+    int shown;          /* frames with the progress in the middle of the canvas */
+    bool gives_up;      /* the reading ends only when it is cancelled ... */
+    bool closes;        /* ... since the window is closed meanwhile */
 } Opening;
 
 static Opening *opening;
 
 static void count_frame(WrApp *app)
 {
-    (void)app;
-    __atomic_add_fetch(&opening->frames, 1, __ATOMIC_RELEASE);
+    const SDL_Rect *room = &app->layout->canvas;
+    const int x = room->x + room->w / 2, y = room->y + room->h / 2;
+    const int frames = __atomic_add_fetch(&opening->frames, 1, __ATOMIC_RELEASE);
+    if (app->busy) opening->shown += wr_gui_owns_point(app->gui, x, y);
+    if (!app->busy || frames != 2) return;
+    if (opening->gives_up)
+        SDL_PushEvent(&(SDL_Event){ .key = { .type = SDL_KEYDOWN, .keysym.sym = SDLK_ESCAPE } });
+    if (opening->closes) {
+        SDL_PushEvent(&(SDL_Event){ .type = SDL_QUIT });
+        SDL_PushEvent(&(SDL_Event){ .key = { .type = SDL_KEYDOWN, .keysym.sym = SDLK_ESCAPE } });
+    }
 }
 
 static bool open_after_a_frame(WrSession *session, void *ctx, WrError *err)
@@ -329,13 +342,15 @@ static bool open_after_a_frame(WrSession *session, void *ctx, WrError *err)
     while (!__atomic_load_n(&now->frames, __ATOMIC_ACQUIRE) && wr_clock_seconds() < end)
         usleep(1000);
     now->before_its_end = __atomic_load_n(&now->frames, __ATOMIC_ACQUIRE);
+    while ((now->gives_up || now->closes) && !wr_progress_stopped() && wr_clock_seconds() < end)
+        usleep(1000);
+    if (wr_progress_stopped()) return wr_fail(err, "cancelled");
     return wr_session_run(session, "table 48x16", err);
 }
 
-static void the_first_frame_does_not_wait_for_the_document(void **state)
+/* Start a window whose document is opened by open_after_a_frame, until that has ended or the window is closed. */
+static Bench open_slowly(Opening *now)
 {
-    (void)state;
-    Opening now = { 0 };
     Bench bench;
     WrError err = { "" };
     SDL_SetHint(SDL_HINT_VIDEODRIVER, "dummy");
@@ -343,7 +358,7 @@ static void the_first_frame_does_not_wait_for_the_document(void **state)
     bench.session = wr_session_new(&(WrSessionOptions){ .pool = bench.pool, .outputs = true });
     bench.options = (WrAppOptions){ .session = bench.session,
                                     .open = open_after_a_frame,
-                                    .open_ctx = &now,
+                                    .open_ctx = now,
                                     .file_given = true,
                                     .threads = 1,
                                     .width = 900,
@@ -352,15 +367,53 @@ static void the_first_frame_does_not_wait_for_the_document(void **state)
     bench.app->options = &bench.options;
     bench.app->session = bench.session;
     bench.app->drawn = count_frame;
-    opening = &now;
+    opening = now;
     if (!wr_app_begin(bench.app, &err)) fail_msg("%s", err.text);
     const double end = wr_clock_seconds() + PATIENCE;
-    while (wr_field_width(wr_app_field(bench.app)) != 48 && wr_clock_seconds() < end) {
+    while ((bench.app->busy || now->frames < 2) && !bench.app->quit && wr_clock_seconds() < end) {
         SDL_PushEvent(&(SDL_Event){ .type = bench.app->ready_event });
         wr_app_step(bench.app);
     }
+    return bench;
+}
+
+static void the_first_frame_does_not_wait_for_the_document(void **state)
+{
+    (void)state;
+    Opening now = { 0 };
+    Bench bench = open_slowly(&now);
     assert_int_equal(wr_field_width(wr_app_field(bench.app)), 48);
-    assert_true(now.before_its_end > 0);
+    assert_true(now.before_its_end > 0 && now.shown > 0);
+    draw_again(bench.app);
+    const int shown = now.shown;
+    draw_again(bench.app);
+    assert_int_equal(now.shown, shown); /* it is gone */
+    finish(&bench);
+}
+
+/* The start document stays, and the window lives on. */
+static void an_opening_at_the_start_is_given_up(void **state)
+{
+    (void)state;
+    Opening now = { .gives_up = true };
+    Bench bench = open_slowly(&now);
+    assert_true(now.shown > 0 && !bench.app->busy && !bench.app->quit && bench.app->file->unread);
+    assert_int_not_equal(wr_field_width(wr_app_field(bench.app)), 48);
+    assert_false(wr_app_unsaved(bench.app));
+    finish(&bench);
+}
+
+static void the_window_closes_during_an_opening(void **state)
+{
+    (void)state;
+    Opening now = { .closes = true };
+    Bench bench = open_slowly(&now);
+    const double end = wr_clock_seconds() + PATIENCE;
+    while (!bench.app->quit && wr_clock_seconds() < end) {
+        SDL_PushEvent(&(SDL_Event){ .type = bench.app->ready_event });
+        wr_app_step(bench.app);
+    }
+    assert_true(bench.app->quit && bench.app->dialog->now == WR_DIALOG_NONE);
     finish(&bench);
 }
 
@@ -369,6 +422,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_the_window_is_told_holds_at_once),
         cmocka_unit_test(the_first_frame_does_not_wait_for_the_document),
+        cmocka_unit_test(an_opening_at_the_start_is_given_up),
+        cmocka_unit_test(the_window_closes_during_an_opening),
         cmocka_unit_test(the_views_are_alive_meanwhile),
         cmocka_unit_test(what_changes_the_document_is_refused_meanwhile),
         cmocka_unit_test(a_dropped_file_opens_afterwards),

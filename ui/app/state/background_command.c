@@ -71,6 +71,7 @@ bool wr_busy_begin(WrApp *app, const WrBusy *like)
     wr_job_start(busy->job, busy);
     const double quiet = like->quiet > 0 ? like->quiet : QUIET_SECONDS;
     while (!is_done(busy) && wr_clock_seconds() - busy->since < quiet) SDL_Delay(1);
+    if (!busy->is_done) wr_app_redraw(app);
     return busy->is_done;
 }
 
@@ -296,7 +297,7 @@ bool wr_busy_view_event(WrApp *app, const SDL_Event *event)
     return false;
 }
 
-/* ---- progress of the background command in place of the status line ---- */
+/* ---- progress of the background command, in place of the status line or over the canvas ---- */
 
 /* Text, bar, remaining time, Cancel, and queued actions. */
 
@@ -374,18 +375,61 @@ static void bar(WrApp *app, bool refused, double now)
     if (waits) drop_button(app);
 }
 
+/* The middle of the canvas, for work that replaces the document; false: no room. */
+static bool canvas_place(const WrApp *app, SDL_Rect *place)
+{
+    const SDL_Rect *room = &app->layout->canvas;
+    const int wide = wr_gui_px(380), tall = wr_gui_px(148), most = room->w - wr_gui_px(24);
+    place->w = wide < most ? wide : most;
+    place->h = tall;
+    place->x = room->x + (room->w - place->w) / 2;
+    place->y = room->y + (room->h - tall) / 2;
+    return app->busy->kind == WR_BUSY_ANOTHER && place->w > wr_gui_px(200) && room->h > tall;
+}
+
+/* The file, how far it is, the time and Cancel, over the document that is still shown. */
+static void canvas_bar(WrApp *app, bool refused, double now)
+{
+    WrBusy *busy = app->busy;
+    char left[WR_TIME_LEFT], text[WR_TIME_LEFT + 40];
+    const char *path = app->file->opening ? app->file->opening : "", *slash = strrchr(path, '/');
+    const double took = now - busy->since;
+    say(app, refused, wr_gui_available());
+    wr_gui_as_it_is(true);
+    wr_gui_text_cut(WR_FONT_BOLD, WR_COLOUR_STRONG, slash ? slash + 1 : path, wr_gui_available());
+    wr_gui_as_it_is(false);
+    wr_gui_progress(wr_gui_available(), busy->furthest > 0.0 ? busy->furthest : -1.0);
+    if (wr_gui_chip(NULL, "Cancel")) busy_cancel(busy);
+    wr_gui_tip("Escape");
+    wr_gui_same_line(12);
+    wr_time_left_words(&busy->left, busy->furthest, took, left);
+    snprintf(text, sizeof text, "%.1f s  %s", took,
+             busy->cancelled ? wr_words("cancelling") : left);
+    wr_gui_as_it_is(true);
+    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, text);
+    wr_gui_as_it_is(false);
+}
+
 bool wr_busy_bar(WrApp *app)
 {
     WrBusy *busy = app->busy;
-    SDL_Rect room = app->layout->status;
+    SDL_Rect room = app->layout->status, place;
     const double now = wr_clock_seconds();
     const int tall = wr_gui_px(28);
     double fraction = 0.0;
-    if (!busy || wr_busy_is_young(app)) return false;
+    if (!busy) return false;
     wr_job_busy(busy->job, &fraction, NULL);
     if (fraction > busy->furthest) busy->furthest = fraction;
-    if (room.w <= 0) room = (SDL_Rect){ 0, app->height - tall, app->width, tall };
     const bool refused = now - busy->refused_at < REFUSED_SECONDS;
+    if (canvas_place(app, &place)) {
+        wr_gui_area_begin("##opening", WR_AREA_PANEL, place,
+                          refused ? WR_COLOUR_REFUSED : WR_COLOUR_PANEL);
+        canvas_bar(app, refused, now);
+        wr_gui_area_end();
+        return false;
+    }
+    if (wr_busy_is_young(app)) return false;
+    if (room.w <= 0) room = (SDL_Rect){ 0, app->height - tall, app->width, tall };
     wr_gui_area_begin("##busy", WR_AREA_BAR, room, refused ? WR_COLOUR_REFUSED : WR_COLOUR_BAR);
     bar(app, refused, now);
     wr_gui_area_end();

@@ -86,7 +86,7 @@ void wr_busy_update(WrApp *app);
 bool wr_busy_event(WrApp *app, const SDL_Event *event);
 /* Handle it after the widgets: true if the event only moved a component's view. */
 bool wr_busy_view_event(WrApp *app, const SDL_Event *event);
-/* Draw progress in place of the status line; false if there is none to show. */
+/* Draw progress: of an opening over the canvas, of other commands in place of the status line. True if the latter. */
 bool wr_busy_bar(WrApp *app);
 void wr_busy_stop(WrApp *app); /* the window closes: cancel the running command */
 void wr_busy_free(WrApp *app);

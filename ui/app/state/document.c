@@ -34,7 +34,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define START_SECONDS 0.25 /* shorter openings need no progress display at the start */
+#define START_SECONDS 0.05 /* shorter openings need no progress display at the start */
 
 /* Starters and cells are begun anew, not gone on with: their folder must not be offered for saving. */
 static bool is_shipped(const char *full)
@@ -165,7 +165,10 @@ static bool open_now(WrApp *app, const char *path)
     WrError err;
     Opened opened = { .path = path };
     wr_input_router_let_go(app);
-    if (!wr_busy_run(app, WR_BUSY_ANOTHER, "Opening", open_work, &opened, &err)) {
+    app->file->opening = path;
+    const bool good = wr_busy_run(app, WR_BUSY_ANOTHER, "Opening", open_work, &opened, &err);
+    app->file->opening = NULL;
+    if (!good) {
         wr_busy_fail(app, "opening", &err);
         return false;
     }
@@ -269,6 +272,7 @@ static void asked_is_open(WrApp *app, Asked *asked)
 
 static void asked_is_done(WrApp *app, void *ctx, bool ok, const WrError *err)
 {
+    app->file->opening = NULL;
     if (ok) {
         asked_is_open(app, ctx);
         return;
@@ -293,6 +297,7 @@ static bool start_asked(WrApp *app, WrError *err)
     if (!wr_busy_begin(app, &busy)) {
         app->busy->after = asked_is_done;
         app->busy->after_ctx = asked;
+        app->file->opening = app->options->file;
         return true;
     }
     const bool good = wr_busy_end(app, err);

@@ -44,8 +44,9 @@ typedef struct WrForms { /* values of open dialogs */
 /* Data of the window about the document, besides the session. */
 typedef struct WrDocumentState {
     WrAfter after;
-    char *after_path; /* owned */
-    char *picture;    /* picture whose heights were opened; owned, NULL: none */
+    char *after_path;    /* owned */
+    char *picture;       /* picture whose heights were opened; owned, NULL: none */
+    const char *opening; /* file being opened; borrowed, NULL: none */
     /* additional revision that counts as saved: a starter made by commands */
     uint64_t clean_revision;
     bool starter;          /* the document is the starter */
