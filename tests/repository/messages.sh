@@ -15,7 +15,11 @@ for name in errors texts; do
     sed -i 's/charset=CHARSET/charset=UTF-8/' "$folder/$name.pot"
     msgattrib --no-wrap --force-po "$folder/$name.pot" -o "$folder/$name.po"
 done
-for po in "$source"/ui/words/*.po; do msgattrib --no-wrap "$po" -o "$folder/$(basename "$po")"; done
+languages=()
+for po in "$source"/ui/words/*.po; do
+    languages+=("$(basename -s .po "$po")")
+    msgattrib --no-wrap "$po" -o "$folder/${languages[-1]}.po"
+done
 perl -e '
 use strict;
 my ($folder, $source, @languages) = @ARGV;
@@ -57,4 +61,4 @@ my @stale = grep { !$errors{$_} } @plains;
 die "the plain errors were not read\n" unless @plains > 10;
 print map { "no error of the source has the format \"$_\" of $source\n" } @stale;
 exit($wrong + @stale > 0);
-' "$folder" "$source/ui/app/state/plain_error.c" $(basename -s .po -a "$source"/ui/words/*.po)
+' "$folder" "$source/ui/app/state/plain_error.c" "${languages[@]}"

@@ -200,7 +200,7 @@ row() {
     key Return
     read -r _ _ _ _ left top width height < <(grep '^at rest .* row ' err | tail -n 1)
     [[ $(tail -n 1 err) == *row* ]] || { complain "no row is found by: $1"; return 1; }
-    row_x=$left row_end=$((left + width)) row_y=$((top + height / 2))
+    export row_x=$left row_end=$((left + width)) row_y=$((top + height / 2))
 }
 # The newest command that the journal holds, a stroke by its beginning, a generator layer by its line.
 newest() {

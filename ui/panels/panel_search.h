@@ -10,9 +10,9 @@ typedef struct WrFinder { /* the search */
     char text[600];
     /* a command was just chosen: the field contains its verb and needs the keyboard focus */
     bool fill;
-    bool line; /* the text is a command line, not a search */
+    bool line;        /* the text is a command line, not a search */
     int chosen, seen; /* row chosen, and that which was last scrolled to */
-    bool empty; /* Return in an empty field: restore the keyboard focus */
+    bool empty;       /* Return in an empty field: restore the keyboard focus */
     WrSearchIndex index;
     /* results for a text, and the state of the index then */
     WrSearchHit found[WR_SEARCH_SHOWN];

@@ -139,11 +139,10 @@ static void on_connect(int fd, int ready, void *data)
 
 static void make_pen(DeviceIntPtr device, const char *tool)
 {
-    static const char *const labels[AXES] = { AXIS_LABEL_PROP_ABS_X, AXIS_LABEL_PROP_ABS_Y,
-                                              AXIS_LABEL_PROP_ABS_PRESSURE,
-                                              AXIS_LABEL_PROP_ABS_TILT_X,
-                                              AXIS_LABEL_PROP_ABS_TILT_Y,
-                                              AXIS_LABEL_PROP_ABS_WHEEL };
+    static const char *const labels[AXES] = {
+        AXIS_LABEL_PROP_ABS_X,      AXIS_LABEL_PROP_ABS_Y,      AXIS_LABEL_PROP_ABS_PRESSURE,
+        AXIS_LABEL_PROP_ABS_TILT_X, AXIS_LABEL_PROP_ABS_TILT_Y, AXIS_LABEL_PROP_ABS_WHEEL
+    };
     static const int low[AXES] = { 0, 0, 0, -64, -64, -900 };
     static const int high[AXES] = { 65535, 65535, 65535, 63, 63, 899 };
     unsigned char map[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
