@@ -326,15 +326,40 @@ static bool rain_on_sheet(const Weather *w, double done, double share, const WrG
 
 /* ---- grids ---- */
 
+static int life_on_level(const WrRain *rain, int level)
+{
+    const int life = rain->life >> level;
+    return life < 1 ? 1 : life < RUN ? life : RUN;
+}
+
+/* Drops for each texel. */
+static double drops_on_level(const WrRain *rain, int level)
+{
+    double drops = rain->drops;
+    for (int k = 0; k < level; k++) drops *= k == 0 ? COARSE : 0.5;
+    return drops;
+}
+
+/* Share of all the work of the grids from `level` on: that of a grid is its texels' drops, each of which runs for its
+   life. Progress and the time left depend on it. */
+static double share_from(const WrRain *rain, int level, int levels)
+{
+    double all = 0.0, from = 0.0, texels = 1.0;
+    for (int k = 0; k < levels; k++, texels *= 0.25) {
+        const double work = texels * drops_on_level(rain, k) * life_on_level(rain, k);
+        all += work;
+        if (k >= level) from += work;
+    }
+    return all > 0.0 ? from / all : 0.0;
+}
+
 static void set_weather(Weather *w, WrSheet *sheet, const WrRain *rain, int level, double relief)
 {
-    int life = rain->life >> level;
     *w = (Weather){ .sheet = sheet, .rain = rain, .level = level };
-    w->life = life < 1 ? 1 : life < RUN ? life : RUN;
+    w->life = life_on_level(rain, level);
     w->scale = sheet->width / 256.0 / relief;
     w->capacity = rain->capacity / w->scale;
-    w->drops = rain->drops;
-    for (int k = 0; k < level; k++) w->drops *= k == 0 ? COARSE : 0.5;
+    w->drops = drops_on_level(rain, level);
     for (int k = 0; k < w->life; k++) {
         double t = (double)k / w->life;
         w->fade[k] = 1.0 - t * t * t;
@@ -368,8 +393,8 @@ typedef struct Rainfall {
 /* Rain falls on coarser grids first, then on this one. */
 static bool rain_on_level(WrSheet *sheet, const Rainfall *all, int level, WrError *err)
 {
-    double share = 0.75; /* of the work; each grid has a quarter of the finer one's */
-    for (int k = 0; k < level; k++) share *= 0.25;
+    const double done = share_from(all->rain, level + 1, all->levels);
+    const double share = share_from(all->rain, level, all->levels) - done;
     if (level + 1 < all->levels) {
         WrSheet small = { .z = NULL }, before = { .z = NULL };
         bool good = wr_sheet_copy(&small, sheet, err) &&
@@ -384,7 +409,7 @@ static bool rain_on_level(WrSheet *sheet, const Rainfall *all, int level, WrErro
     }
     Weather *w = wr_alloc(1, sizeof *w);
     set_weather(w, sheet, all->rain, level, all->relief);
-    bool good = rain_on_sheet(w, share / 3.0, share, all->job);
+    bool good = rain_on_sheet(w, done, share, all->job);
     wr_free(w);
     return good || wr_fail(err, "cancelled");
 }
