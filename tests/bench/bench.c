@@ -10,15 +10,15 @@
 #include <string.h>
 
 typedef struct Options {
-    bool lines, exact, quick, made, brushes, edits, window;
+    bool lines, exact, quick, made, brushes, edits, promises, window;
     uint64_t sections; /* bit i: wr_bench_section_table[i] */
 } Options;
 
 /* Section names, then the other words that `bench` accepts. */
 static const char *word_at(const void *ctx, int i)
 {
-    static const char *const others[] = { "generate", "brushes", "edits",   "window", "all",
-                                          "--lines",  "--exact", "--quick", NULL };
+    static const char *const others[] = { "generate", "brushes", "edits",   "promises", "window",
+                                          "all",      "--lines", "--exact", "--quick",  NULL };
     (void)ctx;
     int parts = 0;
     while (wr_bench_section_table[parts].name) parts++;
@@ -50,6 +50,7 @@ static bool read_word(const char *word, Options *options, WrError *err)
     else if (strcmp(word, "generate") == 0) options->made = true;
     else if (strcmp(word, "brushes") == 0) options->brushes = true;
     else if (strcmp(word, "edits") == 0) options->edits = true;
+    else if (strcmp(word, "promises") == 0) options->promises = true;
     else if (strcmp(word, "window") == 0) options->window = true;
     else return unknown_word(word, err);
     return true;
@@ -60,20 +61,24 @@ static bool read_options(const WrCli *cli, Options *options, WrError *err)
     *options = (Options){ .sections = 0 };
     for (int i = 0; i < cli->word_count; i++)
         if (!read_word(cli->words[i], options, err)) return false;
-    const int alone = options->made + options->brushes + options->edits + options->window;
+    const int alone =
+        options->made + options->brushes + options->edits + options->promises + options->window;
     if (cli->json && !options->sections && !alone)
         options->sections = ~(uint64_t)0, options->lines = true;
     if (alone + (options->sections != 0) > 1)
         return wr_fail(err, "bench: %s stands alone, without other parts",
-                       options->made      ? "generate"
-                       : options->brushes ? "brushes"
-                       : options->edits   ? "edits"
-                                          : "window");
+                       options->made       ? "generate"
+                       : options->brushes  ? "brushes"
+                       : options->edits    ? "edits"
+                       : options->promises ? "promises"
+                                           : "window");
     if (cli->json && options->brushes)
         return wr_fail(err, "bench: brushes has no --json; --lines is for programs");
-    if ((options->window || options->edits) && (cli->json || options->lines))
+    if ((options->window || options->edits || options->promises) && (cli->json || options->lines))
         return wr_fail(err, "bench: %s has neither --json nor --lines",
-                       options->window ? "window" : "edits");
+                       options->window  ? "window"
+                       : options->edits ? "edits"
+                                        : "promises");
     if ((cli->sized && !options->sections) || (options->sections && options->lines && !cli->json))
         return wr_fail(err, cli->sized ? "bench: --size is of the parts: name one, or all"
                                        : "bench: --lines beside parts needs --json");
@@ -142,11 +147,12 @@ int wr_cli_bench(const WrCli *cli)
     bool good = cli->json          ? bench_json(cli, &options, &text, &err)
                 : options.sections ? bench_sections(cli, &options, &text, &err)
                 : options.made ? wr_bench_generate(cli, options.quick, options.lines, &text, &err)
-                : options.brushes ? bench_brushes(cli, &options, &text, &err)
-                : options.edits   ? bench_edits(cli, options.quick, &text, &err)
-                : options.window  ? wr_bench_window(cli, options.quick, &text, &err)
-                : options.lines   ? bench_lines(cli, &options, &text, &err)
-                                  : bench_table(cli, &options, &text, &err);
+                : options.brushes  ? bench_brushes(cli, &options, &text, &err)
+                : options.edits    ? bench_edits(cli, options.quick, &text, &err)
+                : options.promises ? wr_bench_promises(cli, options.quick, &text, &err)
+                : options.window   ? wr_bench_window(cli, options.quick, &text, &err)
+                : options.lines    ? bench_lines(cli, &options, &text, &err)
+                                   : bench_table(cli, &options, &text, &err);
     int status = good ? wr_cli_print(cli, &text) : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
     wr_text_fini(&text);
     return status;

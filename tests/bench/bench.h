@@ -52,6 +52,8 @@ bool wr_bench_edits(const WrCli *cli, bool quick, WrText *text, WrError *err);
 /* 40 live layers of 2048 x 2048: drags of one value, until the table and the patch have their first form, and until the exact
  * composite is made. */
 bool wr_bench_live_layers(const WrCli *cli, bool quick, WrText *text, WrError *err);
+/* Long commands: time promised while they run, as a ratio of the time needed. */
+bool wr_bench_promises(const WrCli *cli, bool quick, WrText *text, WrError *err);
 bool wr_bench_files(bool quick, WrText *text, WrError *err);
 /* Latency from a pen motion to its display in the window; empty in a build without a window. */
 bool wr_bench_window(const WrCli *cli, bool quick, WrText *text, WrError *err);
