@@ -1,5 +1,5 @@
-/* Benchmark of time promises: what the window and the terminal say is left of a long command (wr_time_left), beside what was
- * left. Ratios, so that they do not depend on the machine's speed. */
+/* Benchmark of time promises: the time left of a long command by wr_time_left, as the window and the terminal show it, beside the
+ * time that the rest needed. Ratios, so that they do not depend on the machine's speed. */
 #include "base/array.h"
 #include "base/error.h"
 #include "base/enum_rows.h"
