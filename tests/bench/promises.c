@@ -14,24 +14,22 @@
 
 #define POLL_SECONDS 0.1 /* interval at which the window reads the progress */
 
-/* prepare: a line before it; NULL: the table of noise is enough. */
 static const struct {
-    const char *label, *line, *prepare;
-} rows[] = { { "rain", "terrain hydraulic", NULL },
-             { "rain, long lived", "terrain hydraulic rain=0.5 life=1024 radius=5", NULL },
-             { "landslides", "terrain thermal rounds=400", NULL },
-             { "fractal terrain", "terrain fractal octaves=14", NULL },
-             { "seamless, patches", "adjust seamless how=patches", NULL },
-             { "even light", "adjust even-light sigma=60", NULL },
-             { "median", "adjust median radius=14", NULL },
-             { "slope limit", "adjust slope-limit limit=0.001", NULL },
-             { "dilate", "adjust dilate radius=60", NULL },
-             { "warp", "adjust warp octaves=8", NULL },
-             { "noise", "noise simplex octaves=16", NULL },
-             { "cracks", "pattern cracks across=40 rows=40 jagged=1", NULL },
-             { "scratches", "pattern scratches count=2000", NULL },
-             { "rivets", "solid sphere radius=9 across=100 rows=100", NULL },
-             { "blur below a filter", "filter blur sigma=40", "filter median radius=8" } };
+    const char *label, *line;
+} rows[] = { { "rain", "terrain hydraulic" },
+             { "rain, long lived", "terrain hydraulic rain=0.5 life=1024 radius=5" },
+             { "landslides", "terrain thermal rounds=400" },
+             { "fractal terrain", "terrain fractal octaves=14" },
+             { "seamless, patches", "adjust seamless how=patches" },
+             { "even light", "adjust even-light sigma=60" },
+             { "median", "adjust median radius=14" },
+             { "slope limit", "adjust slope-limit limit=0.001" },
+             { "dilate", "adjust dilate radius=60" },
+             { "warp", "adjust warp octaves=8" },
+             { "noise", "noise simplex octaves=16" },
+             { "cracks", "pattern cracks across=40 rows=40 jagged=1" },
+             { "scratches", "pattern scratches count=2000" },
+             { "rivets", "solid sphere radius=9 across=100 rows=100" } };
 
 /* The progress of one command as the window sees it. */
 typedef struct Watch {
@@ -86,8 +84,7 @@ static bool run_row(const WrCli *cli, int row, int size, WrText *text, WrError *
     char table[64];
     snprintf(table, sizeof table, "table %dx%d", size, size);
     bool good = wr_session_run(session, table, err) &&
-                wr_session_run(session, "noise perlin cells=6 octaves=5", err) &&
-                (!rows[row].prepare || wr_session_run(session, rows[row].prepare, err));
+                wr_session_run(session, "noise perlin cells=6 octaves=5", err);
     const WrProgress progress = { .cancel = &watch.stop, .report = note, .ctx = &watch };
     const WrProgress *before = wr_progress_set(&progress);
     watch.began = watch.polled = wr_clock_seconds();

@@ -210,12 +210,14 @@ static void type_number(Walk *walk, const char *text)
 
 static WrKeyStop places[MAX_ROWS];
 static int place_count, places_compared;
+static const char *places_language; /* another language has other lengths of words */
 
 static void note_places(Walk *walk)
 {
     const WrKeyStop *stops = wr_gui_stops(walk->app->gui, &place_count);
     if (place_count > MAX_ROWS) fail_msg("%s: too many rows", walk->where);
     memcpy(places, stops, (size_t)place_count * sizeof *places);
+    places_language = wr_words_language();
 }
 
 /* Where the rows are still the same ones, only values and notes have changed: no row may have moved. */
@@ -223,7 +225,7 @@ static void see_places(Walk *walk, const WrKeyStop *stop, const char *act)
 {
     int count;
     const WrKeyStop *now = wr_gui_stops(walk->app->gui, &count);
-    bool same = count == place_count;
+    bool same = count == place_count && places_language == wr_words_language();
     for (int i = 0; i < count && same; i++) same = now[i].id == places[i].id;
     for (int i = 0; i < count && same; i++) {
         if (fabs((double)(now[i].y0 - places[i].y0)) < 0.5) continue;

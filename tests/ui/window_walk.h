@@ -23,6 +23,7 @@
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/dialog.h"
 #include "ui/app/state/document.h"
+#include "ui/app/state/dropped_files.h"
 #include "ui/app/state/pointer_state.h"
 #include "ui/app/state/layout.h"
 #include "ui/app/state/overwrite_question.h"
@@ -350,6 +351,13 @@ static inline bool walk_open_bake(Walk *walk, int which)
     return walk_name(walk, "dialog of %s", "bake");
 }
 
+static inline bool walk_open_drop(Walk *walk, int which)
+{
+    if (which > 0) return false;
+    wr_app_drop(walk->app, WR_SOURCE_DIR "/samples/screenshot.png");
+    return walk_name(walk, "dialog of %s", "a dropped picture");
+}
+
 static inline void walk_dialogs(Walk *walk)
 {
     WrApp *app = walk->app;
@@ -369,6 +377,7 @@ static inline void walk_dialogs(Walk *walk)
     walk_each(walk, walk_open_replace, walk_close_dialog);
     walk_each(walk, walk_open_rasterize, walk_close_dialog);
     walk_each(walk, walk_open_recover, walk_close_dialog);
+    walk_each(walk, walk_open_drop, walk_close_dialog);
     walk_each(walk, walk_open_bake, walk_close_dialog);
     walk_run(walk, "undo");
     walk_each(walk, walk_open_link, walk_close_dialog);

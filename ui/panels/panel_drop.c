@@ -124,7 +124,7 @@ void wr_dialog_drop(WrApp *app)
         wr_dialog_close(app);
         return;
     }
-    if (!wr_gui_dialog_begin("Use the picture as", 420)) return;
+    if (!wr_gui_dialog_begin("Use the picture as", 480)) return;
     picture(app);
     describe(d);
     wr_gui_space(6);
