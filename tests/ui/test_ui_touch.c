@@ -186,5 +186,5 @@ int main(void)
         cmocka_unit_test(two_fingers_move_the_canvas_and_paint_nothing),
         cmocka_unit_test(two_fingers_move_the_camera),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, enter_window, remove_folder);
 }

@@ -328,7 +328,7 @@ done_with
 task 'the accuracy page'
 search 'Accuracy'
 done_with
-search 'Accuracy'
+search 'Brushes' # measurements end with their tab
 
 task 'the guide'
 search 'Guide'
@@ -438,19 +438,37 @@ shot painting
 [[ $(differs generating painting "$(place_x 200)x$(place_y 600)+$(place_x 790)+$(place_y 150)") != 0 ]] || complain "$name: the panel is the same"
 done_with
 
+# run_line LINE: a command typed into the search.
+run_line() {
+    key ctrl+Return
+    xdotool type --delay 15 "$1"
+    rest
+    key Return
+    settle
+}
 task 'an earlier step switched off, and on'
-search 'History'
-save stepped
-"$program" run history.wrinkle >/dev/null 2>&1
+save with-step
+run_line 'step off 2'
+save without-step
+[[ $(hash_of without-step.exr) != "$(hash_of with-step.exr)" ]] || complain "$name: the second step has no effect"
+run_line 'step on 2'
+save with-step-again
+[[ $(hash_of with-step-again.exr) == "$(hash_of with-step.exr)" ]] || complain "$name: switched on again it is another document"
+done_with
+
+task 'a view kept'
+search 'Keep this view'
+became 'camera save *'
 done_with
 
 task 'the cost of accuracy'
-search 'Tour: cost of accuracy'
+key ctrl+Return
+xdotool type --delay 30 'Tour: cost of accuracy'
+rest
+xdotool key Return
 sleep 2 # it measures, and so never rests
-shot study
-key alt+5
+xdotool key F5
 done_with
-search 'Brushes'
 
 task 'history as a script'
 search 'Save history as script...'

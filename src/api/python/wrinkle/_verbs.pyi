@@ -290,7 +290,7 @@ class Verbs:
         self, *, move: Sequence[float] | None = ..., turn: float | None = ..., scale: Sequence[float] | None = ...,
         about: Sequence[float] | None = ..., blend: Literal['replace', 'add', 'subtract', 'max', 'min', 'multiply'] |
         None = ..., leave: bool | str | None = ..., filter: Literal['nearest', 'linear', 'catmull'] | None = ...,
-        layers: Literal['active', 'all'] | None = ...
+        layers: Literal['active', 'all'] | None = ..., of: int | str | None = ...
     ) -> None:
         """Move, turn, scale and mirror the selection, or a whole layer."""
 
