@@ -438,22 +438,13 @@ shot painting
 [[ $(differs generating painting "$(place_x 200)x$(place_y 600)+$(place_x 790)+$(place_y 150)") != 0 ]] || complain "$name: the panel is the same"
 done_with
 
-# run_line LINE: a command typed into the search.
-run_line() {
-    key ctrl+Return
-    xdotool type --delay 15 "$1"
-    rest
-    key Return
-    settle
-}
-task 'an earlier step switched off, and on'
-save with-step
-run_line 'step off 2'
-save without-step
-[[ $(hash_of without-step.exr) != "$(hash_of with-step.exr)" ]] || complain "$name: the second step has no effect"
-run_line 'step on 2'
-save with-step-again
-[[ $(hash_of with-step-again.exr) == "$(hash_of with-step.exr)" ]] || complain "$name: switched on again it is another document"
+task 'a macro with its values'
+printf 'noise perlin cells=5 amplitude=0.3\n' >macro.wrinkle
+search 'Run a macro...'
+type_path macro.wrinkle
+settle
+key Return
+became 'macro *macro.wrinkle*'
 done_with
 
 task 'a view kept'
