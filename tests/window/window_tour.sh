@@ -409,6 +409,7 @@ task 'a mug'
 search 'Mug'
 became 'model mug*'
 done_with
+key ctrl+z # pictures of a mesh close at hand are slow
 
 task 'a row by the search, a number typed'
 row 'bump height'
