@@ -309,7 +309,7 @@ static void canvas_chip(WrApp *app)
     if (beside > wr_gui_px(190)) relief_switch(app);
     if (ranged && beside > wr_gui_px(270)) {
         wr_gui_same_line(6);
-        ramp(app, "narrow", wr_gui_px(64), wr_gui_line_height(WR_FONT_TEXT));
+        ramp(app, "narrow", wr_gui_px(64), wr_gui_px(22));
         ramp_tip(app);
     }
     range_popup(app);
