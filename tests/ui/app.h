@@ -31,6 +31,7 @@ typedef struct Bench {
 static inline void begin(Bench *bench)
 {
     WrError err = { "" };
+    if (!getenv("XDG_STATE_HOME")) fail_msg("the group has no folder of its own: enter_window");
     SDL_SetHint(SDL_HINT_VIDEODRIVER, "dummy");
     bench->pool = wr_pool_new(1);
     bench->session = wr_session_new(&(WrSessionOptions){ .pool = bench->pool, .outputs = true });

@@ -186,5 +186,5 @@ int main(void)
         cmocka_unit_test(keys_reach_and_run_a_command),
         cmocka_unit_test(what_a_command_would_change_is_said_of_each_class),
     };
-    return cmocka_run_group_tests(tests, enter_folder, remove_folder);
+    return cmocka_run_group_tests(tests, enter_window, remove_folder);
 }

@@ -187,5 +187,5 @@ int main(void)
         cmocka_unit_test(eyes_and_drags),
         cmocka_unit_test(a_macro_runs_with_the_values_of_its_dialog),
     };
-    return cmocka_run_group_tests(tests, enter_state_folder, remove_folder);
+    return cmocka_run_group_tests(tests, enter_window, remove_folder);
 }
