@@ -222,7 +222,7 @@ key space # nothing is open any more: the table can be worked on
 key ctrl+e
 home
 shot dialog
-xdotool mousemove $((X + 650)) $((Y + 305))
+xdotool mousemove $((X + 650)) $((Y + 294))
 settle
 xdotool click 1
 settle

@@ -63,12 +63,16 @@ static void sort(const WrApp *app, const WrPreviewPicture *picture)
     for (int i = 0; i < state->ordered; i++) listed[state->order[i]] = true;
     for (int row = 0; row < WR_PLAN_ROWS; row++)
         same = same && listed[row] == belongs(app, plan, row);
-    if (same && (picture->level != WR_PREVIEW_FINAL || app->patch->look.force)) return;
-    state->ordered = 0;
+    const bool forced = app->patch->look.force != WR_FORCE_NONE;
+    if (same && (picture->level != WR_PREVIEW_FINAL || forced)) return;
+    int kept = 0; /* while an effect is toggled its row stays under the pointer */
+    for (int i = 0; forced && i < state->ordered; i++)
+        if (belongs(app, plan, state->order[i])) state->order[kept++] = state->order[i];
+    state->ordered = kept;
     for (int row = 0; row < WR_PLAN_ROWS; row++) {
-        if (!belongs(app, plan, row)) continue;
+        if (!belongs(app, plan, row) || (forced && listed[row])) continue;
         int at = state->ordered++;
-        for (; at > 0 && seconds_of(plan, state->order[at - 1]) < seconds_of(plan, row); at--)
+        for (; at > kept && seconds_of(plan, state->order[at - 1]) < seconds_of(plan, row); at--)
             state->order[at] = state->order[at - 1];
         state->order[at] = row;
     }
