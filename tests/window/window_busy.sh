@@ -19,7 +19,8 @@ printf 'table 128x128\nbump height=1\ngrid cells=4x4 width=6\nsave small.exr\n' 
 was=$(hash_of small.exr)
 
 bar=1200x28+0+772
-canvas=380x500+60+120
+box=360x120+100+360 # of an opening, in the middle of the canvas
+canvas=380x200+60+120
 # The bar has a button where the status line of this document has nothing.
 shows_bar() {
     shot now
@@ -27,6 +28,7 @@ shows_bar() {
     changed=$(differs calm now 60x24+735+774)
     [[ ${changed%.*} -gt 200 ]]
 }
+shows_box() { alters calm "$box"; }
 alters() {
     shot now
     local changed
@@ -53,7 +55,7 @@ begin() {
     xdotool type --delay 20 "$folder/long.wrinkle"
     rest
     xdotool key Return # no rest comes of this
-    until_true 120 "the bar of what takes long" shows_bar
+    until_true 120 "the progress of the opening" shows_box
 }
 
 # ---- the view can be moved meanwhile, the rest is refused, Escape gives it up ----
@@ -61,11 +63,11 @@ export PATH=$folder/bin:$PATH
 start small.exr
 begin
 shot working
-xdotool mousemove $((X + 330)) $((Y + 400)) click 4 click 4 click 4
+xdotool mousemove $((X + 330)) $((Y + 250)) click 4 click 4 click 4
 until_true 120 "a closer view meanwhile" alters working "$canvas"
 shot closer
 xdotool key ctrl+shift+n
-refused() { alters closer "$bar"; }
+refused() { alters closer "$box"; }
 until_true 120 "that another command is refused" refused
 shot refused
 xdotool key Escape
@@ -213,7 +215,7 @@ title_is after.exr || complain "what waited for what was given up is done: $(new
 begin
 shot working
 xdotool key ctrl+q
-promised() { changes working 320x28+0+772; }
+promised() { changes working 320x26+90+358; } # the first line; the time is below
 until_true 120 "that it will close" promised
 is_gone && complain "quitting did not wait"
 xdotool key Escape
