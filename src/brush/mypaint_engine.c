@@ -101,12 +101,6 @@ static void add_knot(WrEngine *engine, WrEnginePoint point, bool jump)
     wr_array_push(&engine->knots, ((WrKnot){ point, jump }));
 }
 
-/* -180..180 */
-static double short_way(double degrees)
-{
-    return degrees - 360.0 * rint(degrees / 360.0);
-}
-
 /* Interpolates the pen between two points. */
 static WrEnginePoint between(const WrEnginePoint *a, const WrEnginePoint *b, double seconds)
 {
@@ -117,7 +111,8 @@ static WrEnginePoint between(const WrEnginePoint *a, const WrEnginePoint *b, dou
                             .pressure = a->pressure + t * (b->pressure - a->pressure),
                             .tilt_x = a->tilt_x + t * (b->tilt_x - a->tilt_x),
                             .tilt_y = a->tilt_y + t * (b->tilt_y - a->tilt_y),
-                            .turn_deg = a->turn_deg + t * short_way(b->turn_deg - a->turn_deg),
+                            .turn_deg =
+                                a->turn_deg + t * wr_signed_degrees(b->turn_deg - a->turn_deg),
                             .seconds = seconds };
 }
 
@@ -147,7 +142,7 @@ void wr_engine_push(WrEngine *engine, const WrEnginePoint *point)
     next.pressure = clamp(next.pressure, 0.0, 1.0);
     next.tilt_x = isnan(next.tilt_x) ? 0.0 : clamp(next.tilt_x, -1.0, 1.0);
     next.tilt_y = isnan(next.tilt_y) ? 0.0 : clamp(next.tilt_y, -1.0, 1.0);
-    next.turn_deg = isfinite(next.turn_deg) ? short_way(next.turn_deg) : 0.0;
+    next.turn_deg = isfinite(next.turn_deg) ? wr_signed_degrees(next.turn_deg) : 0.0;
     next.seconds = 0.0;
     double given = isfinite(point->seconds) ? point->seconds : engine->given, length = 0.0;
     if (engine->knots.count > 0) {

@@ -13,9 +13,9 @@
    the library's state SMUDGE_RA is the dragged height, unbounded.
 
    Tilt is MyPaint's: x to the right, y towards the user, 1 is 60 degrees; ascension is the direction of
-   the pen's tilt, in degrees, 0 towards the user, 90 to the left. The pen's turn is interpolated the short way. Angles of dabs, clockwise in the
-   library, are converted to anticlockwise. The alpha of an eraser's dabs is the erased fraction; for
-   other presets the fraction not erased.
+   the pen's tilt, in degrees, 0 towards the user, 90 to the left. The pen's turn is interpolated the
+   short way. Angles of dabs, clockwise in the library, are converted to anticlockwise. The alpha of an
+   eraser's dabs is the erased fraction; for other presets the fraction not erased.
 
    Randomness: the library's random numbers always start equally; the seed selects one of 16384 start
    positions in their sequence. At most about 65536 dabs are made per step. */

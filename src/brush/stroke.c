@@ -414,8 +414,7 @@ static void push_on_mesh(WrStroke *stroke, Spot spot, WrVec3 p)
             next.pressure = between(from.pressure, spot.pressure, t);
             next.tilt_x = between(from.tilt_x, spot.tilt_x, t);
             next.tilt_y = between(from.tilt_y, spot.tilt_y, t);
-            const double turn = spot.turn_deg - from.turn_deg;
-            next.turn_deg = from.turn_deg + t * (turn - 360.0 * rint(turn / 360.0));
+            next.turn_deg = from.turn_deg + t * wr_signed_degrees(spot.turn_deg - from.turn_deg);
             next.seconds = between(from.seconds, spot.seconds, t);
         }
         next.x = next.step.x, next.y = next.step.y;

@@ -52,7 +52,7 @@ static void add_line(WrText *text, int number, const WrRecoverable *r)
                  r->commands, r->unfinished ? ", one that did not end" : "");
     if (r->damaged)
         wr_text_addf(text, ", damaged: %d lines lost, %d commands behind it", r->lost, r->beyond);
-    if (r->headless) wr_text_add(text, ", what it began with is not known");
+    if (r->headless) wr_text_add(text, ", its start is unknown");
     wr_text_add(text, ", last change ");
     add_time(text, r->written);
     wr_text_addf(text, "\n   %s\n", r->journal);

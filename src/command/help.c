@@ -359,7 +359,7 @@ bool wr_help_command(const char *name, WrText *text, WrError *err)
     if (!command && add_argument_of_commands(text, name)) return true;
     if (!command) {
         wr_fail_verb(name, err);
-        wr_error_prefix(err, "%s: ", "help");
+        wr_error_prefix(err, "%s: ", "help"); /* the command's name is not translated */
         return false;
     }
     wr_text_addf(text, "%s - %s (%s)\n\n", command->name, command->help,

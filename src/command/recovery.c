@@ -123,7 +123,7 @@ static bool update_start(Replay *r, WrError *err)
 {
     static const WrHash none;
     const WrJournalStart *start = &r->read->start;
-    const char *what = start->path ? start->path : "the snapshot";
+    const char *name = start->path ? start->path : "the snapshot";
     if (start->kind == WR_JOURNAL_SNAPSHOT) {
         if (!wr_session_load(r->session, start->snapshot, err)) return false;
     } else if (start->kind == WR_JOURNAL_DOCUMENT) {
@@ -135,18 +135,19 @@ static bool update_start(Replay *r, WrError *err)
         if (!good) return false;
     }
     bool hashed = !wr_hash_equal(start->hash, none);
-    bool fits = hashed && check_hash(r->session, &start->hash, what, err);
+    bool fits = hashed && check_hash(r->session, &start->hash, name, err);
     /* The hash of an empty document may differ between program versions. */
     r->known = fits || !r->read->headless;
     if (!r->read->headless) return fits || !hashed || start->kind == WR_JOURNAL_EMPTY;
     if (fits) return true;
     if (!r->beyond)
-        return wr_fail(err, "%s: its first line is damaged: what it began with is not known",
+        return wr_fail(err,
+                       "%s: its first line is damaged, so the start of the document is unknown",
                        r->journal);
     wr_message_addf(
         command_sentence(r),
-        "the journal's first line is damaged: it may have begun with something else than %s",
-        start->kind == WR_JOURNAL_EMPTY ? "an empty table" : what);
+        "the journal's first line is damaged: the document may not have started from %s",
+        start->kind == WR_JOURNAL_EMPTY ? "an empty table" : name);
     note_missing(r);
     return true;
 }
@@ -291,7 +292,7 @@ static bool replay_line(Replay *r, int index)
     if (stop || wr_progress_stopped()) return false; /* its result may be half done */
     if (!good) {
         wr_message_addf(command_sentence(r), "command %d failed%s: %s", index + 1,
-                        r->beyond ? "" : ", and what came after it was left out",
+                        r->beyond ? "" : ", and the later commands were left out",
                         wr_error_message(&why));
         note_missing(r);
         return r->beyond;
@@ -299,8 +300,8 @@ static bool replay_line(Replay *r, int index)
     r->done++;
     if (line->hashed && !r->differs && !wr_hash_equal(line->hash, wr_session_hash(r->session))) {
         r->differs = true;
-        wr_message_addf(command_sentence(r), "from command %d on the document is not what it was",
-                        index + 1);
+        wr_message_addf(command_sentence(r),
+                        "from command %d on the document differs from the recorded one", index + 1);
     }
     return true;
 }
@@ -358,7 +359,7 @@ static void sum_up(Replay *r, WrRecovered *out)
                         "%d lines of the journal are damaged or missing (the first: %s)",
                         read->lost, read->damage);
     if (read->gap[0])
-        wr_message_addf(sentence(r->messages), "what came after is not in the journal: %s",
+        wr_message_addf(sentence(r->messages), "the journal lacks the later commands: %s",
                         read->gap);
 }
 
@@ -555,7 +556,7 @@ bool wr_recovery_script(const char *journal, WrText *text, WrError *err)
     }
     if (read.lost_at_end)
         wr_text_addf(text, "# %d lines at the journal's end are lost\n", read.lost_at_end);
-    if (*read.gap) wr_text_addf(text, "# what came after is not in the journal: %s\n", read.gap);
+    if (*read.gap) wr_text_addf(text, "# the journal lacks the later commands: %s\n", read.gap);
     wr_journal_read_fini(&read);
     return true;
 }

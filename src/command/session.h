@@ -114,8 +114,8 @@ bool wr_session_prepare_mesh(WrSession *session, WrError *err);
 const WrRayTree *wr_session_mesh_tree(const WrSession *session, const WrTriangles *mesh);
 
 /* A stroke in progress is an open command: `head` is a stroke command without points, such as "stroke radius=20
-   strength=0.1". Each sample is rounded to its printed text (u, v to 1e-7, pressure, tilt and seconds to 1e-4, turn to 0.01 degrees) and
-   then applied at once; replaying the finished line is bit-identical. While a stroke is open, run, open and go fail.
+   strength=0.1". Each sample is rounded to its printed text (u, v to 1e-7, pressure, tilt and seconds to 1e-4, turn
+   to 0.01 degrees) and then applied at once; replaying the finished line is bit-identical. While a stroke is open, run, open and go fail.
    The active layer must be visible and unlocked; the stroke is limited to the selection. A sample with a u or v that
    is not finite or beyond 1e9 is refused. */
 bool wr_session_stroke_begin(WrSession *session, const char *head, WrError *err);

@@ -203,7 +203,7 @@ const char *const wr_action_helps[] = {
     ROW(ants, "The dashes round a selection walk, so that it is seen on any ground"),
     ROW(accuracy, "The tab of accuracy: error and time of the picture, its dials"),
     ROW(accuracy_measure, "Measure the time and the error of each dial"),
-    ROW(study, "Five minutes on this document: what each approximation costs, measured"),
+    ROW(study, "Five minutes on this document: the measured cost of each approximation"),
     ROW(inspector, "Every quantity behind the point under the pointer"),
     ROW(inspector_pin, "The inspector stays at the point where it is"),
     ROW(inspector_copy, "Put the inspector's numbers on the clipboard"),

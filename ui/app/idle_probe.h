@@ -1,7 +1,7 @@
 /* idle_probe.h - idle notifications for tests, so that these need not wait for fixed times. WRINKLE_REST names a
    FIFO; each byte in it is a request. The answer is a line "at rest N" on standard error, N counting from 1, when
-   every event that the X server had at the request is handled and no computation or drawing is left. " row X Y WIDTH HEIGHT"
-   (pixels) follows while the row that the search led to is framed. */
+   every event that the X server had at the request is handled and no computation or drawing is left. While a row that
+   the search has found is framed, " row X Y WIDTH HEIGHT" follows, in pixels. */
 #pragma once
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/registry.h"

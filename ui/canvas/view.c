@@ -190,7 +190,7 @@ void wr_view_turn_at(WrCanvasView *view, double px, double py, double degrees)
 {
     double x, y;
     from_pixel(view, px, py, &x, &y);
-    view->turn = degrees - 360.0 * rint(degrees / 360.0);
+    view->turn = wr_signed_degrees(degrees);
     put_under(view, px, py, x, y);
 }
 

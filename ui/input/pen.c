@@ -6,6 +6,7 @@
 #include "ui/input/pen_internal.h"
 #include "ui/input/pen_wayland.h"
 
+#include "base/exactmath.h"
 #include "base/array.h"
 #include "base/memory.h"
 #include "base/text.h"
@@ -243,9 +244,7 @@ void wr_pen_feed(WrPen *pen, int index, const WrPenReading *r)
     }
     unit->tilt_x = d->has_tilt ? taken(unit, r->tilt_x, -1.0, 1.0, unit->tilt_x) : 0.0;
     unit->tilt_y = d->has_tilt ? taken(unit, r->tilt_y, -1.0, 1.0, unit->tilt_y) : 0.0;
-    unit->turn_deg = d->has_turn && isfinite(r->turn_deg)
-                         ? r->turn_deg - 360.0 * rint(r->turn_deg / 360.0)
-                         : 0.0;
+    unit->turn_deg = d->has_turn && isfinite(r->turn_deg) ? wr_signed_degrees(r->turn_deg) : 0.0;
     if (isfinite(r->seconds) && r->seconds > unit->seconds) unit->seconds = r->seconds;
     unit->held = held;
     d->events++;

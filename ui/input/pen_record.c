@@ -145,22 +145,22 @@ static int word_of(const Field *f, const char *const *words, int count)
     return -1;
 }
 
-static bool number_of(const Field *f, const char *what, double low, double high, double *value,
+static bool number_of(const Field *f, const char *name, double low, double high, double *value,
                       WrError *err)
 {
     double v;
     if (!wr_number_parse(f->text, f->length, &v) || !(v >= low && v <= high))
-        return wr_fail(err, "%s '%.*s': a number %g..%g", what,
+        return wr_fail(err, "%s '%.*s': a number %g..%g", name,
                        f->length < 40 ? (int)f->length : 40, f->text, low, high);
     *value = v;
     return true;
 }
 
-static bool whole_of(const Field *f, const char *what, int high, int *value, WrError *err)
+static bool whole_of(const Field *f, const char *name, int high, int *value, WrError *err)
 {
     double v;
-    if (!number_of(f, what, 0.0, high, &v, err)) return false;
-    if (v != floor(v)) return wr_fail(err, "%s %g: a whole number 0..%d", what, v, high);
+    if (!number_of(f, name, 0.0, high, &v, err)) return false;
+    if (v != floor(v)) return wr_fail(err, "%s %g: a whole number 0..%d", name, v, high);
     *value = (int)v;
     return true;
 }

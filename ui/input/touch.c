@@ -89,8 +89,7 @@ static int grip(WrTouch *t, const WrFinger *f, WrTouchOut *out)
         if (!t->moved) return 0;
     }
     const bool apart = t->length >= SHORTEST && before.length >= SHORTEST;
-    double turn = apart ? t->angle - before.angle : 0.0;
-    turn -= 360.0 * rint(turn / 360.0);
+    const double turn = apart ? wr_signed_degrees(t->angle - before.angle) : 0.0;
     out->x = t->x;
     out->y = t->y;
     out->grip = (WrGrip){ .dx = t->x - before.x,

@@ -8,8 +8,8 @@
 
 #include <stdint.h>
 
-#define WR_PLAN_ROWS                                                                               \
-    (WR_EFFECT_COUNT + WR_COST_COUNT) /* a row's index: its effect, or WR_EFFECT_COUNT + its cost */
+/* Number of rows; a row's index is its WrEffect, or WR_EFFECT_COUNT + its WrCost. */
+#define WR_PLAN_ROWS (WR_EFFECT_COUNT + WR_COST_COUNT)
 
 typedef struct WrLayerPlanState {
     uint64_t revision; /* of the document that `plan` belongs to; 0: none */

@@ -59,15 +59,15 @@ static void post_button(InputInfoPtr info, int button, int down, const double v[
     valuator_mask_free(&mask);
 }
 
-static void post_touch(InputInfoPtr info, const char *what, double x, double y, unsigned id)
+static void post_touch(InputInfoPtr info, const char *event, double x, double y, unsigned id)
 {
     ValuatorMask *mask = valuator_mask_new(2);
     valuator_mask_set_double(mask, 0, x);
     valuator_mask_set_double(mask, 1, y);
     xf86PostTouchEvent(info->dev, id + 1,
-                       strcmp(what, "begin") == 0 ? XI_TouchBegin
-                       : strcmp(what, "end") == 0 ? XI_TouchEnd
-                                                  : XI_TouchUpdate,
+                       strcmp(event, "begin") == 0 ? XI_TouchBegin
+                       : strcmp(event, "end") == 0 ? XI_TouchEnd
+                                                   : XI_TouchUpdate,
                        0, mask);
     valuator_mask_free(&mask);
 }
@@ -75,7 +75,7 @@ static void post_touch(InputInfoPtr info, const char *what, double x, double y, 
 static void run_line(InputInfoPtr info, Driver *driver)
 {
     double v[AXES] = { 0 };
-    char what[16];
+    char event[16];
     int button, down;
     unsigned finger = 0;
     const char *line = driver->line;
@@ -85,8 +85,8 @@ static void run_line(InputInfoPtr info, Driver *driver)
     else if (sscanf(line, "b %d %d %lf %lf %lf %lf %lf %lf", &button, &down, &v[0], &v[1], &v[2],
                     &v[3], &v[4], &v[5]) >= AXES + 1)
         post_button(info, button, down, v);
-    else if (driver->touch && sscanf(line, "t %15s %lf %lf %u", what, &v[0], &v[1], &finger) >= 3)
-        post_touch(info, what, v[0], v[1], finger);
+    else if (driver->touch && sscanf(line, "t %15s %lf %lf %u", event, &v[0], &v[1], &finger) >= 3)
+        post_touch(info, event, v[0], v[1], finger);
     else if (strcmp(line, "s") == 0) (void)!write(driver->client, "ok\n", 3);
     else xf86IDrvMsg(info, X_ERROR, "not understood: %s\n", line);
 }

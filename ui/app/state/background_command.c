@@ -403,8 +403,8 @@ static void canvas_bar(WrApp *app, bool refused, double now)
     wr_gui_tip("Escape");
     wr_gui_same_line(12);
     wr_time_left_words(&busy->left, busy->furthest, took, left);
-    snprintf(text, sizeof text, "%.1f s  %s", took,
-             busy->cancelled ? wr_words("cancelling") : left);
+    wr_words_print(text, sizeof text, "%.1f s  %s", took,
+                   busy->cancelled ? wr_words("cancelling") : left);
     wr_gui_as_it_is(true);
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, text);
     wr_gui_as_it_is(false);

@@ -20,8 +20,8 @@
 #include <string.h>
 
 #define READ_SECONDS 1.0
-#define GREY_MOST                                                                                  \
-    12.0 /* mean difference of the largest and the least code of a picture without colour */
+/* Limit of the mean difference between the largest and the least code of a pixel in a picture without colour. */
+#define GREY_MOST 12.0
 
 WrDropUse wr_drop_guess(int width, int height, bool floats, const uint8_t *rgb, int count)
 {

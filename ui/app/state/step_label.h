@@ -5,5 +5,6 @@ typedef struct WrText WrText;
 
 /* Append the name of a command line in the window's language to out. */
 void wr_step_label(const char *line, WrText *out);
-/* A word of the command language in the window's language: by itself, else as a label ("raise" as "Raise"), else as it is. */
+/* A word of the command language in the window's language: by itself, else as a label ("raise" as "Raise"), else unchanged.
+   Valid until the next call. */
 const char *wr_step_word(const char *word);

@@ -407,7 +407,7 @@ static void turn(WrApp *app, const WrPointer *at, const double here[2])
     if (at->mods & WR_MOD_SHIFT) deg = rint(deg / 15.0) * 15.0;
     else if (snaps(app, at) && fabs(deg - quarter) < SNAP_DEGREES) deg = quarter;
     else deg = wr_line_round(deg, 1);
-    hand->now.turn = deg - 360.0 * rint(deg / 360.0);
+    hand->now.turn = wr_signed_degrees(deg);
 }
 
 /* The length of the piece along an axis with its dragged edge on a line, if one is near. Only upright pieces have their edges

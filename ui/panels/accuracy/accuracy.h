@@ -70,7 +70,7 @@ typedef struct WrCases { /* hard-case gallery */
     bool wanted;              /* to be measured when no other work runs */
 } WrCases;
 
-typedef struct WrStudy { /* tour of what accuracy costs */
+typedef struct WrStudy { /* tour of the cost of accuracy */
     int step;            /* 1 ..; 0: no tour */
     bool taken;          /* B has the setting of the step */
     WrPatchLook look;    /* before the tour ... */

@@ -1,5 +1,5 @@
-/* The tour of five minutes in the Accuracy tab: what accuracy costs on the user's own document. Each step has a picture of the
-   patch and a measured result. The document stays as it is; afterwards the patch and B are as before. */
+/* Tour of the cost of accuracy, in the Accuracy tab: five minutes on the user's own document. Each step has a picture of the
+   patch and a measured result. The document does not change; the end of the tour restores the view of the patch and side B. */
 #include "ui/panels/accuracy/accuracy.h"
 #include "ui/panels/accuracy/accuracy_work.h"
 #include "ui/app/state/action.h"
@@ -36,14 +36,22 @@ typedef struct Step {
 
 /* ---- results ---- */
 
+/* With the language's decimal mark. */
+static const char *print_number(double value, char text[16])
+{
+    return wr_words_number(wr_plot_number(value, text));
+}
+
 static bool picture_time(const WrApp *app, const Step *step, WrText *out)
 {
     const WrPreviewPicture *picture = wr_preview_picture(app->preview);
     double stages[WR_PICTURE_STAGES];
+    char text[120];
     (void)step;
     if (!picture->serial) return false;
-    wr_text_addf(out, wr_words("One picture of the patch: %.1f ms."),
-                 wr_picture_time(picture, stages));
+    wr_words_print(text, sizeof text, wr_words("One picture of the patch: %.1f ms."),
+                   wr_picture_time(picture, stages));
+    wr_text_add(out, text);
     return true;
 }
 
@@ -54,7 +62,7 @@ static bool error_numbers(const WrApp *app, const Step *step, WrText *out)
     (void)step;
     if (!e || e->of != app->accuracy->state) return false;
     wr_text_addf(out, wr_words("Error: rms %s, at most %s. White is 1."),
-                 wr_plot_number(e->errors.rms, rms), wr_plot_number(e->errors.max, max));
+                 print_number(e->errors.rms, rms), print_number(e->errors.max, max));
     return true;
 }
 
@@ -116,7 +124,7 @@ static void add_rung(const char *name, const WrRung *rung, WrText *out)
     if (rung->current) wr_text_add(&dials, wr_words("as the scene stood"));
     else add_dials(&rung->setting, &dials);
     wr_text_addf(out, wr_words("%s: %s\n%s ms, rms %s"), wr_words(name), wr_text_get(&dials),
-                 wr_plot_number(1e3 * rung->seconds, time), wr_plot_number(rung->errors.rms, rms));
+                 print_number(1e3 * rung->seconds, time), print_number(rung->errors.rms, rms));
     wr_text_fini(&dials);
 }
 
@@ -148,7 +156,7 @@ static bool omitted_angle(const WrApp *app, const Step *step, WrText *out)
     char number[16];
     if (map->of != app->accuracy->state || map->look != (int)step->look) return false;
     wr_text_addf(out, wr_words("The brightest colour is %s\xc2\xb0 and more."),
-                 wr_plot_number(map->full, number));
+                 print_number(map->full, number));
     return true;
 }
 
@@ -273,7 +281,7 @@ static void end(WrApp *app)
 /* The buttons are above the text, so that they stay under the pointer. */
 static void buttons(WrApp *app)
 {
-    const int step = app->accuracy->study.step, count = (int)WR_LENGTH(steps);
+    const int step = app->accuracy->study.step, count = WR_LENGTH(steps);
     char text[32];
     wr_gui_disable(step == 1);
     if (wr_gui_button("Back##study", false)) go(app, step - 1);
@@ -329,7 +337,7 @@ void wr_panel_study(WrApp *app)
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_TEXT, step->text);
     print_result(app, step);
     wr_gui_list_end();
-    if (a->study.step < (int)WR_LENGTH(steps)) return;
+    if (a->study.step < WR_LENGTH(steps)) return;
     const int rung = recommended(app);
     wr_gui_disable(rung < 0);
     if (wr_gui_button("Use this setting", false)) wr_accuracy_take_rung(app, 0, rung);

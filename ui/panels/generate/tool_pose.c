@@ -361,7 +361,7 @@ static void turn(WrApp *app, const Pose *pose, const WrPointer *at)
     from_middle(app, pose, at, &x, &y);
     from_middle(app, pose, &first, &fx, &fy);
     double deg = hand->first_number[pose->turned] + (atan2(y, x) - atan2(fy, fx)) * WR_DEG_PER_RAD;
-    deg -= 360.0 * rint(deg / 360.0);
+    deg = wr_signed_degrees(deg);
     if (at->mods & WR_MOD_SHIFT) deg = rint(deg / 15.0) * 15.0;
     if (deg < p->low) deg += 360.0;
     deg = wr_line_round(deg, 1);
