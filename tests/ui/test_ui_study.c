@@ -5,6 +5,7 @@
 #include "app.h"
 
 #include "ui/panels/accuracy/accuracy.h"
+#include "ui/app/state/settings.h"
 #include "ui/toolkit/gui_rows.h"
 
 #include <string.h>
@@ -61,9 +62,30 @@ static void every_step_has_its_picture_and_the_end_restores_the_comparison(void 
     finish(&bench);
 }
 
+static void a_measurement_ends_with_its_tab(void **state)
+{
+    Bench bench;
+    (void)state;
+    begin(&bench);
+    WrApp *app = bench.app;
+    app->settings->turning = false;
+    wr_action_run(app, "accuracy");
+    const double late = wr_clock_seconds() + 300;
+    wr_action_run(app, "accuracy_measure");
+    while (!app->accuracy->measuring && wr_clock_seconds() < late) draw_again(app);
+    assert_true(app->accuracy->measuring);
+    wr_action_run(app, "brushes");
+    for (int i = 0; i < 3; i++) draw_again(app);
+    assert_false(app->accuracy->measuring);
+    for (int i = 0; i < 3; i++) draw_again(app);
+    assert_false(app->accuracy->measuring);
+    finish(&bench);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_measurement_ends_with_its_tab),
         cmocka_unit_test(every_step_has_its_picture_and_the_end_restores_the_comparison),
     };
     return cmocka_run_group_tests(tests, enter_window, remove_folder);

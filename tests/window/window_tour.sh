@@ -60,7 +60,10 @@ task() {
 }
 done_with() {
     settle
-    [[ -z $pictures ]] || import -window "$window" "$pictures/$(printf '%02d' "$tasks")-$name.png"
+    if [[ -n $pictures ]]; then
+        import -window "$window" "$pictures/$(printf '%02d' "$tasks")-$name.png"
+        printf '%4d s: %s\n' "$SECONDS" "$name"
+    fi
     [[ $failures == "$failures_before" ]] || printf 'task %d, %s\n' "$tasks" "$name"
 }
 saved() { # saved NAME: the document, written by hand

@@ -221,13 +221,28 @@ static void measure(WrApp *app, WrWorkKind kind)
     a->measures = kind;
 }
 
+/* True if a result of the error, the plot or the map would be seen. */
+static bool is_seen(const WrAccuracy *a)
+{
+    return a->error_open || a->look == WR_PATCH_ERROR;
+}
+
+/* A measurement needs all processors, some for minutes: it ends when its tab is left, and begins again with the tab. */
+static void stop_unseen(WrAccuracy *a)
+{
+    if (!a->measuring || a->measures == WR_WORK_CASES || is_seen(a)) return;
+    wr_job_cancel(a->measure);
+    a->measuring = false;
+    if (a->measures == WR_WORK_ILLUSION) a->illusion_wanted = true;
+}
+
 static WrAccuracyMoment moment(const WrApp *app)
 {
     const WrAccuracy *a = app->accuracy;
     WrAccuracyMoment m = { .now = wr_clock_seconds(),
                            .changed_at = a->changed_at,
                            .rests = wr_accuracy_rests(app),
-                           .open = a->error_open || a->look == WR_PATCH_ERROR,
+                           .open = is_seen(a),
                            .plot_open = a->plot_open,
                            .plot_asked = a->plot_asked,
                            .error_known = a->error_of == a->state,
@@ -247,7 +262,7 @@ static void begin_measuring(WrApp *app)
         measure(app, WR_WORK_CASES); /* replaces running work, which restarts later */
         return;
     }
-    if (a->illusion_wanted && !a->measuring && wr_accuracy_rests(app)) {
+    if (a->illusion_wanted && is_seen(a) && !a->measuring && wr_accuracy_rests(app)) {
         a->illusion_wanted = false;
         measure(app, WR_WORK_ILLUSION);
         return;
@@ -338,6 +353,7 @@ static void accuracy_update(WrApp *app)
     take_measured(app);
     take_look(app);
     take_probe(app);
+    stop_unseen(a);
     if (!app->visible) return;
     begin_measuring(app);
     begin_looking(app);
