@@ -22,6 +22,8 @@
 #include "ui/app/state/session_view.h"
 #include "ui/app/state/settings.h"
 #include "ui/panels/layer_choice.h"
+#include "ui/panels/panel_search.h"
+#include "ui/panels/search_index.h"
 #include "ui/panels/generate/generate_state.h"
 #include "ui/patch/patch.h"
 #include "ui/patch/patch_cube.h"
@@ -1055,9 +1057,36 @@ static void a_dialog_that_keys_walked_leaves_the_input_free(void **state)
     finish(&bench);
 }
 
+/* A model chosen in the search, or in any other place: the camera, which would be inside of it, moves back. */
+static void a_chosen_surface_is_seen_whole(void **state)
+{
+    Bench bench;
+    (void)state;
+    begin(&bench);
+    WrApp *app = bench.app;
+    wr_search_index_update(app);
+    wr_app_run_line(app, "camera perspective eye=0.1,0.05,0.3 fov=30 fit=off");
+    settle(&bench);
+    const WrSearchIndex *index = &app->finder->index;
+    const WrSearchEntry *mug = NULL;
+    for (int i = 0; i < index->entries.count; i++) {
+        const WrSearchEntry *e = &index->entries.data[i];
+        if (e->action && strcmp(e->action, "model mug") == 0) mug = e;
+    }
+    assert_non_null(mug);
+    wr_search_index_open(app, mug);
+    settle(&bench);
+    const WrVec3 eye = wr_app_scene(app)->camera.eye;
+    assert_non_null(wr_app_scene(app)->triangles);
+    assert_true(sqrt(eye.x * eye.x + eye.y * eye.y + eye.z * eye.z) >
+                2.0); /* the mug's radius is about 1 */
+    finish(&bench);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_chosen_surface_is_seen_whole),
         cmocka_unit_test(dropped_pictures_are_asked_about_once),
         cmocka_unit_test(the_use_of_a_picture_is_guessed),
         cmocka_unit_test(a_dragged_frame_snaps_to_a_third_of_the_cell),

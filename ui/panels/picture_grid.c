@@ -1,4 +1,5 @@
 #include "ui/panels/picture_grid.h"
+#include "ui/app/actions.h"
 #include "ui/app/state/scene_line.h"
 #include "ui/app/state/session_view.h"
 #include "ui/toolkit/gui.h"
@@ -150,7 +151,9 @@ void wr_model_grid(WrApp *app)
 {
     const int pressed = wr_picture_grid(app, WR_THUMB_MODEL, "Models", WR_STOCK_MODELS, TILE,
                                         model_now(wr_app_scene(app)), model_item);
-    if (pressed >= 0) set_line(app, "model ", wr_stock_models[pressed].name);
+    if (pressed < 0) return;
+    set_line(app, "model ", wr_stock_models[pressed].name);
+    wr_camera_refit(app);
 }
 
 static void light_item(const WrApp *app, int i, WrPictureItem *out)

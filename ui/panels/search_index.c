@@ -1,6 +1,7 @@
 /* The index of the search. Rows come from drawing each place once off screen, so that a new row is found without a list;
    rows that are hidden at present come from the tables they are made of. */
 #include "ui/panels/search_index.h"
+#include "ui/app/actions.h"
 #include "ui/panels/picture_grid.h"
 #include "ui/app/state/action.h"
 #include "ui/app/state/action_list.h"
@@ -744,6 +745,9 @@ void wr_search_index_open(WrApp *app, const WrSearchEntry *entry)
         wr_preset_browser_choose(app, entry->action);
         break;
     case WR_SEARCH_MODEL:
+        wr_app_run_line(app, entry->action);
+        wr_camera_refit(app);
+        break;
     case WR_SEARCH_MATERIAL: wr_app_run_line(app, entry->action); break;
     case WR_SEARCH_ACTION:
     case WR_SEARCH_TOOL:

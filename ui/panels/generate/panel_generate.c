@@ -29,6 +29,7 @@
 
 /* ---- values of the current generator and its blending, with errors below them ---- */
 
+#define NOTES_UNITS 42  /* height of the notes */
 #define SEED_LAST 999.0 /* largest seed of the button for the next seed */
 
 /* Group of parameters starting at the named one, folded under a heading if other parameters come before it. */
@@ -518,29 +519,31 @@ static SDL_Rect cut(SDL_Rect *room, int height, bool top)
     return part;
 }
 
-/* Expected duration, if significant. */
-static void expectation(const WrApp *app)
+/* Expected duration, if significant, else "". */
+static void expectation(const WrApp *app, char text[WR_EXPECTATION])
 {
     WrText line = { 0 };
-    char text[WR_EXPECTATION];
+    text[0] = '\0';
     if (!app->generate->generator || app->generate->err.text[0]) return;
     wr_generate_line(app->generate, &line);
     wr_expectation(app, wr_text_get(&line), text);
     wr_text_fini(&line);
-    if (text[0]) wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
 }
 
-/* Errors and notes, or the expected duration, above the buttons. The space is reserved, so that the values do not
-   move when a note appears or disappears. */
-static void said(const WrApp *app, SDL_Rect *room)
+/* Errors and notes, or the expected duration, above the buttons. Without any, the values have the room; returns the height
+   in units that they then need below the last value, so that their scroll position never changes with the notes. */
+static double said(const WrApp *app, SDL_Rect *room)
 {
-    char said[WR_WORDS_MESSAGE];
+    char said[WR_WORDS_MESSAGE], expected[WR_EXPECTATION];
     const char *text = notes(app, said);
-    wr_gui_area_begin("##generate_notes", WR_AREA_PANEL, cut(room, wr_gui_px(42), false),
+    expectation(app, expected);
+    if (!*text && !*expected) return NOTES_UNITS;
+    wr_gui_area_begin("##generate_notes", WR_AREA_PANEL, cut(room, wr_gui_px(NOTES_UNITS), false),
                       WR_COLOUR_BAR);
     if (*text) tell(app, text);
-    else expectation(app);
+    else wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, expected);
     wr_gui_area_end();
+    return 0;
 }
 
 /* Where the result goes: the name of the edited layer, or the choice. */
@@ -599,7 +602,7 @@ void wr_panel_generate(WrApp *app, SDL_Rect room)
     SDL_Rect low = cut(&room, wr_gui_px(94), false);
     if (!hand->generator) wr_generate_take(app, wr_generate_last(app));
     wr_generate_blame(hand);
-    said(app, &room);
+    const double below = said(app, &room);
     wr_gui_area_begin("##generate_head", WR_AREA_PANEL, top, WR_COLOUR_PANEL);
     head(app);
     wr_gui_area_end();
@@ -610,6 +613,7 @@ void wr_panel_generate(WrApp *app, SDL_Rect room)
         wr_gui_pinnable(true);
         wr_panel_generate_values(app);
         wr_gui_pinnable(false);
+        wr_gui_space(below);
         wr_gui_area_end();
     }
     wr_gui_area_begin("##generate_foot", WR_AREA_BAR, low, WR_COLOUR_BAR);
