@@ -599,7 +599,7 @@ void wr_panel_generate(WrApp *app, SDL_Rect room)
 {
     WrGenerateState *hand = app->generate;
     SDL_Rect top = cut(&room, wr_gui_px(82), true);
-    SDL_Rect low = cut(&room, wr_gui_px(94), false);
+    SDL_Rect low = cut(&room, wr_gui_px(80), false);
     if (!hand->generator) wr_generate_take(app, wr_generate_last(app));
     wr_generate_blame(hand);
     const double below = said(app, &room);
@@ -616,7 +616,7 @@ void wr_panel_generate(WrApp *app, SDL_Rect room)
         wr_gui_space(below);
         wr_gui_area_end();
     }
-    wr_gui_area_begin("##generate_foot", WR_AREA_BAR, low, WR_COLOUR_BAR);
+    wr_gui_area_begin("##generate_foot", WR_AREA_PANEL, low, WR_COLOUR_BAR);
     foot(app);
     wr_gui_area_end();
 }
