@@ -1,4 +1,4 @@
-/* Input at three frames per second: events are handled in order of arrival, keys go to the widget focused by the
+/* Input at slow frames: events are handled in order of arrival, keys go to the widget focused by the
    click before them, and a click belongs to the frame on the screen at its time. */
 #include "test.h"
 #include "app.h"
@@ -19,8 +19,8 @@
 #include <math.h>
 #include <string.h>
 
-#define PICTURE_MS 330
-#define GAP_MS 120 /* between events: several of them arrive within a frame */
+#define PICTURE_MS 60
+#define GAP_MS 22 /* between events: several of them arrive within a frame */
 #define MAX_MOST 64
 
 static void slow(WrApp *app)

@@ -18,6 +18,10 @@
 #include "command/session.h"
 #include "document/document.h"
 
+#include "scene/scene.h"
+#include "ui/app/state/session_view.h"
+
+#include <math.h>
 #include <string.h>
 
 static void push_key(Uint32 type, SDL_Scancode code, Uint16 mod)
@@ -324,6 +328,23 @@ static void a_sign_behind_shift_is_a_shortcut_once(void **state)
     finish(&bench);
 }
 
+/* A whole command line in the search is run, although the search finds rows of the same words. */
+static void a_command_line_in_the_search_is_run(void **state)
+{
+    Bench bench;
+    (void)state;
+    open_search(&bench);
+    SDL_Event event = { .text = { .type = SDL_TEXTINPUT } };
+    strcpy(event.text.text, "bump height=0.371");
+    SDL_PushEvent(&event);
+    steps(bench.app, 4);
+    tap(SDL_SCANCODE_RETURN, 0);
+    steps(bench.app, 6);
+    settle(&bench);
+    assert_true(fabs(wr_app_scene(bench.app)->height - 0.371) < 1e-9);
+    finish(&bench);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -332,6 +353,7 @@ int main(void)
         cmocka_unit_test(no_letter_of_many_is_lost),
         cmocka_unit_test(an_answer_waits_for_the_letters_before_it),
         cmocka_unit_test(nothing_typed_is_no_answer),
+        cmocka_unit_test(a_command_line_in_the_search_is_run),
         cmocka_unit_test(a_text_scrolled_out_of_sight_leaves_the_window_alive),
         cmocka_unit_test(the_second_text_is_a_layer_with_a_name_of_its_own),
         cmocka_unit_test(automatic_names_follow_the_line),

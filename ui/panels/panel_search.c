@@ -14,6 +14,8 @@
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 
+#include "base/error.h"
+#include "command/command_line.h"
 #include "command/command_table.h"
 #include "system/clock.h"
 
@@ -35,6 +37,16 @@ static const WrCommand *typed(const char *text)
     memcpy(verb, text, length);
     verb[length] = '\0';
     return wr_command_find(verb);
+}
+
+/* True for a whole command line with values, such as "step off 2". Without values, as "noise perlin", words search. */
+static bool is_line(const char *text)
+{
+    WrCall *call;
+    WrError err = { "" };
+    if (!strpbrk(text, "=0123456789") || !wr_call_parse(text, false, &call, &err)) return false;
+    wr_call_free(call);
+    return true;
 }
 
 /* Help of that command in place of the list; Return runs the line. */
@@ -238,7 +250,7 @@ void wr_dialog_search(WrApp *app)
                                    app->dialog->fresh || finder->fill || finder->empty);
     const WrCommand *command = typed(finder->text);
     finder->fill = false;
-    finder->line = finder->line && command;
+    finder->line = command && (finder->line || is_line(finder->text));
     if (strcmp(before, finder->text) != 0) finder->chosen = 0;
     int go = -1;
     if (command && finder->line) command_line(app, command, enter);
