@@ -1,6 +1,9 @@
 #include "base/cpu.h"
 
 #include <stddef.h>
+#ifdef __x86_64__
+#include <cpuid.h>
+#endif
 
 /* The single features are checked because GCC and clang agree only on their names. */
 int wr_cpu_level(void)
@@ -16,6 +19,17 @@ int wr_cpu_level(void)
     return 4;
 #else
     return 1;
+#endif
+}
+
+/* Bit 29 of EBX of leaf 7; the compiler has no name for it. */
+bool wr_cpu_has_sha(void)
+{
+#ifdef __x86_64__
+    unsigned a, b = 0, c, d;
+    return wr_cpu_level() >= 2 && __get_cpuid_count(7, 0, &a, &b, &c, &d) && (b >> 29 & 1);
+#else
+    return false;
 #endif
 }
 

@@ -515,6 +515,27 @@ static void what_is_no_file_is_neither_opened_nor_replaced(void **state)
     wr_free(path);
 }
 
+/* Lengths around whole blocks; one hash of all hashes, computed by Python's hashlib. */
+static void sha256_is_that_of_the_standard(void **state)
+{
+    (void)state;
+    static const int lengths[] = { 0, 1, 55, 56, 63, 64, 65, 119, 120, 128, 191, 1000 };
+    uint8_t bytes[1000];
+    char all[12 * 64 + 1] = "", hex[65];
+    for (int k = 0; k < 12; k++) {
+        for (int i = 0; i < lengths[k]; i++) bytes[i] = (uint8_t)(7 * i + lengths[k]);
+        wr_sha256_bytes(bytes, (size_t)lengths[k], hex);
+        memcpy(all + 64 * k, hex, sizeof hex);
+    }
+    wr_sha256_bytes(all, sizeof all - 1, hex);
+    assert_string_equal(hex, "4cbaf5c993b05890a6043b8a4d08c8b3b38a1366af55c75bf27b16ae599a65aa");
+    char *million = wr_alloc(1000000, 1);
+    memset(million, 'a', 1000000);
+    wr_sha256_bytes(million, 1000000, hex);
+    wr_free(million);
+    assert_string_equal(hex, "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+}
+
 static void a_limit_is_what_may_still_be_read(void **state)
 {
     (void)state;
@@ -820,6 +841,7 @@ int main(void)
         cmocka_unit_test(a_killed_write_is_cleared_away_by_the_next),
         cmocka_unit_test(what_does_not_read_back_is_not_written),
         cmocka_unit_test(what_is_no_file_is_neither_opened_nor_replaced),
+        cmocka_unit_test(sha256_is_that_of_the_standard),
         cmocka_unit_test(a_limit_is_what_may_still_be_read),
         cmocka_unit_test(rights_of_another_group_are_not_passed_on),
         cmocka_unit_test(what_a_folder_passes_on_a_new_file_has),
