@@ -5,7 +5,7 @@
 wr_program_packages=(
     build-essential cmake ninja-build pkg-config
     libassimp-dev libexpat1-dev libfontconfig-dev libfreetype-dev libfribidi-dev libharfbuzz-dev libimgui-dev libjson-c-dev
-    libdbus-1-dev libmd-dev libmd4c-dev libmypaint-dev libopenimageio-dev libpng-dev librsvg2-dev
+    libdbus-1-dev libdeflate-dev libmd-dev libmd4c-dev libmypaint-dev libopenexr-dev libopenimageio-dev libpng-dev librsvg2-dev
     libsdl2-dev libseccomp-dev libsleef-dev libstb-dev libwayland-dev libx11-dev libxi-dev libxxhash-dev libzip-dev mypaint-brushes
     wayland-protocols zlib1g-dev
     gettext fonts-dejavu-core fonts-inter fonts-materialdesignicons-webfont xfonts-terminus

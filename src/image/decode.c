@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "image/codec.h"
+#include "image/exr.h"
 #include "image/format.h"
 #include "image/image.h"
 #include "image/png.h"
@@ -429,7 +430,20 @@ bool wr_decoder_takes_module(int fd, const char *ending)
     unsigned char bytes[WR_IMAGE_SNIFF];
     const int64_t count = wr_fd_read_at(fd, bytes, sizeof bytes, 0);
     const char *format = format_of(bytes, count > 0 ? (size_t)count : 0, ending);
-    return strcmp(format, "plain") != 0 && wr_codec_takes_module(format);
+    return strcmp(format, "plain") != 0 && strcmp(format, "openexr") != 0 &&
+           wr_codec_takes_module(format);
+}
+
+bool wr_decoder_lacks_module(int fd, int most)
+{
+    unsigned char bytes[WR_IMAGE_SNIFF];
+    char reason[WR_CODEC_REASON];
+    const int64_t count = wr_fd_read_at(fd, bytes, sizeof bytes, 0);
+    const char *format = wr_image_sniff(bytes, count > 0 ? (size_t)count : 0);
+    if (!format || strcmp(format, "openexr") != 0) return false;
+    WrCodecReader *reader = wr_exr_codec.open(fd, format, most, false, reason);
+    if (reader) wr_exr_codec.close(reader);
+    return !reader;
 }
 
 static const char *find_format(int fd, const char *ending, WrError *err)
@@ -467,9 +481,14 @@ WrDecoder *wr_decoder_open(int fd, const char *ending, int most, bool numbers, b
         if (decoder) *decoder = (WrDecoder){ .plain = plain };
         return decoder;
     }
-    const WrCodec *library = wr_codec(format, err);
-    if (!library) return NULL;
-    WrCodecReader *reader = library->open(fd, format, most, numbers, reason);
+    const WrCodec *library = &wr_exr_codec;
+    WrCodecReader *reader = NULL;
+    if (strcmp(format, "openexr") == 0) reader = library->open(fd, format, most, numbers, reason);
+    if (!reader) {
+        library = wr_codec(format, err);
+        if (!library) return NULL;
+        reader = library->open(fd, format, most, numbers, reason);
+    }
     if (!reader) {
         if (memory) *memory = is_memory(reason);
         wr_fail(err, "%s", reason);

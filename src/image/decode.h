@@ -14,8 +14,10 @@ typedef struct WrError WrError;
 typedef struct WrDecoder WrDecoder;
 
 /* True if reading the file needs the module with OpenImageIO (oiio.h), judged by its first bytes or
- * else the extension of its name. */
+ * else the extension of its name. False for all OpenEXR files: wr_decoder_lacks_module. */
 bool wr_decoder_takes_module(int fd, const char *ending);
+/* True for an OpenEXR file that needs that module. Parses its header: only in a sandbox. most: as below. */
+bool wr_decoder_lacks_module(int fd, int most);
 
 /* Opens an image.
  *

@@ -182,7 +182,8 @@ struct WrReader {
     WR_ARRAY(Attribute) attributes;
     const char *shared; /* memory written by the child */
     size_t shared_bytes;
-    bool dead; /* the child has ended; the reason is in `end` */
+    bool lacks; /* the child needs the library, which was not loaded */
+    bool dead;  /* the child has ended; the reason is in `end` */
     WrError end;
 };
 
@@ -305,6 +306,7 @@ static bool receive_by(WrReader *reader, double deadline, WrWireKind kind, Answe
     if (good && answer->head.kind == kind) return true;
     if (good && answer->head.kind == WR_WIRE_FAILED) fail_sentence(reader, answer, err);
     else if (good && answer->head.kind == WR_WIRE_MEMORY) fail_memory(reader, err);
+    else if (good && answer->head.kind == WR_WIRE_LIBRARY && !reader->lacks) reader->lacks = true;
     else {
         if (good) die_of_nonsense(reader);
         wr_fail(err, "%s", wr_error_message(&reader->end));
@@ -389,7 +391,7 @@ static bool send_order(WrReader *reader, const WrWireOrder *order, int fd, WrErr
     return sent;
 }
 
-/* One of several attempts that share a deadline. *gone: no reply at all, not even the child's exit
+/* One of several attempts that share a deadline. Fails without a message if the child needs the library. *gone: no reply at all, not even the child's exit
  * status: the process itself may have ended. */
 static bool open_once(WrReader *reader, const WrWireOrder *order, int fd, double deadline,
                       bool *gone, WrError *err)
@@ -430,9 +432,11 @@ WrReader *wr_reader_open(const char *name, int fd, int most, bool numbers, WrErr
     WrReader *reader = new_reader(name, fd, WR_WIRE_PICTURE, most, &order);
     order.numbers = numbers;
     double deadline = deadline_of(reader);
-    bool gone, good = open_once(reader, &order, fd, deadline, &gone, err);
-    if (!good && gone) {
+    bool gone = true, good = false;
+    for (int attempt = 0; attempt < 3 && !good && (gone || reader->lacks != order.library);
+         attempt++) {
         if (reader->channel >= 0) wr_fd_close(reader->channel);
+        order.library = reader->lacks;
         good = open_once(reader, &order, fd, deadline, &gone, err);
     }
     if (good) return reader;

@@ -228,7 +228,8 @@ static void serve_block(const WrWireOrder *order)
 
 /* ---- all ---- */
 
-static void serve(const WrWireOrder *order, int file, int channel)
+/* warm: the library is loaded; a child cannot load it. */
+static void serve(const WrWireOrder *order, int file, int channel, bool warm)
 {
     WrError err = { "" };
     bool memory = false;
@@ -242,6 +243,10 @@ static void serve(const WrWireOrder *order, int file, int channel)
     }
     if (order->task != WR_WIRE_PICTURE) {
         serve_block(order);
+        return;
+    }
+    if (!warm && wr_decoder_lacks_module(PICTURE, order->most)) {
+        answer(WR_WIRE_LIBRARY, NULL, 0);
         return;
     }
     Serving serving = { .decoder = wr_decoder_open(PICTURE, order->ending, order->most,
@@ -313,7 +318,7 @@ static void start_child(Process *process, const WrWireOrder *order, int file, in
         return;
     }
     if (!process->warm && order->task == WR_WIRE_PICTURE &&
-        wr_decoder_takes_module(file, order->ending))
+        (order->library || wr_decoder_takes_module(file, order->ending)))
         warm(process);
     /* loaded in the parent, so that it is loaded only once */
     if (order->task == WR_WIRE_MESH) wr_mesh_load(NULL);
@@ -321,7 +326,7 @@ static void start_child(Process *process, const WrWireOrder *order, int file, in
     WrPid pid = wr_child_fork();
     if (pid == 0) {
         if (!wr_process_die_with(self)) wr_process_leave(1);
-        serve(order, file, channel);
+        serve(order, file, channel, process->warm);
         wr_process_leave(0);
     }
     if (pid < 0) {
@@ -390,8 +395,8 @@ static void work(Process *process)
         for (int i = 0; i < process->children.count; i++)
             wr_array_push(&waited, ((WrWaited){ .fd = process->children.data[i].channel }));
         bool news;
-        if (!wr_channel_wait_for_any(waited.data, waited.count, process->warm ? -1 : IDLE_MS,
-                                     &news))
+        const bool idle = !process->warm && process->children.count == 0;
+        if (!wr_channel_wait_for_any(waited.data, waited.count, idle ? IDLE_MS : -1, &news))
             continue;
         if (!news) warm(process);
         for (int i = 0; i < process->children.count; i++) {

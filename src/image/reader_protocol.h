@@ -8,7 +8,7 @@
    the control socket ends the process. On a channel: messages of a WrWireHead and `length` bytes. The
    child sends first.
 
-     child:    OPENED parts     FAILED sentence     MEMORY
+     child:    OPENED parts     FAILED sentence     MEMORY     LIBRARY: send the order again, with `library`
      program:  READ WrWireRead  -> child: DONE, FAILED, MEMORY
                DIGEST WrWireDigest -> child: DIGEST WrHash, FAILED, MEMORY
                TEXT WrWireText  -> child: TEXT (found: the text and a NUL; else nothing)
@@ -29,7 +29,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define WR_WIRE_VERSION 8
+#define WR_WIRE_VERSION 9
 #define WR_WIRE_MAX (512U << 20) /* bytes of a message */
 
 /* Kind of file. */
@@ -39,6 +39,7 @@ typedef struct WrWireOrder {
     uint32_t version; /* WR_WIRE_VERSION */
     uint32_t task;    /* WrWireTask */
     int32_t most;     /* parts */
+    uint32_t library; /* 1: the module with OpenImageIO is loaded before the child begins; else 0 */
     uint32_t numbers; /* 1: integers that are measurements are read as numbers; else 0 */
     uint64_t memory;  /* limit of additional memory in bytes; 0: no limit */
     uint32_t seconds; /* processor time for the whole file */
@@ -55,7 +56,8 @@ typedef enum WrWireKind {
     WR_WIRE_DIED,
     WR_WIRE_ASK,
     WR_WIRE_BLOCK,
-    WR_WIRE_DIGEST
+    WR_WIRE_DIGEST,
+    WR_WIRE_LIBRARY
 } WrWireKind;
 
 typedef struct WrWireHead {

@@ -5,6 +5,7 @@
 #include "base/progress.h"
 #include "base/spool.h"
 #include "image/decode.h"
+#include "image/exr.h"
 #include "image/exr_written_check.h"
 #include "image/image.h"
 #include "image/oiio.h"
@@ -320,10 +321,12 @@ static bool write_file(const char *path, WrByteSink sink, int file, const char *
                    .file = file,
                    .sink = sink,
                    .spool = { .fd = -1 },
-                   .library = wr_codec(format, err),
+                   .library =
+                       wr_exr_writes(format, parts, count) ? &wr_exr_codec : wr_codec(format, err),
                    .packed = parts[0].levels ? WR_IMAGE_TILE : packed_rows(format) };
     if (!to.library) return false;
-    if (wr_oiio_by_name(format, parts, count) && !wr_spool_open(&to.spool))
+    if (to.library != &wr_exr_codec && wr_oiio_by_name(format, parts, count) &&
+        !wr_spool_open(&to.spool))
         return fail_write(err, path, -1, wr_file_why(errno, why));
     bool ok = write_parts(&to, format, parts, count, digests, err);
     if (ok && to.spool.fd >= 0) ok = spooled(&to, wr_spool_end(&to.spool, &to.sink), err);

@@ -38,7 +38,7 @@ BEGIN {
     library["imgui"] = "ui/toolkit"
     library["X11/"] = "ui/input ui/toolkit"
     library["wayland"] = library["tablet-unstable"] = "ui/input"
-    library["OpenImageIO/"] = library["assimp/"] = library["librsvg/"] = "image"
+    library["OpenImageIO/"] = library["openexr"] = library["libdeflate"] = library["assimp/"] = library["librsvg/"] = "image"
     library["ft2build"] = library["freetype/"] = "image ui" # the type of the window is drawn with it too
     library["hb"] = library["fribidi"] = library["fontconfig/"] = library["zlib"] = "image"
     library["sleef"] = library["xxhash"] = library["sha2"] = "base"
