@@ -16,7 +16,7 @@
 #define CHANNELS 3             /* R, G, B; else one */
 #define CHUNK_ROWS 16          /* of ZIP */
 #define MARK "wrinkle:version" /* the attribute of a document's first part */
-#define FILE_NAME "document"   /* the library opens no file, but wants a name */
+#define FILE_NAME "document"   /* the library opens no file, but requires a name */
 
 static bool fail(char *reason, const char *why)
 {

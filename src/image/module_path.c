@@ -83,7 +83,7 @@ static bool threads_are_left(void)
 bool wr_module_load(void *ctx, WrError *err)
 {
     WrModule *module = ctx;
-    if (threads_are_left()) return (module->table = load(module, err)) != NULL;
+    if (module->quiet || threads_are_left()) return (module->table = load(module, err)) != NULL;
     return wr_fail(err, "%s need threads, and the system gives no more: end another program first",
                    module->serves);
 }

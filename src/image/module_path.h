@@ -1,5 +1,4 @@
-/* module_path.h - search and loading of the program's run-time modules.
-   Private to this module. */
+/* module_path.h - search and loading of the program's run-time modules. */
 #pragma once
 #include "base/pool.h"
 
@@ -20,6 +19,7 @@ typedef struct WrModule {
     const char *file, *serves; /* "wrinkle_oiio.so", "picture files" */
     const char *symbol;        /* name of its table, which begins with an int: its version */
     int version;
+    bool quiet;          /* its libraries start no threads when they are loaded */
     const void *table;   /* NULL until loaded */
     WrOnceAsync loading; /* { wr_module_load, the module } */
 } WrModule;

@@ -361,7 +361,7 @@ static void add_light(double rgb[3], double share, double r, double g, double b)
 
 /* A panel with soft edges about a direction, with this half width and height.
    Gnomonic projection onto the panel's plane; |x|, |y| are tangents of angles from its middle. */
-static double panel(WrVec3 d, WrVec3 middle, double wide, double high)
+static inline double panel(WrVec3 d, WrVec3 middle, double wide, double high)
 {
     const WrVec3 m = v3_unit(middle, (WrVec3){ 0, 1, 0 }), up = { 0, 1, 0 }, back = { 0, 0, 1 };
     const WrVec3 side = v3_unit(v3_cross(fabs(m.y) > 0.99 ? back : up, m), back);
@@ -446,14 +446,19 @@ WrEnvironmentMap *wr_environment_map_built(WrEnvironmentMapKind kind, WrError *e
 {
     WrImage *to = wr_image_new(512, 256, 3, err);
     if (!to) return NULL;
-    for (int j = 0; j < to->height; j++)
+    double across[512][2]; /* sine and cosine; the window shows its first picture after this */
+    for (int i = 0; i < to->width; i++)
+        wr_sincos_turns((i + 0.5) / to->width - 0.5, &across[i][0], &across[i][1]);
+    for (int j = 0; j < to->height; j++) {
+        double y, out_of_axis;
+        wr_sincos_turns(0.5 * (1 - (j + 0.5) / to->height - 0.5), &y, &out_of_axis);
         for (int i = 0; i < to->width; i++) {
             double rgb[3];
-            lights[kind](
-                wr_environment_map_direction((i + 0.5) / to->width, 1 - (j + 0.5) / to->height),
-                rgb);
+            const WrVec3 d = { across[i][0] * out_of_axis, y, -across[i][1] * out_of_axis };
+            lights[kind](d, rgb);
             float *out = to->data + ((size_t)j * (size_t)to->width + (size_t)i) * 3;
             for (int c = 0; c < 3; c++) out[c] = (float)rgb[c];
         }
+    }
     return new_map(to, err);
 }

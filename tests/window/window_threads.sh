@@ -12,12 +12,13 @@ source "$source/tests/window/window_help.sh"
 serve
 printf '%s\n' 'width 1200' 'height 800' 'turning 0' 'ants 0' 'range_follows 0' >config/wrinkle/window.conf
 printf 'table 128x128\nbump height=1\ngrid cells=4x4 width=6\n' >small.wrinkle
-printf 'table 128x128\nsave out.exr\n' >save.wrinkle
+printf 'table 128x128\nsave out.exr\nexport height out.tif\n' >save.wrinkle
 
 # ---- in the shell ----
-WR_THREADS=0 LD_PRELOAD=$shim "$program" run save.wrinkle >out 2>err && complain "saved without a thread"
+WR_THREADS=0 LD_PRELOAD=$shim "$program" run save.wrinkle >out 2>err && complain "exported without a thread"
 grep -q 'need threads, and the system gives no more' err || complain "not the reason: $(cat err)"
-[[ ! -e out.exr ]] || complain "a file was begun all the same"
+[[ -s out.exr ]] || complain "a document was not saved without a thread"
+[[ ! -e out.tif ]] || complain "a file was begun all the same"
 
 # ---- in the window: one thread, for the questions of these tests ----
 export WR_THREADS=1 LD_PRELOAD=$shim

@@ -17,6 +17,15 @@ typedef struct WrError WrError;
  * $XDG_CONFIG_HOME/wrinkle/window.conf; keys: keys.conf in that folder. */
 int wr_app_run(const WrAppOptions *options);
 
+/* The table of the module with the window, wrinkle_window.so. SDL brings some 45 libraries, which only the subcommand
+   paint needs. The module calls functions of the program, which exports all of them. */
+#define WR_WINDOW_VERSION 1
+#define WR_WINDOW_SYMBOL "wr_window_table"
+typedef struct WrWindowModule {
+    int version; /* WR_WINDOW_VERSION */
+    int (*run)(const WrAppOptions *options);
+} WrWindowModule;
+
 /* Latency of pointer input: milliseconds from the arrival of an event in the system to the first frame with its
    effect. */
 typedef struct WrAppDelays {
