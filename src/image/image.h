@@ -129,7 +129,7 @@ bool wr_image_apply_range(WrImage *image);
  * once. With WRINKLE_READER=inside in the environment files are read in this process, for debugging. */
 void wr_image_warm(void);
 /* Starts loading the writing library ahead of need and returns at once; any thread. The library writes
- * all formats except PNG; it is loaded into this process, with some 260 others, by the first such
+ * all formats except PNG and documents; it is loaded into this process, with some 260 others, by the first such
  * write, which needs half a second, or a few on a slow disk. */
 void wr_image_warm_writing(void);
 
