@@ -13,6 +13,8 @@
 #include <stdio.h>
 #include <string.h>
 
+_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "chunks are little-endian");
+
 #define CHANNELS 3             /* R, G, B; else one */
 #define CHUNK_ROWS 16          /* of ZIP */
 #define MARK "wrinkle:version" /* the attribute of a document's first part */
