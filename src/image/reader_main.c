@@ -1,7 +1,7 @@
 /* The reader process: reads untrusted image, mesh, font and SVG files, so that a hostile one harms nothing
    else. Its protocol is reader_protocol.h. It forks for each file, so that no file is affected by
    another one. The process itself reads only the first bytes of a file, to determine whether the image
-   library is needed. The library is loaded once: when a file needs it, or when the process is idle. */
+   library is needed. The library is loaded once: when a file needs it, or when no file comes at first. */
 #include "base/array.h"
 #include "base/error.h"
 #include "base/memory.h"
@@ -276,6 +276,7 @@ typedef struct Process {
     int signals; /* reports ended children */
     WR_ARRAY(Child) children;
     bool warm; /* the image library is loaded, as far as possible */
+    bool used; /* an order came */
 } Process;
 
 /* Silences output, starts a new session, leaves the current folder. */
@@ -311,6 +312,7 @@ static void warm(Process *process)
 static void start_child(Process *process, const WrWireOrder *order, int file, int channel)
 {
     WrPid self = wr_process_id();
+    process->used = true;
     if (process->children.count >= CHILDREN_MAX) {
         static const char full[] = "too many files are being read at once";
         wr_wire_send(channel, WR_WIRE_FAILED, full, sizeof full - 1, -1);
@@ -395,7 +397,8 @@ static void work(Process *process)
         for (int i = 0; i < process->children.count; i++)
             wr_array_push(&waited, ((WrWaited){ .fd = process->children.data[i].channel }));
         bool news;
-        const bool idle = !process->warm && process->children.count == 0;
+        /* started ahead of need, by the window; documents need no library */
+        const bool idle = !process->warm && !process->used;
         if (!wr_channel_wait_for_any(waited.data, waited.count, idle ? IDLE_MS : -1, &news))
             continue;
         if (!news) warm(process);
