@@ -63,6 +63,7 @@ typedef struct WrBrushKernels {
     /* True if any cover[i] < fresh[i]; true if any cover[i] < most. */
     bool (*grows)(const float *cover, const float *fresh, int count);
     bool (*below)(const float *cover, float most, int count);
+    float (*least)(const float *cover, int count); /* the smallest cover[i] */
     /* cover[i] = the larger of it and fresh[i] */
     void (*join)(float *cover, const float *fresh, int count);
 

@@ -3,6 +3,7 @@
 #include "brush/brush_kernels.h"
 
 #include <math.h>
+#include <string.h>
 #ifdef __AVX512F__
 #include <immintrin.h>
 #endif
@@ -363,6 +364,18 @@ static bool below(const float *cover, float most, int count)
     return any;
 }
 
+static float least(const float *cover, int count)
+{
+    float low[WR_BRUSH_BLOCK], all = cover[0];
+    memcpy(low, cover, sizeof low);
+    for (int b = WR_BRUSH_BLOCK; b < count; b += WR_BRUSH_BLOCK)
+#pragma omp simd
+        for (int i = 0; i < WR_BRUSH_BLOCK; i++)
+            low[i] = cover[b + i] < low[i] ? cover[b + i] : low[i];
+    for (int i = 0; i < WR_BRUSH_BLOCK; i++) all = low[i] < all ? low[i] : all;
+    return all;
+}
+
 static void join(float *restrict cover, const float *restrict fresh, int count)
 {
     for (int b = 0; b < count; b += WR_BRUSH_BLOCK)
@@ -392,6 +405,7 @@ const WrBrushKernels WR_SET_TABLE = {
     .flow = flow,
     .grows = grows,
     .below = below,
+    .least = least,
     .join = join,
     .add = add,
 };

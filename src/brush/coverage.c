@@ -337,7 +337,9 @@ void wr_stroke_resolve(const WrStrokeResolver *maker, const WrStrokeResolve *mak
 void wr_coverage_init(WrCoverage *cover, const WrBrushGround *ground, const WrBrush *brush,
                       WrCoverageRule rule)
 {
-    *cover = (WrCoverage){ .rule = rule, .tiles_u = wr_field_tiles_u(ground->field) };
+    *cover = (WrCoverage){ .rule = rule,
+                           .tiles_u = wr_field_tiles_u(ground->field),
+                           .strongest = HUGE_VAL };
     wr_stroke_resolver_init(&cover->maker, ground, brush);
     size_t tiles = (size_t)cover->tiles_u * (size_t)wr_field_tiles_v(ground->field);
     cover->pages = wr_alloc(tiles, sizeof(WrPage *));
@@ -373,12 +375,14 @@ static WrPage *page_of(WrCoverage *cover, int tx, int ty)
     return *slot;
 }
 
-/* Called for each tile before its texels are covered. */
+/* Called for each tile before its texels are covered. False if they cannot gain coverage: a large brush passes most of its tiles
+   again with every motion. */
 static bool prepare(void *ctx, int tx, int ty)
 {
     WrCoverage *cover = ctx;
     if (maker_closed(&cover->maker, tx, ty)) return false;
     WrPage *page = page_of(cover, tx, ty);
+    if ((double)page->least >= cover->strongest) return false;
     if (!page->listed) {
         page->listed = true;
         page->low_y = page->low_x = WR_TILE;
@@ -422,17 +426,40 @@ static bool gain(const WrCoverage *cover, WrPage *page, const WrDabShape *shape,
     return false;
 }
 
+/* An upper bound of a shape's coverage in the tile of that run: at a distance to the motion that no texel of the tile falls
+   below. The last factor is more than all rounding errors. */
+static float bound_in_tile(const WrDabShape *shape, const WrRun *run)
+{
+    const WrCapsule *c = &shape->capsule;
+    const double half = 0.5 * (WR_TILE - 1), diagonal = 44.6; /* > sqrt(2) half */
+    if (shape->kind != WR_SHAPE_DAB && shape->kind != WR_SHAPE_MOTION)
+        return (float)shape->strongest;
+    const double x = run->x - run->at % WR_TILE + half - c->x;
+    const double y = run->y - run->at / WR_TILE + half - c->y;
+    const double t = fmin(fmax((x * c->dx + y * c->dy) * c->inverse_length2, 0.0), 1.0);
+    const double ex = x - t * c->dx, ey = y - t * c->dy, d = sqrt(ex * ex + ey * ey) - diagonal;
+    if (d <= c->inner) return (float)shape->strongest;
+    const double s = fmax((c->radius - d) * c->inverse_edge, 0.0);
+    return (float)(shape->strongest * s * s * (3.0 - 2.0 * s) * (1.0 + 1e-12));
+}
+
 static void visit(void *ctx, const WrDabShape *shape, const WrScanPatch *patch)
 {
     WrCoverage *cover = ctx;
     WrPage *page = cover->pages[(size_t)patch->ty * (size_t)cover->tiles_u + (size_t)patch->tx];
+    const bool greatest = cover->rule == WR_COVERAGE_MAX;
+    bool any = false;
+    if (greatest && page->least >= bound_in_tile(shape, &patch->runs[0])) return;
     for (int k = 0; k < patch->count; k++)
-        if (gain(cover, page, shape, &patch->runs[k])) note(page, &patch->runs[k]);
+        if (gain(cover, page, shape, &patch->runs[k])) note(page, &patch->runs[k]), any = true;
+    if (greatest && any) page->least = shape->kernels->least(page->cover, WR_TILE * WR_TILE);
 }
 
 void wr_coverage_add(WrCoverage *cover, const WrDabShape *shape)
 {
+    if (cover->rule == WR_COVERAGE_MAX) cover->strongest = (double)(float)shape->strongest;
     wr_scan(cover->maker.ground.field, shape, cover->maker.ground.pool, prepare, visit, cover);
+    cover->strongest = HUGE_VAL;
 }
 
 void wr_coverage_add_texel(WrCoverage *cover, int x, int y, float c)

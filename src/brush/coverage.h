@@ -76,6 +76,7 @@ typedef struct WrPage {
     float *rest;                    /* for sums: rounding errors; owned, or NULL */
     float *target;                  /* owned, or NULL */
     int tx, ty;
+    float least; /* lower bound of `cover`, for WR_COVERAGE_MAX */
     bool listed; /* member of cover->changed */
     /* changed since the last resolve; high_x <= low_x: nothing; columns before high_x, rows up to
      * high_y */
@@ -86,7 +87,8 @@ typedef struct WrCoverage {
     WrStrokeResolver maker;
     WrCoverageRule rule;
     int tiles_u;
-    WrPage **pages; /* [tiles]; NULL: no coverage; owned */
+    double strongest; /* upper bound of the shape being added; infinite between shapes */
+    WrPage **pages;   /* [tiles]; NULL: no coverage; owned */
     WR_ARRAY(WrPage *) made, changed;
     WR_ARRAY(WrStrokeResolve) makes; /* scratch */
 } WrCoverage;

@@ -107,7 +107,8 @@ const WrSubcommand wr_subcommands[] = {
       "--sheet paints the same stroke with each and shows them lit, with their names.",
       wr_cli_brushes },
     { "bench",
-      "bench [PART...|all|generate|brushes|edits|promises|start|window] [--quick] [--exact] "
+      "bench [PART...|all|generate|brushes|edits|moments|promises|start|window] [--quick] "
+      "[--exact] "
       "[--lines] "
       "[--size "
       "WxH] "
@@ -117,6 +118,7 @@ const WrSubcommand wr_subcommands[] = {
       "gegl\n"
       "and oiiotool where they are installed, with brushes alone dabs beside libmypaint,\n"
       "with edits alone dabs among layers, and values dragged in one of 40 live layers,\n"
+      "with moments alone how soon large tables are seen after a change,\n"
       "with promises alone the time left that long commands say, beside what is left,\n"
       "with start alone the start, and opening and saving of a document,\n"
       "with window alone how soon a motion of the pen is seen. A PART alone:\n"

@@ -10,16 +10,16 @@
 #include <string.h>
 
 typedef struct Options {
-    bool lines, exact, quick, made, brushes, edits, promises, start, window;
+    bool lines, exact, quick, made, brushes, edits, moments, promises, start, window;
     uint64_t sections; /* bit i: wr_bench_section_table[i] */
 } Options;
 
 /* Section names, then the other words that `bench` accepts. */
 static const char *word_at(const void *ctx, int i)
 {
-    static const char *const others[] = { "generate", "brushes", "edits", "promises",
-                                          "start",    "window",  "all",   "--lines",
-                                          "--exact",  "--quick", NULL };
+    static const char *const others[] = { "generate", "brushes", "edits",   "moments",
+                                          "promises", "start",   "window",  "all",
+                                          "--lines",  "--exact", "--quick", NULL };
     (void)ctx;
     int parts = 0;
     while (wr_bench_section_table[parts].name) parts++;
@@ -51,6 +51,7 @@ static bool read_word(const char *word, Options *options, WrError *err)
     else if (strcmp(word, "generate") == 0) options->made = true;
     else if (strcmp(word, "brushes") == 0) options->brushes = true;
     else if (strcmp(word, "edits") == 0) options->edits = true;
+    else if (strcmp(word, "moments") == 0) options->moments = true;
     else if (strcmp(word, "promises") == 0) options->promises = true;
     else if (strcmp(word, "start") == 0) options->start = true;
     else if (strcmp(word, "window") == 0) options->window = true;
@@ -63,8 +64,8 @@ static bool read_options(const WrCli *cli, Options *options, WrError *err)
     *options = (Options){ .sections = 0 };
     for (int i = 0; i < cli->word_count; i++)
         if (!read_word(cli->words[i], options, err)) return false;
-    const int alone = options->made + options->brushes + options->edits + options->promises +
-                      options->start + options->window;
+    const int alone = options->made + options->brushes + options->edits + options->moments +
+                      options->promises + options->start + options->window;
     if (cli->json && !options->sections && !alone)
         options->sections = ~(uint64_t)0, options->lines = true;
     if (alone + (options->sections != 0) > 1)
@@ -72,18 +73,21 @@ static bool read_options(const WrCli *cli, Options *options, WrError *err)
                        options->made       ? "generate"
                        : options->brushes  ? "brushes"
                        : options->edits    ? "edits"
+                       : options->moments  ? "moments"
                        : options->promises ? "promises"
                        : options->start    ? "start"
                                            : "window");
     if (cli->json && options->brushes)
         return wr_fail(err, "bench: brushes has no --json; --lines is for programs");
-    if ((options->window || options->edits || options->promises || options->start) &&
+    if ((options->window || options->edits || options->moments || options->promises ||
+         options->start) &&
         (cli->json || options->lines))
         return wr_fail(err, "bench: %s has neither --json nor --lines",
-                       options->window  ? "window"
-                       : options->start ? "start"
-                       : options->edits ? "edits"
-                                        : "promises");
+                       options->window    ? "window"
+                       : options->start   ? "start"
+                       : options->edits   ? "edits"
+                       : options->moments ? "moments"
+                                          : "promises");
     if ((cli->sized && !options->sections) || (options->sections && options->lines && !cli->json))
         return wr_fail(err, cli->sized ? "bench: --size is of the parts: name one, or all"
                                        : "bench: --lines beside parts needs --json");
@@ -155,6 +159,7 @@ int wr_cli_bench(const WrCli *cli)
                 : options.made ? wr_bench_generate(cli, options.quick, options.lines, &text, &err)
                 : options.brushes  ? bench_brushes(cli, &options, &text, &err)
                 : options.edits    ? bench_edits(cli, options.quick, &text, &err)
+                : options.moments  ? wr_bench_moments(cli, options.quick, &text, &err)
                 : options.promises ? wr_bench_promises(cli, options.quick, &text, &err)
                 : options.start    ? wr_bench_start(cli, options.quick, &text, &err)
                 : options.window   ? wr_bench_window(cli, options.quick, &text, &err)

@@ -59,6 +59,8 @@ bool wr_bench_start(const WrCli *cli, bool quick, WrText *text, WrError *err);
 bool wr_bench_files(bool quick, WrText *text, WrError *err);
 /* Latency from a pen motion to its display in the window; empty in a build without a window. */
 bool wr_bench_window(const WrCli *cli, bool quick, WrText *text, WrError *err);
+/* Moments in which a user waits, on large tables; empty in a build without a window. */
+bool wr_bench_moments(const WrCli *cli, bool quick, WrText *text, WrError *err);
 /* Dabs of three radii beside libmypaint's: lines 'brush radius who table threads ms', or a table. */
 bool wr_bench_brush_lines(const WrCli *cli, bool quick, WrText *text, WrError *err);
 bool wr_bench_brush_table(const WrCli *cli, bool quick, WrText *text, WrError *err);

@@ -51,3 +51,21 @@ typedef struct WrAppLatency {
  * same, at 125 events per second of real time. Paints on the session's document. Reads and writes no settings. Error:
  * no window, no measurement, interrupted. */
 bool wr_app_latency(const WrAppOptions *options, WrAppLatency *latency, WrError *err);
+
+/* Milliseconds from a change to its display in a hidden window. */
+typedef struct WrAppMoments {
+    /* input */
+    const char *const *
+        lines; /* commands, NULL at the end, run in turns; NULL: the canvas is panned and zoomed instead */
+    int rounds;        /* changes, 1..10000 */
+    int width, height; /* of the window, pixels; 0: 1440 x 900 */
+    /* results */
+    WrAppDelays first;   /* the first frame of the canvas with the change */
+    WrAppDelays exact;   /* the first such frame in which nothing is approximate */
+    WrAppDelays preview; /* the patch shows the change; with lines only */
+} WrAppMoments;
+
+/* Measure changes in a hidden window (no display needed). With lines each change waits until everything is shown; pans
+ * and zooms are sent 60 times per second like a drag, and `exact` is the time from the last to the exact frame. Changes the session's document.
+ * Error: no window, a line fails, interrupted. */
+bool wr_app_moments(const WrAppOptions *options, WrAppMoments *moments, WrError *err);

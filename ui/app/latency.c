@@ -7,8 +7,10 @@
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/pointer_state.h"
 #include "ui/app/state/layout.h"
+#include "ui/app/state/background_command.h"
 #include "ui/app/state/registry.h"
 #include "ui/app/state/settings.h"
+#include "ui/canvas/view.h"
 #include "ui/patch/patch.h"
 #include "ui/canvas/tools/stroke_input.h"
 #include "ui/patch/preview/preview.h"
@@ -128,18 +130,22 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+/* Sorts `ms` in place. */
+static WrAppDelays percentiles(float *ms, int count)
+{
+    if (count == 0) return (WrAppDelays){ 0 };
+    qsort(ms, (size_t)count, sizeof *ms, ascending);
+    return (WrAppDelays){ (double)ms[count / 2], (double)ms[(int)(0.95 * count)],
+                          (double)ms[(int)(0.99 * count)], (double)ms[count - 1] };
+}
+
 static WrAppDelays summarise(const WrLatency *latency, int which)
 {
     float *ms = wr_alloc((size_t)latency->count, sizeof *ms);
     int count = 0;
     for (int64_t i = 0; i < latency->seen[which]; i++)
         if (latency->paints[i] || which == 0) ms[count++] = latency->delay[which][i];
-    WrAppDelays out = { 0 };
-    if (count > 0) {
-        qsort(ms, (size_t)count, sizeof *ms, ascending);
-        out = (WrAppDelays){ (double)ms[count / 2], (double)ms[(int)(0.95 * count)],
-                             (double)ms[(int)(0.99 * count)], (double)ms[count - 1] };
-    }
+    const WrAppDelays out = percentiles(ms, count);
     wr_free(ms);
     return out;
 }
@@ -287,6 +293,133 @@ bool wr_app_latency(const WrAppOptions *options, WrAppLatency *out, WrError *err
     wr_free(latency.at);
     wr_free(latency.paints);
     for (int k = 0; k < 3; k++) wr_free(latency.delay[k]);
+    return good;
+}
+
+/* ---- single changes ---- */
+
+#define MOVE_SECONDS (1.0 / 60.0) /* between two pans or zooms */
+#define MOMENT_SECONDS 30.0       /* limit for the display of one change */
+
+/* Delays of all changes, in ms. */
+typedef struct Moment {
+    WR_ARRAY(float) first, exact, preview;
+    double shown,
+        finished; /* clock of the newest frame, and of the newest exact one; 0: none since the change */
+} Moment;
+
+static Moment
+    *moment_now; /* of the running measurement: `drawn` has no other argument than the window */
+
+static void moment_drawn(WrApp *app)
+{
+    const double now = wr_clock_seconds();
+    if (moment_now->shown == 0.0) moment_now->shown = now;
+    if (moment_now->finished == 0.0 && !app->canvas_unfinished) moment_now->finished = now;
+}
+
+/* Step until everything is shown: canvas, patch and widgets. */
+static void rest(WrApp *app, double seconds)
+{
+    const double end = wr_clock_seconds() + seconds;
+    while (wr_clock_seconds() < end && !stopped(app) &&
+           (app->canvas_unfinished || app->busy || !wr_preview_settled(app->preview) ||
+            app->patch->outstanding))
+        step_for(app, 0.004);
+}
+
+static bool change_by_line(WrApp *app, Moment *moment, const char *line, WrError *err)
+{
+    rest(app, MOMENT_SECONDS);
+    step_for(app, 0.05);
+    const int64_t tag = ++app->hand->events;
+    const double start = wr_clock_seconds(), end = start + MOMENT_SECONDS;
+    moment->shown = moment->finished = 0.0;
+    if (!wr_app_run_line(app, line)) return wr_fail(err, "the window cannot run %s", line);
+    while ((moment->finished == 0.0 || app->patch->seen < tag) && wr_clock_seconds() < end) {
+        if (stopped(app)) return wr_fail(err, "interrupted");
+        wr_app_step(app);
+    }
+    wr_array_push(&moment->first, (float)((moment->shown - start) * 1e3));
+    wr_array_push(&moment->exact, (float)((moment->finished - start) * 1e3));
+    wr_array_push(&moment->preview, (float)((wr_clock_seconds() - start) * 1e3));
+    return true;
+}
+
+/* Pans and zooms between the whole table and a third of its size, about a moving point. */
+static void move_view(WrApp *app, int i)
+{
+    WrCanvasView *view = app->view;
+    const double x = view->x + view->w * (0.5 + 0.3 * sin(0.7 * i)),
+                 y = view->y + view->h * (0.5 + 0.3 * cos(0.9 * i));
+    if (i % 40 < 20) wr_view_pan(view, 11.0 + i % 7, 5.0 - i % 11);
+    else wr_view_zoom_at(view, x, y, view->zoom * (i % 80 < 40 ? 1.06 : 1.0 / 1.06));
+    wr_app_redraw(app);
+}
+
+static bool change_view(WrApp *app, Moment *moment, int i, WrError *err)
+{
+    const double start = wr_clock_seconds();
+    moment->shown = moment->finished = 0.0;
+    move_view(app, i);
+    while (moment->shown == 0.0 || wr_clock_seconds() < start + MOVE_SECONDS) {
+        if (stopped(app)) return wr_fail(err, "interrupted");
+        if (moment->shown == 0.0) wr_app_step(app);
+        else step_for(app, 0.001);
+    }
+    wr_array_push(&moment->first, (float)((moment->shown - start) * 1e3));
+    return true;
+}
+
+static bool measure_moments(WrApp *app, Moment *moment, const WrAppMoments *wanted, WrError *err)
+{
+    int lines = 0;
+    while (wanted->lines && wanted->lines[lines]) lines++;
+    step_for(app, SETTLE_SECONDS);
+    rest(app, MAX_SECONDS);
+    app->hand->events = app->brush->taken = app->brush->shown = app->patch->seen = 0;
+    for (int i = 0; i < wanted->rounds; i++)
+        if (!(lines ? change_by_line(app, moment, wanted->lines[i % lines], err)
+                    : change_view(app, moment, i, err)))
+            return false;
+    if (lines) return true;
+    const double start = wr_clock_seconds();
+    rest(app, MOMENT_SECONDS);
+    wr_array_push(&moment->exact, (float)((wr_clock_seconds() - start) * 1e3));
+    return true;
+}
+
+bool wr_app_moments(const WrAppOptions *options, WrAppMoments *out, WrError *err)
+{
+    if (!(out->rounds >= 1 && out->rounds <= 10000))
+        return wr_fail(err, "%d changes: must be 1..10000", out->rounds);
+    WrLatency latency = { 0 };
+    Moment moment = { 0 };
+    WrAppOptions own = *options;
+    own.width = out->width > 0 ? out->width : 1440;
+    own.height = out->height > 0 ? out->height : 900;
+    own.file_given = true;
+    WrApp *app = wr_store_new();
+    app->options = &own;
+    app->session = options->session;
+    app->latency = &latency;
+    app->drawn = moment_drawn;
+    app->started_at = wr_clock_seconds();
+    moment_now = &moment;
+    SDL_SetHint(SDL_HINT_VIDEODRIVER, "dummy");
+    bool good = wr_app_begin(app, err);
+    if (good) {
+        app->settings->turning = false;
+        good = measure_moments(app, &moment, out, err);
+    }
+    out->first = percentiles(moment.first.data, moment.first.count);
+    out->exact = percentiles(moment.exact.data, moment.exact.count);
+    out->preview = percentiles(moment.preview.data, moment.preview.count);
+    wr_app_end(app);
+    wr_free(app);
+    wr_array_free(&moment.first);
+    wr_array_free(&moment.exact);
+    wr_array_free(&moment.preview);
     return good;
 }
 

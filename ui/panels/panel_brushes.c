@@ -79,11 +79,13 @@ static void find_groups(WrApp *app, Groups *g)
 static bool belongs(const WrApp *app, const Groups *g, const WrStockItem *item)
 {
     int group = app->shelf->group[app->shelf->kind];
-    char text[700];
-    snprintf(text, sizeof text, "%s %s %s", item->name, item->group, item->words);
-    for (char *c = text; *c; c++)
-        if (*c == '_' || *c == '-' || *c == '/') *c = ' ';
-    if (app->shelf->search[0]) return wr_search_score(text, app->shelf->search) > 0;
+    if (app->shelf->search[0]) {
+        char text[700];
+        snprintf(text, sizeof text, "%s %s %s", item->name, item->group, item->words);
+        for (char *c = text; *c; c++)
+            if (*c == '_' || *c == '-' || *c == '/') *c = ' ';
+        return wr_search_score(text, app->shelf->search) > 0;
+    }
     if (group == 0) return true;
     if (group == 1) return wr_settings_find_favourite(app->settings, item->id) >= 0;
     return group >= FIXED_GROUPS && group < g->count && same(g->texts[group], item->group);

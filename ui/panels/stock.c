@@ -65,7 +65,9 @@ static SDL_Texture *brush_picture(WrApp *app, int index, int side)
 
 static bool brush_chosen(WrApp *app, int index)
 {
-    return wr_preset_browser_find(app, wr_preset_browser_chosen(app)) == index - 1;
+    const char *chosen = wr_preset_browser_chosen(app);
+    if (index == 0) return strcmp(chosen, WR_ROUND) == 0;
+    return strcmp(wr_library_entry(wr_preset_browser_library(app), index - 1)->id, chosen) == 0;
 }
 
 static void brush_choose(WrApp *app, int index)
