@@ -126,7 +126,7 @@ static Shown show_new(void)
 {
     Shown s = { .surface =
                     SDL_CreateRGBSurfaceWithFormat(0, WIDE, TALL, 32, SDL_PIXELFORMAT_ARGB8888),
-                .canvas = wr_canvas_new() };
+                .canvas = wr_canvas_new(2) };
     s.renderer = SDL_CreateSoftwareRenderer(s.surface);
     assert_non_null(s.renderer);
     s.kept = wr_retained_frame_new(s.renderer);

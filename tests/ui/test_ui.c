@@ -646,7 +646,7 @@ static void means_of_cut_off_tiles_count_only_what_is_inside(void **state)
     assert_near((double)mean[9], 11.5 + 1000 * 11.5, 1e-2);
     assert_false(wr_canvas_mips_rough(cells));
     float low, high;
-    wr_canvas_mips_range(cells, &low, &high);
+    wr_canvas_mips_range(cells, NULL, &low, &high);
     assert_near((double)low, 0, 0);
     assert_near((double)high, 69099, 0);
     wr_canvas_mips_free(cells);
@@ -663,14 +663,14 @@ static void an_edit_is_seen_and_costs_its_tile_alone(void **state)
     wr_canvas_mips_update(cells, field, 2, count_tile, &changes);
     assert_null(wr_canvas_mips_block(cells, 3, 5, 1e300, &flat));
     assert_near((double)flat, 0.25, 0);
-    wr_canvas_mips_range(cells, &low, &high);
+    wr_canvas_mips_range(cells, NULL, &low, &high);
     wr_field_set(field, 3 * 64 + 7, 5 * 64 + 9, 16.25f);
     assert_true(wr_canvas_mips_update(cells, field, 2, count_tile, &changes));
     assert_int_equal(changes, 1);
     const float *mean = wr_canvas_mips_block(cells, 3, 5, 1e300, &flat);
     assert_near((double)mean[16 * 2 + 1], 1.25, 1e-6); /* one of 16 texels is 16 higher */
     assert_near((double)mean[0], 0.25, 0);
-    wr_canvas_mips_range(cells, &low, &high);
+    wr_canvas_mips_range(cells, NULL, &low, &high);
     assert_near((double)high, 16.25, 0);
     assert_true(wr_canvas_mips_update(cells, field, 2, count_tile, &changes));
     assert_int_equal(changes, 1); /* nothing changed since */
@@ -694,7 +694,7 @@ static void the_range_follows_every_edit(void **state)
         wr_field_set(field, place[0], place[1], (float)(3 * test_random(&r) - 1.4));
         wr_canvas_mips_update(cells, field, 1, count_tile, &changes);
         float low, high, least, most;
-        wr_canvas_mips_range(cells, &low, &high);
+        wr_canvas_mips_range(cells, NULL, &low, &high);
         wr_field_range(field, &least, &most);
         assert_true(low == least && high == most);
     }

@@ -111,7 +111,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
     app->marks->outliner = wr_outliner_new(app->options->threads, app->job_event);
     app->layers->dragged = app->layers->renamed = app->layers->eyes_from = -1;
     app->history->dragged = app->history->menu = -1;
-    app->canvas = wr_canvas_new();
+    app->canvas = wr_canvas_new(app->options->threads);
     app->canvas_map = wr_canvas_map_new(app->options->threads, app->job_event);
     app->canvas_second = wr_canvas_map_new(app->options->threads, app->job_event);
     app->preview = wr_preview_new(app->options->threads, app->options->isa, app->ready_event);

@@ -56,7 +56,7 @@ typedef struct WrCanvasRange {
     double table_low, table_high; /* range of the table */
 } WrCanvasRange;
 
-WrCanvas *wr_canvas_new(void);
+WrCanvas *wr_canvas_new(int threads);  /* as in wr_pool_new; they start with the first picture */
 void wr_canvas_free(WrCanvas *canvas); /* must be freed before the renderer; NULL is allowed */
 
 /* Height difference between two contour lines. */

@@ -2,6 +2,7 @@
 
 #include "base/array.h"
 #include "base/memory.h"
+#include "base/pool.h"
 #include "field/field.h"
 #include "system/clock.h"
 
@@ -10,19 +11,24 @@
 
 /* size limit of the means in bytes; beyond it the cache is cleared */
 #define CACHE_LIMIT (96u << 20)
+#define BASE 2 /* level that is kept for all tiles, whatever is shown */
+#define BASE_SIDE (WR_TILE >> BASE)
+#define MANY_TILES 256 /* number worth several threads */
 
 typedef struct Block {
-    float *mean; /* owned; NULL until first used (and always at level 0) */
+    float *mean; /* owned; NULL until first used (and always at levels 0 and BASE) */
     bool rough;
 } Block;
 
 struct WrCanvasMips {
     WrField *field; /* shared */
     int level, tiles_u, tiles_v;
-    Block *blocks;               /* [tiles_v * tiles_u] */
-    size_t bytes;                /* size of the means */
-    bool rough;                  /* some returned block was rough */
-    float *tile_low, *tile_high; /* [tiles_v * tiles_u]; NULL until the range is requested */
+    Block *blocks; /* [tiles_v * tiles_u] */
+    size_t bytes;  /* size of the means */
+    bool rough;    /* some returned block was rough */
+    /* of tiles that have been read, each once after a change; NULL until the range is requested */
+    float *base;                 /* [tiles_v * tiles_u][BASE_SIDE * BASE_SIDE] means */
+    float *tile_low, *tile_high; /* [tiles_v * tiles_u] */
     bool *tile_known;
     float *row_low, *row_high; /* ranges of the rows of tiles, [tiles_v] */
     bool *row_known;           /* the range of each of its tiles is known */
@@ -48,6 +54,7 @@ static void drop_all(WrCanvasMips *cells)
 {
     drop_blocks(cells);
     wr_free(cells->blocks);
+    wr_free(cells->base);
     wr_free(cells->tile_low);
     wr_free(cells->tile_high);
     wr_free(cells->tile_known);
@@ -108,22 +115,21 @@ bool wr_canvas_mips_update(WrCanvasMips *cells, const WrField *field, int level,
     return !another;
 }
 
-/* Means over squares of 2^level texels; squares at the table's edge contain only texels inside. */
-static void make_means(const WrCanvasMips *cells, int tx, int ty, const float *tile, float *mean)
+/* Means over squares of 2^level texels; squares at the table's edge contain only the w x h texels inside. Rows are summed first,
+   in vectors: the unused texels beyond the edge are finite. */
+static void make_means(int level, int w, int h, const float *tile, float *mean)
 {
-    int step = 1 << cells->level, side = WR_TILE >> cells->level;
-    int w = wr_field_width(cells->field) - tx * WR_TILE;
-    int h = wr_field_height(cells->field) - ty * WR_TILE;
-    w = w < WR_TILE ? w : WR_TILE;
-    h = h < WR_TILE ? h : WR_TILE;
-    for (int j = 0; j < side; j++) {
-        int y0 = j * step, y1 = y0 + step < h ? y0 + step : h;
-        for (int i = 0; i < side; i++) {
-            int x0 = i * step, x1 = x0 + step < w ? x0 + step : w;
-            if (x0 >= x1 || y0 >= y1) continue; /* never used */
+    const int step = 1 << level, side = WR_TILE >> level;
+    for (int j = 0; j < side && j * step < h; j++) {
+        const int y0 = j * step, y1 = y0 + step < h ? y0 + step : h;
+        float sums[WR_TILE];
+        memcpy(sums, tile + WR_TILE * y0, sizeof sums);
+        for (int y = y0 + 1; y < y1; y++)
+            for (int x = 0; x < WR_TILE; x++) sums[x] += tile[WR_TILE * y + x];
+        for (int i = 0; i < side && i * step < w; i++) {
+            const int x0 = i * step, x1 = x0 + step < w ? x0 + step : w;
             float sum = 0.0f;
-            for (int y = y0; y < y1; y++)
-                for (int x = x0; x < x1; x++) sum += tile[WR_TILE * y + x];
+            for (int x = x0; x < x1; x++) sum += sums[x];
             mean[side * j + i] = sum / (float)((x1 - x0) * (y1 - y0));
         }
     }
@@ -137,9 +143,57 @@ static void make_rough(const WrCanvasMips *cells, const float *tile, float *mean
         for (int i = 0; i < side; i++) mean[side * j + i] = tile[WR_TILE * step * j + step * i];
 }
 
+/* Number of the tile's texels inside the table along one axis. */
+static int inside(int t, int size)
+{
+    const int rest = size - t * WR_TILE;
+    return rest < WR_TILE ? rest : WR_TILE;
+}
+
+/* True if blocks of the tile come from its means of level BASE. */
+static bool has_base(const WrCanvasMips *cells, int tx, int ty)
+{
+    return cells->level >= BASE && cells->tile_known &&
+           cells->tile_known[ty * cells->tiles_u + tx] &&
+           inside(tx, wr_field_width(cells->field)) == WR_TILE &&
+           inside(ty, wr_field_height(cells->field)) == WR_TILE;
+}
+
+/* Means of means: a sixteenth of the memory to read. */
+static void make_from_base(const WrCanvasMips *cells, int at, float *mean)
+{
+    const float *base = cells->base + (size_t)at * (BASE_SIDE * BASE_SIDE);
+    const int side = WR_TILE >> cells->level, step = 1 << (cells->level - BASE);
+    for (int j = 0; j < side; j++)
+        for (int i = 0; i < side; i++) {
+            float sum = 0.0f;
+            for (int y = j * step; y < (j + 1) * step; y++)
+                for (int x = i * step; x < (i + 1) * step; x++) sum += base[BASE_SIDE * y + x];
+            mean[side * j + i] = sum / (float)(step * step);
+        }
+}
+
+static void make_block(WrCanvasMips *cells, int tx, int ty, const float *tile, bool late)
+{
+    const int at = ty * cells->tiles_u + tx, side = WR_TILE >> cells->level;
+    const int w = inside(tx, wr_field_width(cells->field));
+    const int h = inside(ty, wr_field_height(cells->field));
+    Block *block = &cells->blocks[at];
+    if (!block->mean) {
+        block->mean = wr_alloc((size_t)(side * side), sizeof(float));
+        __atomic_fetch_add(&cells->bytes, (size_t)(side * side) * sizeof(float) + WR_ALIGN,
+                           __ATOMIC_RELAXED);
+    }
+    block->rough = late;
+    if (late) make_rough(cells, tile, block->mean);
+    else if (has_base(cells, tx, ty)) make_from_base(cells, at, block->mean);
+    else make_means(cells->level, w, h, tile, block->mean);
+}
+
 const float *wr_canvas_mips_block(WrCanvasMips *cells, int tx, int ty, double deadline, float *flat)
 {
-    Block *block = &cells->blocks[ty * cells->tiles_u + tx];
+    const int at = ty * cells->tiles_u + tx;
+    const Block *block = &cells->blocks[at];
     if (block->mean && !block->rough) return block->mean;
     const float *tile = wr_field_tile(cells->field, tx, ty);
     if (!tile) {
@@ -147,24 +201,37 @@ const float *wr_canvas_mips_block(WrCanvasMips *cells, int tx, int ty, double de
         return NULL;
     }
     if (cells->level == 0) return tile;
-    bool late = wr_clock_seconds() > deadline;
-    if (block->mean && late) {
-        cells->rough = true;
-        return block->mean;
-    }
-    size_t side = (size_t)(WR_TILE >> cells->level);
-    if (!block->mean) {
-        block->mean = wr_alloc(side * side, sizeof(float));
-        cells->bytes += side * side * sizeof(float) + WR_ALIGN;
-    }
-    block->rough = late;
-    if (late) {
-        make_rough(cells, tile, block->mean);
-        cells->rough = true;
-    } else {
-        make_means(cells, tx, ty, tile, block->mean);
-    }
+    const bool based = has_base(cells, tx, ty);
+    if (based && cells->level == BASE) return cells->base + (size_t)at * (BASE_SIDE * BASE_SIDE);
+    const bool late = !based && wr_clock_seconds() > deadline;
+    if (late) __atomic_store_n(&cells->rough, true, __ATOMIC_RELAXED);
+    if (!block->mean || !late) make_block(cells, tx, ty, tile, late);
     return block->mean;
+}
+
+/* ---- several threads ---- */
+
+typedef struct Work {
+    WrCanvasMips *cells;
+    const bool *columns, *rows;
+    double deadline;
+} Work;
+
+static void make_row(int ty, int worker, void *ctx)
+{
+    const Work *work = ctx;
+    float flat;
+    (void)worker;
+    if (!work->rows[ty]) return;
+    for (int tx = 0; tx < work->cells->tiles_u; tx++)
+        if (work->columns[tx]) wr_canvas_mips_block(work->cells, tx, ty, work->deadline, &flat);
+}
+
+void wr_canvas_mips_prepare(WrCanvasMips *cells, const bool *columns, const bool *rows,
+                            double deadline, WrPool *pool)
+{
+    Work work = { cells, columns, rows, deadline };
+    wr_pool_run(pool, cells->tiles_v, make_row, &work);
 }
 
 bool wr_canvas_mips_rough(const WrCanvasMips *cells)
@@ -177,25 +244,35 @@ void wr_canvas_mips_forget_rough(WrCanvasMips *cells)
     cells->rough = false;
 }
 
-static void tile_range(const WrCanvasMips *cells, int tx, int ty, float *low, float *high)
+/* Read a tile: range, and means of level BASE. In 64 columns of vectors; the last ones in part, at the table's edge. */
+static void read_tile(const WrCanvasMips *cells, int tx, int ty)
 {
+    const int at = ty * cells->tiles_u + tx;
+    const int w = inside(tx, wr_field_width(cells->field));
+    const int h = inside(ty, wr_field_height(cells->field));
     const float *tile = wr_field_tile(cells->field, tx, ty);
-    *low = *high = tile ? tile[0] : wr_field_level(cells->field);
+    float low[WR_TILE], high[WR_TILE];
+    cells->tile_low[at] = cells->tile_high[at] = tile ? tile[0] : wr_field_level(cells->field);
     if (!tile) return;
-    int w = wr_field_width(cells->field) - tx * WR_TILE;
-    int h = wr_field_height(cells->field) - ty * WR_TILE;
-    for (int y = 0; y < WR_TILE && y < h; y++) {
-        for (int x = 0; x < WR_TILE && x < w; x++) {
-            float f = tile[WR_TILE * y + x];
-            *low = f < *low ? f : *low;
-            *high = f > *high ? f : *high;
+    memcpy(low, tile, sizeof low);
+    memcpy(high, tile, sizeof high);
+    for (int y = 1; y < h; y++)
+        for (int x = 0; x < WR_TILE; x++) {
+            const float f = tile[WR_TILE * y + x];
+            low[x] = f < low[x] ? f : low[x];
+            high[x] = f > high[x] ? f : high[x];
         }
+    for (int x = 0; x < w; x++) {
+        cells->tile_low[at] = low[x] < cells->tile_low[at] ? low[x] : cells->tile_low[at];
+        cells->tile_high[at] = high[x] > cells->tile_high[at] ? high[x] : cells->tile_high[at];
     }
+    make_means(BASE, w, h, tile, cells->base + (size_t)at * (BASE_SIDE * BASE_SIDE));
 }
 
 static void make_ranges(WrCanvasMips *cells)
 {
     const size_t rows = (size_t)cells->tiles_v, tiles = (size_t)cells->tiles_u * rows;
+    cells->base = wr_alloc(tiles * BASE_SIDE * BASE_SIDE, sizeof(float));
     cells->tile_known = wr_alloc(tiles, sizeof(bool));
     cells->tile_low = wr_alloc(tiles, sizeof(float));
     cells->tile_high = wr_alloc(tiles, sizeof(float));
@@ -205,13 +282,15 @@ static void make_ranges(WrCanvasMips *cells)
 }
 
 /* Update the range of a row from its changed tiles. */
-static void row_range(WrCanvasMips *cells, int ty)
+static void read_row(int ty, int worker, void *ctx)
 {
+    WrCanvasMips *cells = ctx;
     float low = INFINITY, high = -INFINITY;
+    (void)worker;
+    if (cells->row_known[ty]) return;
     for (int tx = 0; tx < cells->tiles_u; tx++) {
         const size_t i = (size_t)ty * (size_t)cells->tiles_u + (size_t)tx;
-        if (!cells->tile_known[i])
-            tile_range(cells, tx, ty, &cells->tile_low[i], &cells->tile_high[i]);
+        if (!cells->tile_known[i]) read_tile(cells, tx, ty);
         cells->tile_known[i] = true;
         low = cells->tile_low[i] < low ? cells->tile_low[i] : low;
         high = cells->tile_high[i] > high ? cells->tile_high[i] : high;
@@ -221,11 +300,15 @@ static void row_range(WrCanvasMips *cells, int ty)
     cells->row_known[ty] = true;
 }
 
-void wr_canvas_mips_range(WrCanvasMips *cells, float *low, float *high)
+void wr_canvas_mips_range(WrCanvasMips *cells, WrPool *pool, float *low, float *high)
 {
+    int fresh = 0;
     if (!cells->tile_known) make_ranges(cells);
+    for (int ty = 0; ty < cells->tiles_v; ty++) fresh += !cells->row_known[ty];
+    if (fresh > 0)
+        wr_pool_run(fresh * cells->tiles_u >= MANY_TILES ? pool : NULL, cells->tiles_v, read_row,
+                    cells);
     for (int ty = 0; ty < cells->tiles_v; ty++) {
-        if (!cells->row_known[ty]) row_range(cells, ty);
         if (ty == 0 || cells->row_low[ty] < *low) *low = cells->row_low[ty];
         if (ty == 0 || cells->row_high[ty] > *high) *high = cells->row_high[ty];
     }

@@ -8,6 +8,7 @@
 #define WR_CANVAS_MIPS_LEVEL_MAX 6 /* one value per tile */
 
 typedef struct WrCanvasMips WrCanvasMips;
+typedef struct WrPool WrPool;
 
 WrCanvasMips *wr_canvas_mips_new(void);
 void wr_canvas_mips_free(WrCanvasMips *cells);
@@ -26,8 +27,14 @@ const float *wr_canvas_mips_block(WrCanvasMips *cells, int tx, int ty, double de
 bool wr_canvas_mips_rough(const WrCanvasMips *cells);
 void wr_canvas_mips_forget_rough(WrCanvasMips *cells); /* before the next update */
 
-/* Smallest and largest height of the field; only tiles changed since the last call are read. */
-void wr_canvas_mips_range(WrCanvasMips *cells, float *low, float *high);
+/* wr_canvas_mips_block of all tiles in the marked columns [tiles_u] and rows [tiles_v], on the threads of `pool` (NULL: this
+ * one). Several threads may then call wr_canvas_mips_block for them with a deadline in the past. */
+void wr_canvas_mips_prepare(WrCanvasMips *cells, const bool *columns, const bool *rows,
+                            double deadline, WrPool *pool);
+
+/* Smallest and largest height of the field; only tiles changed since the last call are read, once for their range and for
+ * the means of all levels from 2. pool: for many tiles; NULL: this thread. */
+void wr_canvas_mips_range(WrCanvasMips *cells, WrPool *pool, float *low, float *high);
 
 /* Weights of the cells under one row or column of pixels: the exact box filter over the pixel's footprint. */
 #define WR_TAPS 4
