@@ -186,6 +186,8 @@ void wr_stroke_add(WrStroke *stroke, WrSample sample);
    bits do not depend on the division of work. */
 void wr_stroke_push(WrStroke *stroke, WrSample sample);
 bool wr_stroke_work(WrStroke *stroke, double seconds);
+/* Number of samples, from the first, that the heights hold; the last one of them at least. */
+int64_t wr_stroke_drawn(const WrStroke *stroke);
 /* Draws the rest, and a deferred sample, so that the stroke ends at the pen's position; the heights
    remain. NULL is allowed. */
 void wr_stroke_finish(WrStroke *stroke);

@@ -331,8 +331,9 @@ void wr_stroke_resolve(const WrStrokeResolver *maker, const WrStrokeResolve *mak
     }
 }
 
-#define MANY_PAGES 64 /* number worth several threads */
-#define FEW_PAGES 8   /* between checks of the clock */
+#define MANY_PAGES 64  /* number worth several threads */
+#define FEW_PAGES 8    /* between checks of the clock */
+#define POOL_PAGES 256 /* the same, by several threads */
 
 void wr_coverage_init(WrCoverage *cover, const WrBrushGround *ground, const WrBrush *brush,
                       WrCoverageRule rule)
@@ -348,6 +349,7 @@ void wr_coverage_init(WrCoverage *cover, const WrBrushGround *ground, const WrBr
 void wr_coverage_fini(WrCoverage *cover)
 {
     for (int i = 0; i < cover->made.count; i++) {
+        wr_field_tile_free(cover->made.data[i]->cover);
         wr_free(cover->made.data[i]->rest);
         wr_free(cover->made.data[i]->target);
         wr_free(cover->made.data[i]);
@@ -368,6 +370,8 @@ static WrPage *page_of(WrCoverage *cover, int tx, int ty)
         *slot = wr_alloc(1, sizeof **slot);
         (*slot)->tx = tx;
         (*slot)->ty = ty;
+        (*slot)->cover = wr_field_tile_make();
+        memset((*slot)->cover, 0, WR_TILE * WR_TILE * sizeof(float));
         if (cover->rule == WR_COVERAGE_SUM)
             (*slot)->rest = wr_alloc(WR_TILE * WR_TILE, sizeof(float));
         wr_array_push(&cover->made, *slot);
@@ -543,7 +547,7 @@ bool wr_coverage_make(WrCoverage *cover, double until)
 {
     while (cover->changed.count > 0) {
         bool pool = cover->maker.ground.pool && cover->changed.count >= MANY_PAGES;
-        int most = until == HUGE_VAL ? cover->changed.count : pool ? MANY_PAGES : FEW_PAGES;
+        int most = until == HUGE_VAL ? cover->changed.count : pool ? POOL_PAGES : FEW_PAGES;
         make_some(cover, most < cover->changed.count ? most : cover->changed.count);
         if (until < HUGE_VAL && wr_clock_seconds() >= until) break;
     }

@@ -72,9 +72,10 @@ typedef enum WrCoverageRule {
 } WrCoverageRule;
 
 typedef struct WrPage {
-    float cover[WR_TILE * WR_TILE]; /* unused texels of the last tiles stay 0 */
-    float *rest;                    /* for sums: rounding errors; owned, or NULL */
-    float *target;                  /* owned, or NULL */
+    float *
+        cover; /* a tile, owned: memory that tables have left is used first; unused texels of the last tiles stay 0 */
+    float *rest;   /* for sums: rounding errors; owned, or NULL */
+    float *target; /* owned, or NULL */
     int tx, ty;
     float least; /* lower bound of `cover`, for WR_COVERAGE_MAX */
     bool listed; /* member of cover->changed */

@@ -1,5 +1,6 @@
 #include "brush/footprint_scan.h"
 
+#include "base/array.h"
 #include "base/memory.h"
 #include "base/pool.h"
 #include "field/field.h"
@@ -7,7 +8,7 @@
 #include <math.h>
 
 #define SMALL 12.0    /* texels: for a smaller reach all rows use one span, which costs less */
-#define MANY_TILES 12 /* in a row of tiles; number worth several threads */
+#define MANY_TILES 12 /* across; number worth several threads */
 
 static double clamp(double value, double low, double high)
 {
@@ -101,81 +102,117 @@ static void patch_of(const Band *band, int i, int count, int texel, WrScanPatch 
     }
 }
 
-/* Tiles of one band, for several threads. */
-typedef struct Crew {
+/* The part of a band in one tile. */
+typedef struct Piece {
     const Band *band;
+    int i, count, texel;
+} Piece;
+
+/* What all pieces of one scan share. */
+typedef struct Scan {
+    const WrField *field;
     const WrDabShape *shape;
+    WrWindow columns, rows;
+    WrPrepare prepare;
     WrVisit visit;
     void *ctx;
-    struct Piece {
-        int i, count, texel;
-    } pieces[2 * WR_FIELD_MAX / WR_TILE];
-    int count;
-} Crew;
+    WR_ARRAY(Piece) pieces, later; /* for several threads; for this one afterwards */
+} Scan;
+
+static void visit_piece(const Scan *scan, const Piece *piece)
+{
+    WrScanPatch patch;
+    patch_of(piece->band, piece->i, piece->count, piece->texel, &patch);
+    if (patch.count) scan->visit(scan->ctx, scan->shape, &patch);
+}
 
 static void work(int index, int worker, void *ctx)
 {
     (void)worker;
-    const Crew *crew = ctx;
-    const struct Piece *piece = &crew->pieces[index];
-    WrScanPatch patch;
-    patch_of(crew->band, piece->i, piece->count, piece->texel, &patch);
-    if (patch.count) crew->visit(crew->ctx, crew->shape, &patch);
+    const Scan *scan = ctx;
+    visit_piece(scan, &scan->pieces.data[index]);
 }
 
-/* A motion longer than a period meets a tile twice: then tiles are processed sequentially. */
-static bool many(const Band *band, const WrPool *pool, const WrDabShape *shape)
+/* The band from row j on. */
+static Band begin_band(const Scan *scan, int j)
 {
-    int reach = band->all.high - band->all.low + 1;
-    return pool && wr_pool_threads(pool) > 1 && reach >= MANY_TILES * WR_TILE &&
-           band->count >= WR_TILE / 2 && shape->kind != WR_SHAPE_TEXEL && reach <= band->width;
+    const WrField *field = scan->field;
+    Band band = { .j = j, .width = wr_field_width(field) };
+    band.whole =
+        wr_field_wrap_u(field) == WR_WRAP_PERIODIC && scan->shape->reach_x >= 0.5 * band.width;
+    band.count = wr_tile_run(j, scan->rows.high, wr_field_height(field), &band.texel);
+    find_spans(&band, scan->shape, scan->columns);
+    return band;
 }
 
-static void scan_band(const Band *band, const WrDabShape *shape, WrPool *pool, WrPrepare prepare,
-                      WrVisit visit, void *ctx)
+/* The next prepared piece of a band from column *i on; false at its end. */
+static bool next_piece(const Scan *scan, const Band *band, int *i, Piece *piece)
 {
-    Crew crew;
-    crew.count = 0;
-    bool together = many(band, pool, shape);
-    for (int i = band->all.low; i <= band->all.high;) {
-        int texel, count = wr_tile_run(i, band->all.high, band->width, &texel);
-        if (!prepare || prepare(ctx, texel / WR_TILE, band->texel / WR_TILE)) {
-            if (together) {
-                crew.pieces[crew.count++] = (struct Piece){ i, count, texel };
-            } else {
-                WrScanPatch patch;
-                patch_of(band, i, count, texel, &patch);
-                if (patch.count) visit(ctx, shape, &patch);
-            }
-        }
-        i += count;
+    while (*i <= band->all.high) {
+        *piece = (Piece){ .band = band, .i = *i };
+        piece->count = wr_tile_run(*i, band->all.high, band->width, &piece->texel);
+        *i += piece->count;
+        if (!scan->prepare ||
+            scan->prepare(scan->ctx, piece->texel / WR_TILE, band->texel / WR_TILE))
+            return true;
     }
-    if (!crew.count) return;
-    crew.band = band;
-    crew.shape = shape;
-    crew.visit = visit;
-    crew.ctx = ctx;
-    const struct Piece *first = &crew.pieces[0], *last = &crew.pieces[crew.count - 1];
-    bool meet = crew.count > 1 && first->texel / WR_TILE == last->texel / WR_TILE;
-    wr_pool_run(pool, crew.count - meet, work, &crew);
-    if (meet) work(crew.count - 1, 0, &crew); /* the two ends of a period share a tile */
+    return false;
+}
+
+/* True for shapes of many tiles. A motion longer than a period meets a tile twice: then tiles are processed sequentially. */
+static bool many(const Scan *scan, const WrPool *pool)
+{
+    const int wide = scan->columns.high - scan->columns.low + 1;
+    const int tall = scan->rows.high - scan->rows.low + 1;
+    return pool && wr_pool_threads(pool) > 1 && wide >= MANY_TILES * WR_TILE &&
+           tall >= WR_TILE / 2 && scan->shape->kind != WR_SHAPE_TEXEL &&
+           wide <= wr_field_width(scan->field) && tall <= wr_field_height(scan->field);
+}
+
+/* All tiles of the shape at once: threads are awoken once for a motion. The ends of a period share tiles, which follow. */
+static void scan_together(Scan *scan, WrPool *pool)
+{
+    const int most = (scan->rows.high - scan->rows.low) / WR_TILE + 3;
+    Band *bands = wr_alloc((size_t)most, sizeof *bands), *band = bands;
+    for (int j = scan->rows.low; j <= scan->rows.high; j += (band++)->count) {
+        Piece piece;
+        *band = begin_band(scan, j);
+        const bool again = band > bands && band->texel / WR_TILE == bands->texel / WR_TILE;
+        int i = band->all.low, texel;
+        if (i > band->all.high) continue;
+        wr_tile_run(i, i, band->width, &texel);
+        for (const int first = i; next_piece(scan, band, &i, &piece);) {
+            const bool meet = piece.i > first && piece.texel / WR_TILE == texel / WR_TILE;
+            if (again || meet) wr_array_push(&scan->later, piece);
+            else wr_array_push(&scan->pieces, piece);
+        }
+    }
+    wr_pool_run(pool, scan->pieces.count, work, scan);
+    for (int i = 0; i < scan->later.count; i++) visit_piece(scan, &scan->later.data[i]);
+    wr_array_free(&scan->pieces);
+    wr_array_free(&scan->later);
+    wr_free(bands);
 }
 
 void wr_scan(const WrField *field, const WrDabShape *shape, WrPool *pool, WrPrepare prepare,
              WrVisit visit, void *ctx)
 {
     int width = wr_field_width(field), height = wr_field_height(field);
-    WrWindow columns =
-        wr_window(shape->x, shape->dx, shape->reach_x, width, wr_field_wrap_u(field));
-    WrWindow rows = wr_window(shape->y, shape->dy, shape->reach_y, height, wr_field_wrap_v(field));
-    if (columns.low > columns.high) return;
-    Band band = { .width = width };
-    band.whole = wr_field_wrap_u(field) == WR_WRAP_PERIODIC && shape->reach_x >= 0.5 * width;
-    for (int j = rows.low; j <= rows.high; j += band.count) {
-        band.j = j;
-        band.count = wr_tile_run(j, rows.high, height, &band.texel);
-        find_spans(&band, shape, columns);
-        scan_band(&band, shape, pool, prepare, visit, ctx);
+    Scan scan = { .field = field, .shape = shape, .prepare = prepare, .visit = visit, .ctx = ctx };
+    scan.columns = wr_window(shape->x, shape->dx, shape->reach_x, width, wr_field_wrap_u(field));
+    scan.rows = wr_window(shape->y, shape->dy, shape->reach_y, height, wr_field_wrap_v(field));
+    if (scan.columns.low > scan.columns.high) return;
+    if (many(&scan, pool)) {
+        scan_together(&scan, pool);
+        return;
+    }
+    int count;
+    for (int j = scan.rows.low; j <= scan.rows.high; j += count) {
+        const Band band = begin_band(&scan, j);
+        Piece piece;
+        count = band.count;
+        for (int i = band.all.low; next_piece(&scan, &band, &i, &piece);)
+            visit_piece(&scan, &piece);
     }
 }
 

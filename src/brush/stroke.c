@@ -220,6 +220,7 @@ typedef struct Spot {
     double x, y; /* texels, from wr_paint_place */
     double pressure, tilt_x, tilt_y, turn_deg, seconds;
     WrMeshStep step; /* on a mesh: x and y are developed */
+    int64_t number;  /* of the stroke's sample that it belongs to, from 1 */
 } Spot;
 
 struct WrStroke {
@@ -227,8 +228,9 @@ struct WrStroke {
     WrPreset *preset; /* shared, or NULL */
     WrTip *tip;
     WR_ARRAY(Spot) queue;
-    int taken;  /* from the queue */
-    bool steps; /* on a mesh: `pushed` is valid, the last spot that was queued */
+    int taken;              /* from the queue */
+    int64_t samples, drawn; /* numbers of the last one pushed, and of the last one in the heights */
+    bool steps;             /* on a mesh: `pushed` is valid, the last spot that was queued */
     Spot pushed;
     bool begun; /* `last` is valid */
 
@@ -430,7 +432,8 @@ void wr_stroke_push(WrStroke *stroke, WrSample sample)
                   .tilt_x = sample.tilt_x,
                   .tilt_y = sample.tilt_y,
                   .turn_deg = sample.turn_deg,
-                  .seconds = sample.seconds };
+                  .seconds = sample.seconds,
+                  .number = ++stroke->samples };
     if (spot.pressure > 1.0) spot.pressure = 1.0;
     if (brush_of(stroke)->pressure == WR_PRESSURE_NONE && !stroke->engine) spot.pressure = 1.0;
     WrStrokeResolver *maker = &stroke->draw.cover.maker;
@@ -470,15 +473,32 @@ static bool work(WrStroke *stroke)
     return take(stroke);
 }
 
+int64_t wr_stroke_drawn(const WrStroke *stroke)
+{
+    return stroke->drawn;
+}
+
+/* All coverage is resolved. more: the last sample taken may have dabs left. */
+static void note_drawn(WrStroke *stroke, bool more)
+{
+    const bool waits = stroke->taken < stroke->queue.count;
+    const int64_t next = waits ? stroke->queue.data[stroke->taken].number : stroke->samples + 1;
+    const int64_t drawn = next - 1 - (more && !stroke->motions);
+    stroke->drawn = drawn > stroke->drawn ? drawn : stroke->drawn;
+}
+
 /* Half the time is for dabs and half for resolving heights, starting with the remaining ones. */
 bool wr_stroke_work(WrStroke *stroke, double seconds)
 {
     bool all = !(seconds < HUGE_VAL);
     double now = all ? 0.0 : wr_clock_seconds(), until = all ? HUGE_VAL : now + seconds;
     if (wr_draw_finish(&stroke->draw, until)) return true;
+    note_drawn(stroke, true);
     bool more = work(stroke);
     while (more && (all || wr_clock_seconds() < now + 0.5 * seconds)) more = work(stroke);
-    return wr_draw_finish(&stroke->draw, until) || more;
+    if (wr_draw_finish(&stroke->draw, until)) return true;
+    note_drawn(stroke, more);
+    return more;
 }
 
 void wr_stroke_add(WrStroke *stroke, WrSample sample)

@@ -125,6 +125,8 @@ bool wr_session_stroke_add(WrSession *session, const WrSample *samples, int coun
    left. The result does not depend on the division of the work. */
 bool wr_session_stroke_push(WrSession *session, const WrSample *samples, int count, WrError *err);
 bool wr_session_stroke_work(WrSession *session, double seconds); /* false without a stroke */
+int64_t wr_session_stroke_drawn(
+    const WrSession *session); /* number of samples in the table; 0 without a stroke */
 /* End the stroke after drawing all queued samples. A stroke without samples has no effect. */
 bool wr_session_stroke_end(WrSession *session, WrError *err);
 void wr_session_stroke_cancel(

@@ -853,6 +853,11 @@ bool wr_session_stroke_work(WrSession *session, double seconds)
     return more;
 }
 
+int64_t wr_session_stroke_drawn(const WrSession *session)
+{
+    return session->stroke ? wr_stroke_drawn(session->stroke) : 0;
+}
+
 bool wr_session_stroke_add(WrSession *session, const WrSample *samples, int count, WrError *err)
 {
     if (!wr_session_stroke_push(session, samples, count, err)) return false;

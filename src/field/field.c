@@ -260,6 +260,11 @@ float *wr_field_tile_make(void)
     return new_tile()->texels;
 }
 
+void wr_field_tile_free(float *texels)
+{
+    if (texels) release(counted_of(texels), 0);
+}
+
 void wr_field_tile_put(WrField *field, int tx, int ty, float *texels)
 {
     Counted **slot = own_slot(field, tx, ty);

@@ -62,6 +62,7 @@ float *wr_field_tile_fresh(WrField *field, int tx, int ty);
 /* Allocates a tile that belongs to no table yet, with undefined content; any thread. Pass it to
  * wr_field_tile_put: */
 float *wr_field_tile_make(void);
+void wr_field_tile_free(float *texels); /* while it belongs to no table; NULL is allowed */
 /* replaces tile (tx, ty) by `texels` and owns them. */
 void wr_field_tile_put(WrField *field, int tx, int ty, float *texels);
 /* Copies tile (tx, ty) from `from`, a table of the same size; later writes to one do not affect the

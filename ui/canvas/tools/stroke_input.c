@@ -31,7 +31,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define WORK_SECONDS 0.004 /* drawing time per frame */
+#define WORK_SECONDS 0.020 /* drawing time per frame */
 
 /* Append a stroke command without points for a brush, with the files in *app->brush_files. */
 static void strokes_head(const WrApp *app, const char *verb, const WrBrush *brush, WrText *line)
@@ -93,6 +93,8 @@ static bool open_first(WrApp *app)
     if (wr_session_stroke_begin(app->session, job->head, &err)) {
         hand->opened = true;
         hand->unfinished = false;
+        hand->pushed = 0;
+        hand->marks.count = 0;
         return true;
     }
     wr_app_fail(app, &err);
@@ -109,8 +111,22 @@ static void push_samples(WrApp *app)
     if (job->samples.count == 0) return;
     if (!wr_session_stroke_push(app->session, job->samples.data, job->samples.count, &err))
         wr_app_fail(app, &err);
+    hand->pushed += job->samples.count;
+    wr_array_push(&hand->marks, ((WrDrawnMark){ hand->pushed, hand->taken }));
     job->samples.count = 0;
     hand->unfinished = true;
+}
+
+/* Note the events that are drawn, while others wait. */
+static void note_drawn(WrApp *app)
+{
+    WrBrushState *hand = app->brush;
+    const int64_t drawn = wr_session_stroke_drawn(app->session);
+    int done = 0;
+    while (done < hand->marks.count && hand->marks.data[done].samples <= drawn)
+        hand->shown = hand->marks.data[done++].events;
+    for (int i = done; i < hand->marks.count; i++) hand->marks.data[i - done] = hand->marks.data[i];
+    hand->marks.count -= done;
 }
 
 static void close_first(WrApp *app)
@@ -133,6 +149,7 @@ static void work_until(WrApp *app, double end)
         if (hand->unfinished) {
             double left = end - wr_clock_seconds();
             hand->unfinished = wr_session_stroke_work(app->session, left > 0.0 ? left : 0.0);
+            note_drawn(app);
             wr_app_redraw(app);
         }
         if (hand->unfinished && wr_clock_seconds() >= end) return;
@@ -316,6 +333,7 @@ void wr_strokes_free(WrApp *app)
 {
     while (app->brush->jobs.count > 0) drop_job(app->brush, 0);
     wr_array_free(&app->brush->jobs);
+    wr_array_free(&app->brush->marks);
 }
 
 static void another(WrApp *app)

@@ -22,6 +22,11 @@ typedef struct WrStrokeJob {
     int waits; /* its number while it waits for a background command (ui/app/state/background_command.h); else 0 */
 } WrStrokeJob;
 
+/* With this number of samples of the open stroke all events up to that one are drawn. */
+typedef struct WrDrawnMark {
+    int64_t samples, events;
+} WrDrawnMark;
+
 typedef struct WrBrushState {
     WR_ARRAY(WrStrokeJob) jobs; /* oldest first; the first may be open in the session */
     bool opened;                /* the first is open */
@@ -39,9 +44,11 @@ typedef struct WrBrushState {
     double resize_radius; /* radius at the start of a resize */
     /* key of the table when last_u, last_v were set: no lines into other tables */
     uint64_t line_key;
-    int strokes;          /* number of strokes so far */
-    uint32_t seeds;       /* number of strokes with random numbers so far */
-    int64_t taken, shown; /* pointer events passed to the session, and drawn (latency.c) */
+    int strokes;                 /* number of strokes so far */
+    uint32_t seeds;              /* number of strokes with random numbers so far */
+    int64_t taken, shown;        /* pointer events passed to the session, and drawn (latency.c) */
+    int64_t pushed;              /* number of samples passed to the open stroke */
+    WR_ARRAY(WrDrawnMark) marks; /* of its undrawn samples, oldest first */
 } WrBrushState;
 
 /* The brush for a pointer: the eraser end erases, held keys smooth or invert; a new seed if it uses random
