@@ -503,6 +503,7 @@ static WrImageOut part_of(const WrExportJob *job)
                          .type = wr_export_pixels(job->options.depth),
                          .half = job->options.half,
                          .channel_names = job->kind->channel_names,
+                         .pool = job->pool,
                          .data = true };
 }
 

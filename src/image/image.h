@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 typedef struct WrError WrError;
+typedef struct WrPool WrPool;
 
 typedef enum WrPixelType { WR_PIXEL_U8, WR_PIXEL_U16, WR_PIXEL_F32 } WrPixelType;
 /* The largest code; 0 for floats. */
@@ -180,8 +181,9 @@ typedef struct WrImageOut {
     WrRowSource rows;
     WrRowSeen seen; /* NULL: no callback */
     void *ctx;
-    bool tells; /* rows reports the progress itself: it is most of the work */
-    bool half;  /* all floats are halves, and are stored as such: EXR */
+    WrPool *pool; /* threads that compress a PNG; NULL: the caller's */
+    bool tells;   /* rows reports the progress itself: it is most of the work */
+    bool half;    /* all floats are halves, and are stored as such: EXR */
     /* EXR: the parts are the mip levels of one tiled image, each half as large as the one before
        (rounded down, at least 1), down to 1x1. Attributes are those of the first. */
     bool levels;
