@@ -19,7 +19,7 @@
 #else
 #define KEPT_MAX ((size_t)128 << 20)
 #endif
-#define KEPT 2 /* cached blocks */
+#define KEPT 4 /* cached blocks: heights, two slopes and sums of an occlusion map */
 
 /* Header before each block. */
 typedef struct Head {

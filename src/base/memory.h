@@ -21,7 +21,7 @@ void *wr_alloc_unset(size_t count, size_t size);
    count * size overflows or memory is exhausted. Large blocks come zeroed from the system, untouched. */
 void *wr_try_alloc(size_t count, size_t size, const char *what, WrError *err);
 
-/* wr_try_alloc without zeroing. Because the system clears fresh pages, up to two freed blocks of 4 to
+/* wr_try_alloc without zeroing. Because the system clears fresh pages, up to four freed blocks of 4 to
    128 MB are cached and reused for a request of about the same size. Any thread. */
 void *wr_try_alloc_unset(size_t count, size_t size, const char *what, WrError *err);
 /* Returns the cached blocks to the system. Any thread. */

@@ -178,8 +178,8 @@ static bool make_occlusion(const WrMapJob *job, const WrMapPart *part, WrPool *p
 {
     const size_t texels = part->pitch * (size_t)part->h;
     const WrOcclusion occlusion = occlusion_of(job);
-    float *p = wr_try_alloc(texels, sizeof *p, "slopes of the table", err);
-    float *q = p ? wr_try_alloc(texels, sizeof *q, "slopes of the table", err) : NULL;
+    float *p = wr_try_alloc_unset(texels, sizeof *p, "slopes of the table", err);
+    float *q = p ? wr_try_alloc_unset(texels, sizeof *q, "slopes of the table", err) : NULL;
     Making m = { .job = job, .part = part, .out = p, .second = q };
     const bool good = q && run_rows(&m, pool, replaced, err) &&
                       wr_occlusion_make(&occlusion, part, p, q, pool, out, err);

@@ -679,7 +679,7 @@ static bool fill_steps(WrSky *sky, WrPool *pool, WrError *err)
     sky->range = fabs(o->height) * ((double)high - (double)low);
     /* not a power of two, to avoid cache conflicts */
     sky->pitch = (size_t)w + 16 + (size_t)(w % 2 == 0);
-    sky->steps = wr_try_alloc(sky->pitch * (size_t)h, sizeof(int32_t), "occlusion", err);
+    sky->steps = wr_try_alloc_unset(sky->pitch * (size_t)h, sizeof(int32_t), "occlusion", err);
     if (sky->steps) wr_pool_run(pool, pieces_of(sky), fill_rows, &rows);
     return sky->steps != NULL;
 }

@@ -34,7 +34,9 @@ typedef enum Kind {
     BLUR,
     NORMALS,
     NORMALS_HELD,
+    NORMALS_PNG,
     OCCLUSION,
+    OCCLUSION_HELD,
     PNG,
     EXR,
     BUMP_SLOPES,
@@ -73,8 +75,14 @@ static const Row rows[KIND_COUNT] = {
                           .file = "out.bmp", .channels = 3 },
     [WR_ROW(NORMALS_HELD)] = { "normals-held", "the same, in memory alone", NULL, "", "",
                                .like = true },
+    [WR_ROW(NORMALS_PNG)] = { "normals-png", "normal map as 8-bit PNG", NULL,
+                              "in.tif -o one.tif -- gegl:normal-map scale=10 tileable=true "
+                              "gegl:png-save path=out.png bitdepth=8",
+                              "in.tif -o one.tif -- gegl:crop width=1 height=1",
+                              .file = "out.png" },
     [WR_ROW(OCCLUSION)] = { "occlusion", "occlusion, 8 directions", NULL, .file = "out.bmp",
                             .channels = 1 },
+    [WR_ROW(OCCLUSION_HELD)] = { "occlusion-held", "the same, in memory alone", NULL },
     [WR_ROW(PNG)] = { "png", "heights as 16-bit PNG", NULL, .file = "out.png", .oiiotool = true },
     [WR_ROW(EXR)] = { "exr", "heights as float EXR", NULL, .file = "out.exr", .oiiotool = true },
     [WR_ROW(BUMP_SLOPES)] = { "bump-slopes", "bump slopes, all levels", NULL, NULL, NULL },
@@ -171,6 +179,7 @@ static void write_lines(Bench *b)
     for (int i = 0; i < KIND_COUNT; i++)
         if (rows[i].line) wr_text_add(&b->lines[i], rows[i].line);
     wr_text_addf(&b->lines[NORMALS], "export normal+y \"%s/out.bmp\" depth=8", b->folder);
+    wr_text_addf(&b->lines[NORMALS_PNG], "export normal+y \"%s/out.png\" depth=8", b->folder);
     wr_text_addf(&b->lines[OCCLUSION], "export occlusion \"%s/out.bmp\" depth=8 directions=8",
                  b->folder);
     wr_text_addf(&b->lines[PNG], "export height \"%s/out.png\" depth=16", b->folder);
@@ -222,8 +231,10 @@ static bool begin(Bench *b, WrError *err)
 
 static void end(Bench *b)
 {
-    static const char *const files[] = { "mesh.ply", "table.tif", "in.tif",  "crop.tif", "out.tif",
-                                         "out.bmp",  "out.png",   "out.exr", "six.exr" };
+    static const char *const files[] = {
+        "mesh.ply", "table.tif", "in.tif",  "crop.tif", "out.tif",
+        "out.bmp",  "out.png",   "out.exr", "six.exr",  "one.tif"
+    };
     char path[64];
     for (size_t i = 0; i < sizeof files / sizeof *files && b->folder[0]; i++) {
         snprintf(path, sizeof path, "%s/%s", b->folder, files[i]);
@@ -263,13 +274,14 @@ static bool time_levels(const Bench *b, double *ms, WrError *err)
     return good;
 }
 
-/* Compute the normals of an export without writing and read-back, as the other program does. */
-static bool time_normals(const Bench *b, double *ms, WrError *err)
+/* Compute a map without writing and read-back, as the other program does. */
+static bool time_held(const Bench *b, const char *kind, double *ms, WrError *err)
 {
-    const WrExportOptions options = wr_export_default();
+    WrExportOptions options = wr_export_default();
     WrExportPreview picture;
+    options.directions = 8; /* of occlusion */
     const double start = wr_clock_seconds();
-    const bool good = wr_export_preview(wr_export_find("normal+y"), wr_session_document(b->session),
+    const bool good = wr_export_preview(wr_export_find(kind), wr_session_document(b->session),
                                         &options, b->cli->pool, &picture, err);
     *ms = 1e3 * (wr_clock_seconds() - start);
     wr_export_preview_fini(&picture);
@@ -281,7 +293,8 @@ static bool time_ours(const Bench *b, Kind kind, double *ms, WrError *err)
 {
     double start = wr_clock_seconds(), bare = 0;
     if (kind == BUMP_SLOPES) return time_levels(b, ms, err);
-    if (kind == NORMALS_HELD) return time_normals(b, ms, err);
+    if (kind == NORMALS_HELD) return time_held(b, "normal+y", ms, err);
+    if (kind == OCCLUSION_HELD) return time_held(b, "occlusion", ms, err);
     if (!wr_session_run(b->session, wr_text_get(&b->lines[kind]), err)) return false;
     wr_document_composite(wr_session_document(b->session), b->cli->pool);
     *ms = 1e3 * (wr_clock_seconds() - start);
