@@ -598,14 +598,16 @@ static bool fill_relit(WrBenchSections *all, WrError *err)
 
 static bool fill_raised(WrBenchSections *all, WrError *err)
 {
-    const int base = all->count;
-    for (int i = 0; i < 2; i++) {
-        WrBenchPicture *p =
-            add(all, i ? "displaced torus, turning in the window" : "displaced torus, turning",
-                base, "torus", WR_BENCH_BUMP, err);
+    static const char *const hows[] = { "first", "turning", "turning in the window" };
+    static const WrBenchView views[] = { WR_BENCH_FIRST, WR_BENCH_TURNS, WR_BENCH_MOVES };
+    for (int i = 0; i < 6; i++) {
+        const char *surface = i < 3 ? "sphere" : "torus";
+        char name[64];
+        snprintf(name, sizeof name, "displaced %s, %s", surface, hows[i % 3]);
+        WrBenchPicture *p = add(all, name, all->count - i % 3, surface, WR_BENCH_BUMP, err);
         if (!p) return false;
         raised(p->scene);
-        p->view = i ? WR_BENCH_MOVES : WR_BENCH_TURNS;
+        p->view = views[i % 3];
     }
     return true;
 }

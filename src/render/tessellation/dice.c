@@ -98,20 +98,22 @@ double wr_raised_most(const WrScene *scene, const WrField *field)
 #define WR_DICE_SIDE 16      /* largest number of steps along a cell at which F is measured */
 #define WR_DICE_MAX_CUTS 256 /* largest number of cuts of a cell's side */
 
-/* A cell of a face: its needs, and its cuts.
+/* A cell of a face: its needs, and its cuts. Up to `reach` they do not depend on the view.
    Layout of a cell's output: corners at `corner` + y (nu + 1) + x, triangles from `triangle` on, two for each
    square, row by row. */
-typedef struct WrDiceCell {
+struct WrDiceCell {
     int32_t face, i, j;   /* position among the face's cells */
     int steps_u, steps_v; /* steps at which F was measured */
-    double pixels;        /* pixels per object unit at its nearest point; 0: it is not visible */
     /* deviation of one straight step across it from the base's curve, units */
     double bend_u, bend_v;
-    double kink_u, kink_v;    /* largest second difference of F between the steps */
-    double twist, range;      /* of F within a step; over the cell */
+    double kink_u, kink_v; /* largest second difference of F between the steps */
+    double twist, range;   /* of F within a step; over the cell */
+    WrVec3 centre;         /* of a sphere around the displaced cell, */
+    double reach;          /* and its radius */
+    double pixels;         /* pixels per object unit at its nearest point; 0: it is not visible */
     int32_t corner, triangle; /* index of its first corner and triangle */
     int nu, nv, edge[4];      /* columns, rows; cuts of its lower, upper, left and right edge */
-} WrDiceCell;
+};
 
 /* A face's lines, and the rates at their corners. */
 typedef struct WrDiceFace {
@@ -393,7 +395,7 @@ static double pixels_at(const WrView *view, double even, WrVec3 p, double radius
     return per / fmax(z - r, 0.01 * view->radius);
 }
 
-/* Curvature of the base over the cell, and its position on screen. slope_*: over a step; most: of |F|.
+/* Curvature of the base over the cell, and its position. slope_*: over a step; most: of |F|.
    n_uu is not available in closed form: a difference of n_u over the cell, plus |n_u|^2 for its part along n. */
 static void measure_base(const WrDicing *d, WrDiceCell *c, double slope_u, double slope_v,
                          double most)
@@ -419,7 +421,8 @@ static void measure_base(const WrDicing *d, WrDiceCell *c, double slope_u, doubl
     }
     c->bend_u = uu * du * du / 8;
     c->bend_v = vv * dv * dv / 8;
-    c->pixels = pixels_at(d->view, d->even, at[4].p, 1.5 * radius + most);
+    c->centre = at[4].p;
+    c->reach = 1.5 * radius + most;
 }
 
 static void measure_cell(int index, int worker, void *ctx)
@@ -434,8 +437,8 @@ static void measure_cell(int index, int worker, void *ctx)
     measure_base(d, c, slope_u, slope_v, most);
 }
 
-/* Computes lines, cells and the cells' needs, for all faces. */
-static void dice_lay(WrDicing *d, WrPool *pool)
+/* Computes lines and cells of all faces. */
+static void lay_cells(WrDicing *d)
 {
     for (int f = 0; f < d->faces; f++) {
         lay_face(d, f);
@@ -447,7 +450,22 @@ static void dice_lay(WrDicing *d, WrPool *pool)
         for (int k = 0; k < d->face[f].nu * d->face[f].nv; k++)
             d->cells[at++] =
                 (WrDiceCell){ .face = f, .i = k % d->face[f].nu, .j = k / d->face[f].nu };
-    wr_pool_run(pool, d->cell_count, measure_cell, d);
+}
+
+/* Computes the cells' needs, or copies those of the same shape in another view. */
+static void dice_lay(WrDicing *d, WrDice *dice, WrHash shape, WrPool *pool)
+{
+    lay_cells(d);
+    const size_t count = (size_t)d->cell_count;
+    if (!dice->cells || !wr_hash_equal(dice->shape, shape)) {
+        wr_pool_run(pool, d->cell_count, measure_cell, d);
+        wr_free(dice->cells);
+        dice->cells = wr_alloc(count, sizeof *dice->cells);
+        memcpy(dice->cells, d->cells, count * sizeof *d->cells);
+        dice->shape = shape;
+    } else memcpy(d->cells, dice->cells, count * sizeof *d->cells);
+    for (int i = 0; i < d->cell_count; i++)
+        d->cells[i].pixels = pixels_at(d->view, d->even, d->cells[i].centre, d->cells[i].reach);
 }
 
 /* ---- number of cuts ---- */
@@ -738,7 +756,9 @@ static void hand_over(WrDicing *d, WrDice *dice)
                         .faceted = true,
                         .mapped = true,
                         .radius = d->size };
-    *dice = (WrDice){ .triangles = t, .faces = d->faces, .epsilon = d->epsilon };
+    dice->triangles = t;
+    dice->faces = d->faces;
+    dice->epsilon = d->epsilon;
     for (int64_t i = 0; i < d->corner_count; i++)
         dice->rise = fmax(dice->rise, (double)fabsf(d->height[i]));
     for (int f = 0; f < d->faces; f++)
@@ -778,6 +798,7 @@ static bool dice_mesh(WrDice *dice, const WrDiceRequest *request, double even, d
     const WrTriangles *own = scene->triangles;
     WrMeshDicing dicing = { request->view, even, epsilon, wr_raised_most(scene, request->field) };
     WrMeshRelief relief = { 0 };
+    wr_free(dice->cells);
     *dice = (WrDice){ .faces = 1, .base = own ? wr_triangles_share(own) : wr_triangles_square() };
     const WrMeshReliefRequest ask = { .scene = scene,
                                       .field = request->field,
@@ -826,7 +847,7 @@ static bool dice_cells(WrDice *dice, const WrDiceRequest *request, double even, 
                        scene->analytic.kind == WR_ANALYTIC_OFF &&
                        (scene->scheme == WR_SCHEME_BILINEAR || scene->scheme == WR_SCHEME_CENTRAL),
                    .faces = wr_surfaces[scene->shape.kind]->faces };
-    dice_lay(&d, request->pool);
+    dice_lay(&d, dice, wr_raised_key(scene, request->field), request->pool);
     dice_choose(&d);
     while (d.triangle_count > most && d.epsilon < 1e30) {
         d.epsilon *= fmax(1.5, 0.5 * (double)d.triangle_count / most);
@@ -857,6 +878,15 @@ static WrHash key_of(const WrDiceRequest *request, double even)
     return wr_hash_bytes(axes, sizeof axes, wr_hash_bytes(numbers, sizeof numbers, hash));
 }
 
+/* Frees all but the cells' needs. */
+static void free_facets(WrDice *dice)
+{
+    wr_triangles_free(dice->triangles);
+    wr_triangles_free(dice->base);
+    wr_free(dice->base_of);
+    *dice = (WrDice){ .cells = dice->cells, .shape = dice->shape };
+}
+
 bool wr_dice_update(WrDice *dice, const WrDiceRequest *request, WrError *err)
 {
     const double even = request->moving ? even_pixels(request->view) : 0.0;
@@ -865,7 +895,7 @@ bool wr_dice_update(WrDice *dice, const WrDiceRequest *request, WrError *err)
     WrDiceRequest own = *request;
     WrRaised raised;
     if (dice->triangles && wr_hash_equal(dice->key, key)) return true;
-    wr_dice_fini(dice);
+    free_facets(dice);
     bool good = wr_raised_init(&raised, request->scene, request->field, err);
     own.scene = raised.scene, own.field = raised.field;
     if (good && wr_surfaces[own.scene->shape.kind]->held)
@@ -878,8 +908,7 @@ bool wr_dice_update(WrDice *dice, const WrDiceRequest *request, WrError *err)
 
 void wr_dice_fini(WrDice *dice)
 {
-    wr_triangles_free(dice->triangles);
-    wr_triangles_free(dice->base);
-    wr_free(dice->base_of);
+    free_facets(dice);
+    wr_free(dice->cells);
     *dice = (WrDice){ 0 };
 }

@@ -61,6 +61,8 @@ typedef struct WrView WrView;
 #define WR_DICE_MAX 3000000       /* maximum triangles; beyond it facets are coarser (HC125) */
 #define WR_DICE_MOVING_MAX 100000 /* of a moving view, in addition to a mesh's own */
 
+typedef struct WrDiceCell WrDiceCell;
+
 typedef struct WrDice {
     WrTriangles *triangles;     /* owned; corners have u and v, no normals; NULL: not built */
     int32_t end[WR_DICE_FACES]; /* for each face, one past its last triangle */
@@ -72,6 +74,9 @@ typedef struct WrDice {
     double epsilon;    /* largest error of the facets in pixels: the requested one, or more */
     double rise;       /* largest |F|, object units */
     WrHash key;        /* of everything that the facets depend on */
+    WrDiceCell *
+        cells; /* measured needs of the parts of a surface that is no mesh, for the next view; owned */
+    WrHash shape; /* wr_raised_key of these */
 } WrDice;
 
 typedef struct WrDiceRequest {
