@@ -125,6 +125,18 @@ void wr_session_kept_text(WrSession *session, WrText *text)
 
 #define DRAWN 0.8 /* share of a picture's work for drawing; the rest is the file */
 
+/* The composite, which is not made where each object uses a layer of its own. A tolerance's choice depends on it. */
+static const WrField *field_for(const WrSession *session)
+{
+    const WrDocument *document = session->state.document;
+    const WrTables *tables = session->tables;
+    int own = 0;
+    while (tables && own < tables->count && tables->fields[own]) own++;
+    if (own > 0 && own == tables->count && document->scene->tolerance.kind == WR_TOLERANCE_NONE)
+        return tables->fields[0];
+    return wr_document_composite(document, session->options.pool);
+}
+
 static bool make_request(WrSession *session, int width, int height, double turn_deg,
                          WrFrameRequest *out, WrError *err)
 {
@@ -137,7 +149,7 @@ static bool make_request(WrSession *session, int width, int height, double turn_
     wr_tables_free(session->tables);
     session->tables =
         wr_document_tables(document, document->scene, &session->table_cache, session->options.pool);
-    *out = (WrFrameRequest){ .field = wr_document_composite(document, session->options.pool),
+    *out = (WrFrameRequest){ .field = field_for(session),
                              .fields = wr_tables_fields(session->tables),
                              .scene = document->scene,
                              .width = width,

@@ -3,6 +3,7 @@
 #include "test_folder.h"
 #include "session_help.h"
 
+#include "base/pool.h"
 #include "base/text.h"
 #include "image/image.h"
 #include "document/object_tables.h"
@@ -346,6 +347,35 @@ static void a_floor_is_seen_from_above_only(void **state)
     }
 }
 
+static int64_t pieces_of_frame(WrSession *session)
+{
+    WrFrame frame;
+    const int64_t before = wr_pool_pieces();
+    assert_true(wr_session_frame(session, 61, 47, 0, &frame, NULL));
+    return wr_pool_pieces() - before;
+}
+
+/* After an edit of a layer that no object uses, a picture needs no more work than without an edit: nothing is blended. */
+static void layers_that_no_object_uses_cost_nothing(void **state)
+{
+    (void)state;
+    static const char *const lines[] = { "table 130x90",    "noise gradient cells=5 amplitude=0.7",
+                                         "layer add other", "noise gradient cells=7",
+                                         "surface sphere",  NULL };
+    WrSession *session = session_of(lines);
+    for (int own = 0; own < 2; own++) {
+        if (own) must_run(session, "object set layer=1");
+        pieces_of_frame(session);
+        const int64_t again = pieces_of_frame(session);
+        must_run(session, "layer use 2");
+        must_run(session, "adjust invert");
+        const int64_t edited = pieces_of_frame(session);
+        if (own) assert_int_equal(edited, again);
+        else assert_true(edited > again);
+    }
+    wr_session_free(session);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -357,6 +387,7 @@ int main(void)
         cmocka_unit_test(files_bring_them_back),
         cmocka_unit_test(pictures_count_once_whichever_object_is_at_hand),
         cmocka_unit_test(a_layer_of_its_own_shows_alone),
+        cmocka_unit_test(layers_that_no_object_uses_cost_nothing),
         cmocka_unit_test(a_floor_is_seen_from_above_only),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
