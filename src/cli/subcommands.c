@@ -107,12 +107,8 @@ const WrSubcommand wr_subcommands[] = {
       "--sheet paints the same stroke with each and shows them lit, with their names.",
       wr_cli_brushes },
     { "bench",
-      "bench [PART...|all|generate|brushes|edits|moments|promises|start|window] [--quick] "
-      "[--exact] "
-      "[--lines] "
-      "[--size "
-      "WxH] "
-      "[--json]",
+      "bench [PART...|all|generate|brushes|edits|moments|promises|scale|start|window] "
+      "[--quick] [--exact] [--lines] [--size WxH] [--json]",
       "the program's own benchmark", BIT(SIZE) | BIT(JSON) | BIT(ALL_WORDS) | BIT(OWN),
       "Pictures, documents, brushes and the window; with generate alone the generators, beside "
       "gegl\n"
@@ -120,6 +116,8 @@ const WrSubcommand wr_subcommands[] = {
       "with edits alone dabs among layers, and values dragged in one of 40 live layers,\n"
       "with moments alone how soon large tables are seen after a change,\n"
       "with promises alone the time left that long commands say, beside what is left,\n"
+      "with scale alone how the time grows with the table, the picture, layers, brush, objects\n"
+      "and lights,\n"
       "with start alone the start, and opening and saving of a document,\n"
       "with window alone how soon a motion of the pen is seen. A PART alone:\n"
       "pictures that differ in one thing, beside the machine's peaks of the same run: surfaces, "

@@ -54,6 +54,8 @@ bool wr_bench_edits(const WrCli *cli, bool quick, WrText *text, WrError *err);
 bool wr_bench_live_layers(const WrCli *cli, bool quick, WrText *text, WrError *err);
 /* Long commands: time promised while they run, as a ratio of the time needed. */
 bool wr_bench_promises(const WrCli *cli, bool quick, WrText *text, WrError *err);
+/* Processor time of work while one quantity doubles (table, picture, layers, brush, objects, lights), and its exponent. */
+bool wr_bench_scale(const WrCli *cli, bool quick, WrText *text, WrError *err);
 /* Rows of median and 95th percentile: start of the program, its window's first picture, opening and saving a document. */
 bool wr_bench_start(const WrCli *cli, bool quick, WrText *text, WrError *err);
 bool wr_bench_files(bool quick, WrText *text, WrError *err);
