@@ -1,9 +1,11 @@
 #include "base/exactmath.h"
 
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
 #include <sleef.h>
 
-void wr_sincos_turns(double u, double *sine, double *cosine)
+static void sincos_turns(double u, double *sine, double *cosine)
 {
     double r = u - rint(u);       /* -1/2 .. 1/2, exact */
     double q = rint(4.0 * r);     /* nearest quarter turn, times 4: -2 .. 2 */
@@ -17,6 +19,25 @@ void wr_sincos_turns(double u, double *sine, double *cosine)
     }
     *sine += 0.0; /* no negative zero */
     *cosine += 0.0;
+}
+
+#define LATEST_BITS 6
+
+/* Points of a grid share their coordinates: most angles are among the latest of a thread. */
+void wr_sincos_turns(double u, double *sine, double *cosine)
+{
+    static _Thread_local struct {
+        double u, sine, cosine; /* both 0: empty */
+    } latest[1 << LATEST_BITS];
+    uint64_t bits;
+    memcpy(&bits, &u, sizeof bits);
+    const int at = (int)(bits * 0x9e3779b97f4a7c15U >> (64 - LATEST_BITS));
+    if (latest[at].u != u || (latest[at].sine == 0 && latest[at].cosine == 0)) {
+        sincos_turns(u, &latest[at].sine, &latest[at].cosine);
+        latest[at].u = u;
+    }
+    *sine = latest[at].sine;
+    *cosine = latest[at].cosine;
 }
 
 double wr_exp2(double x)

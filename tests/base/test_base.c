@@ -94,6 +94,26 @@ static void turns_are_exact_at_quarters_in_both_precisions(void **state)
     }
 }
 
+/* The latest angles are stored: results are the same in any order, and close to those of the system. */
+static void turns_do_not_depend_on_those_before(void **state)
+{
+    (void)state;
+    enum { COUNT = 3000 };
+    static double turns[COUNT], sines[COUNT], cosines[COUNT];
+    TestRandom random = { 5 };
+    for (int i = 0; i < COUNT; i++) {
+        turns[i] = i % 3 ? i / 64.0 : 4 * test_random(&random) - 2;
+        wr_sincos_turns(turns[i], &sines[i], &cosines[i]);
+        assert_near(sines[i], sin(2 * WR_PI * (turns[i] - rint(turns[i]))), 1e-15);
+    }
+    for (int i = 0; i < COUNT; i++) {
+        const int k = (int)(test_random_u64(&random) % COUNT);
+        double s, c;
+        wr_sincos_turns(turns[k], &s, &c);
+        assert_true(same_bits(s, sines[k]) && same_bits(c, cosines[k]));
+    }
+}
+
 static void float_functions_keep_their_stated_error(void **state)
 {
     (void)state;
@@ -827,6 +847,7 @@ int main(void)
         cmocka_unit_test(words_that_are_no_numbers_are_refused),
         cmocka_unit_test(invalid_utf8_never_reaches_json),
         cmocka_unit_test(turns_are_exact_at_quarters_in_both_precisions),
+        cmocka_unit_test(turns_do_not_depend_on_those_before),
         cmocka_unit_test(float_functions_keep_their_stated_error),
         cmocka_unit_test(hc89_power_of_0_and_above_1_is_defined),
         cmocka_unit_test(length_and_unit_survive_any_scale),

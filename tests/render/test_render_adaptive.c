@@ -2,11 +2,42 @@
 #include "test.h"
 #include "field/scheme_list.h"
 #include "render_scenes.h"
+#include "render/pipeline/pipeline.h"
 
 #include "field/field.h"
 #include "scene/scene.h"
 
 #define SIDE 80
+
+/* Sum of `count` numbers, `gap` apart, in pairs: the first two, the next two, ..., until one is left. */
+static float paired(float *values, int count, size_t gap)
+{
+    for (; count > 1; count = (count + 1) / 2)
+        for (int i = 0; i < (count + 1) / 2; i++)
+            values[(size_t)i * gap] = values[(size_t)(2 * i) * gap] +
+                                      (2 * i + 1 < count ? values[(size_t)(2 * i + 1) * gap] : 0);
+    return values[0];
+}
+
+static void means_are_sums_in_pairs_to_the_bit(void **state)
+{
+    (void)state;
+    TestRandom random = { 7 };
+    for (int k = 1; k <= 9; k++) {
+        float given[9 * 11 * 4], copy[9 * 11 * 4], have[4];
+        const size_t step = 11 * 4;
+        for (size_t i = 0; i < 9 * step; i++)
+            given[i] = copy[i] = (float)ldexp((double)(test_random_u64(&random) >> 40),
+                                              -(int)(test_random_u64(&random) % 30));
+        wr_tile_mean(given, k, step, have);
+        for (int c = 0; c < 4; c++) {
+            for (int y = 0; y < k; y++) paired(copy + (size_t)y * step + c, k, 4);
+            const float want = paired(copy + c, k, step) * (1.0f / (float)(k * k));
+            if (!same_bits(have[c], want))
+                fail_msg("%d x %d samples: %a, not %a", k, k, have[c], want);
+        }
+    }
+}
 
 static Shot with_dials(WrScene *scene, const WrField *field, WrAntialias aa, WrRefine refine, int k,
                        double contrast)
@@ -384,6 +415,7 @@ static void jittered_samples_are_even_and_stratified(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(means_are_sums_in_pairs_to_the_bit),
         cmocka_unit_test(bounded_refinement_keeps_within_its_contrast),
         cmocka_unit_test(detail_between_the_first_samples_is_found),
         cmocka_unit_test(what_would_spare_nothing_takes_all_at_once),

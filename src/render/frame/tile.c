@@ -266,19 +266,37 @@ WrDepthTile wr_tile_depth(const WrTileJob *job, int k, int x, int y, int w, int 
     return tile;
 }
 
+static WrSampleColour load(const float *from)
+{
+    WrSampleColour sample;
+    memcpy(&sample, from, sizeof sample);
+    return sample;
+}
+
+static void store(float *to, WrSampleColour sample)
+{
+    memcpy(to, &sample, sizeof sample);
+}
+
 /* Adds the K samples of each pixel of a row in pairs: x0+x1, x2+x3, ... until one is left, so that the sum of K
    = 2^m equal values is exact (HC92). */
 static void fold_row(float *row, int pixels, int samples)
 {
+    if (samples == 4) {
+        for (int p = 0; p < pixels; p++) {
+            const float *in = row + 16 * p;
+            store(row + 4 * p, (load(in) + load(in + 4)) + (load(in + 8) + load(in + 12)));
+        }
+        return;
+    }
     for (int k = samples; k > 1; k = (k + 1) / 2) {
         const int half = (k + 1) / 2;
         for (int p = 0; p < pixels; p++) {
             const float *in = row + 4 * p * k;
             float *out = row + 4 * p * half;
             for (int j = 0; j < k / 2; j++)
-                for (int c = 0; c < 4; c++) out[4 * j + c] = in[8 * j + c] + in[8 * j + 4 + c];
-            if (!(k & 1)) continue;
-            for (int c = 0; c < 4; c++) out[4 * (half - 1) + c] = in[4 * (k - 1) + c];
+                store(out + 4 * j, load(in + 8 * j) + load(in + 8 * j + 4));
+            if (k & 1) store(out + 4 * (half - 1), load(in + 4 * (k - 1)));
         }
     }
 }
@@ -290,10 +308,12 @@ static void fold(float *sample, int pixels, int k, size_t step)
 {
     for (int y = 0; y < k; y++) fold_row(sample + (size_t)y * step, pixels, k);
     for (int gap = 1; gap < k; gap *= 2)
-        for (int y = 0; y + gap < k; y += 2 * gap)
-            for (int i = 0; i < 4 * pixels; i++)
-                sample[(size_t)y * step + (size_t)i] +=
-                    sample[(size_t)(y + gap) * step + (size_t)i];
+        for (int y = 0; y + gap < k; y += 2 * gap) {
+            float *restrict to = sample + (size_t)y * step;
+            const float *restrict from = to + (size_t)gap * step;
+#pragma omp simd
+            for (int i = 0; i < 4 * pixels; i++) to[i] += from[i];
+        }
 }
 
 void wr_tile_mean(float *sample, int k, size_t step, float out[4])
@@ -308,6 +328,7 @@ static int tile_means(int k, int width, float *sample, size_t step, float *pixel
     const float share = 1.0f / (float)(k * k);
     int covered = 0;
     fold(sample, width, k, step);
+#pragma omp simd
     for (int i = 0; i < 4 * width; i++) pixel[i] = sample[i] * share;
     for (int p = 0; p < width; p++) covered += pixel[4 * p + 3] > 0.0f;
     return covered;

@@ -111,6 +111,9 @@ typedef struct WrNearest {
 } WrNearest;
 
 /* Destinations of a strip's results, indexed by sample; NULL: not requested. */
+/* Red, green, blue and alpha of a sample, computed and stored at once. */
+typedef float WrSampleColour __attribute__((vector_size(16)));
+
 typedef struct WrSink {
     float *rgba; /* 4 per sample */
     /* 1 per sample: rgba as 8-bit codes. If rgba and codes are NULL, no light is computed */

@@ -4,12 +4,11 @@
 static int store_run(const Strip *strip, float *restrict out)
 {
     int fresh = 0;
-    for (int i = 0; i < strip->count; i++) fresh += out[4 * i + 3] == 0.0f;
     for (int i = 0; i < strip->count; i++) {
-        out[4 * i] = (float)strip->cr[i];
-        out[4 * i + 1] = (float)strip->cg[i];
-        out[4 * i + 2] = (float)strip->cb[i];
-        out[4 * i + 3] = 1.0f;
+        const WrSampleColour colour = { (float)strip->cr[i], (float)strip->cg[i],
+                                        (float)strip->cb[i], 1.0f };
+        fresh += out[4 * i + 3] == 0.0f;
+        memcpy(out + 4 * i, &colour, sizeof colour);
     }
     return fresh;
 }
