@@ -366,23 +366,33 @@ static bool moments(const float *restrict f, const double *restrict s, const dou
     return wild == 0;
 }
 
+/* In runs and two loops: of one loop the compiler would make branches in place of vectors. */
 static int64_t codes_of(const WrMapCodes *given, const float *restrict x, int count,
                         int32_t *restrict out)
 {
+    enum { RUN = 64 };
     const WrMapCodes c = *given;
+    const int32_t zero = (int32_t)c.zero, last = (int32_t)c.last;
     int32_t outside = 0;
+    for (int from = 0; from < count; from += RUN, x += RUN, out += RUN) {
+        const int now = count - from < RUN ? count - from : RUN;
+        double steps[RUN];
 #pragma omp simd reduction(+ : outside)
-    for (int i = 0; i < count; i++) {
-        const double number = x[i], exact = c.times * (number - c.less) / c.by;
-        /* clamped values are far outside all codes */
-        double steps = exact > -0x1p20 ? exact : -0x1p20;
-        steps = steps < 0x1p20 ? steps : 0x1p20;
-        const double whole = (double)(int32_t)steps, part = steps - whole;
-        double code = c.zero + whole + (part >= 0.5 ? 1.0 : 0.0) - (part <= -0.5 ? 1.0 : 0.0);
-        code = code > 0.0 ? code : 0.0;
-        code = code < c.last ? code : c.last;
-        out[i] = (int32_t)code;
-        outside += (number < c.low) | (number > c.high);
+        for (int i = 0; i < now; i++) {
+            const double number = x[i], exact = c.times * (number - c.less) / c.by;
+            /* clamped values are far outside all codes */
+            const double least = exact > -0x1p20 ? exact : -0x1p20;
+            steps[i] = least < 0x1p20 ? least : 0x1p20;
+            outside += (number < c.low) | (number > c.high);
+        }
+#pragma omp simd
+        for (int i = 0; i < now; i++) {
+            const int32_t whole = (int32_t)steps[i];
+            const double part = steps[i] - (double)whole;
+            const int32_t code = zero + whole + (part >= 0.5) - (part <= -0.5);
+            const int32_t positive = code > 0 ? code : 0;
+            out[i] = positive < last ? positive : last;
+        }
     }
     return outside;
 }
