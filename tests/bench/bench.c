@@ -30,7 +30,7 @@ static bool generate_lines(const WrCli *cli, bool quick, WrText *text, WrError *
 
 static bool edits_table(const WrCli *cli, bool quick, WrText *text, WrError *err)
 {
-    return wr_bench_live_layers(cli, quick, text, err) && wr_edits_table(cli, quick, text, err);
+    return wr_bench_live_layers(cli, quick, text, err) && wr_bench_edits(cli, quick, text, err);
 }
 
 static const Part parts[] = {

@@ -45,7 +45,7 @@ function(wr_fuzz name)
 endfunction()
 
 wr_fuzz(journal document/recovery_journal.c document/recover.c base/error.c base/message.c
-        base/file.c base/hash.c base/memory.c base/progress.c base/text.c)
+        base/file.c base/cpu.c base/hash.c base/memory.c base/progress.c base/text.c)
 
 set(tip_sources brush/tip.c base/error.c base/message.c base/exactmath.c
     base/memory.c base/text.c)
@@ -59,12 +59,13 @@ wr_fuzz(raw generate/terrain_raw.c base/error.c base/message.c base/memory.c bas
 
 # Under sanitizers of gcc the rooms cannot be linked with clang's.
 if(NOT WR_SANITIZE)
+    set(image_libraries -lOpenEXRCore -ldeflate -lfreetype -lharfbuzz -lfribidi -lfontconfig -lpng16 -lz -lsleef)
     # Through the reader process, whose library may crash where the program must not.
-    wr_fuzz(mesh ROOMS image base LIBRARIES -lfreetype -lharfbuzz -lfribidi -lfontconfig -lpng16 -ljson-c -lz -lsleef -ldl -lpthread)
+    wr_fuzz(mesh ROOMS image base LIBRARIES ${image_libraries} -ljson-c -ldl -lpthread)
     wr_fuzz(commands command/parse.c command/value.c command/scene_args.c
             ROOMS command export accuracy render document generate brush scene shade surface noise image field
                   base
-            LIBRARIES -lmypaint -ljson-c -lfreetype -lharfbuzz -lfribidi -lfontconfig -lpng16 -lz -lsleef -lzip -lexpat -ldl -lpthread)
+            LIBRARIES -lmypaint ${image_libraries} -ljson-c -lzip -lexpat -ldl -lpthread)
     wr_fuzz(myb brush/mypaint_engine.c brush/preset.c
-            ROOMS brush surface image field base LIBRARIES -lmypaint -ljson-c -lfreetype -lharfbuzz -lfribidi -lfontconfig -lpng16 -lz -lsleef -lfreetype -ldl -lpthread)
+            ROOMS brush surface image field base LIBRARIES -lmypaint ${image_libraries} -ljson-c -ldl -lpthread)
 endif()
