@@ -8,5 +8,8 @@
  * guarantee; the content does not change. */
 void wr_pages_large(void *block, size_t bytes);
 
+/* The contrary hint, for a block of which little will be used. */
+void wr_pages_small(void *block, size_t bytes);
+
 /* Bytes available without taking memory from other programs; 0 if unknown. */
 uint64_t wr_pages_free_bytes(void);

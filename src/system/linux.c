@@ -492,11 +492,21 @@ WrWatchEnd wr_watch_wait(WrWatch *watch, double seconds)
 
 #define LARGE ((uintptr_t)2 << 20) /* size on most processors; others round by themselves */
 
-void wr_pages_large(void *block, size_t bytes)
+static void advise(void *block, size_t bytes, int advice)
 {
     const uintptr_t start = (uintptr_t)block, from = (start + LARGE - 1) & ~(LARGE - 1);
     const uintptr_t to = (start + bytes) & ~(LARGE - 1);
-    if (to > from) madvise((char *)block + (from - start), to - from, MADV_HUGEPAGE);
+    if (to > from) madvise((char *)block + (from - start), to - from, advice);
+}
+
+void wr_pages_large(void *block, size_t bytes)
+{
+    advise(block, bytes, MADV_HUGEPAGE);
+}
+
+void wr_pages_small(void *block, size_t bytes)
+{
+    advise(block, bytes, MADV_NOHUGEPAGE);
 }
 
 uint64_t wr_pages_free_bytes(void)

@@ -340,6 +340,11 @@ void wr_pages_large(void *block, size_t bytes)
     (void)block, (void)bytes;
 }
 
+void wr_pages_small(void *block, size_t bytes)
+{
+    (void)block, (void)bytes;
+}
+
 uint64_t wr_pages_free_bytes(void)
 {
     return 0;

@@ -94,13 +94,46 @@ static bool add_row(const WrCli *cli, const Row *row, bool quick, WrText *text, 
     return true;
 }
 
+/* A new document painted on in one corner: memory beyond that of a small one, and a dab's time. */
+static bool add_memory(const WrCli *cli, WrText *text, WrError *err)
+{
+    static const int sizes[2] = { 512, 16384 };
+    WrAppMoments moments[2];
+    for (int i = 0; i < 2; i++) {
+        char table[40], strokes[2][100];
+        const double low = 100.0 / sizes[i], high = 400.0 / sizes[i]; /* the same texels */
+        snprintf(table, sizeof table, "table %dx%d", sizes[i], sizes[i]);
+        for (int k = 0; k < 2; k++)
+            snprintf(strokes[k], sizeof strokes[k],
+                     "stroke radius=40 strength=0.1 points=%.7f,%.7f;%.7f,%.7f", low,
+                     k ? low : high, high, k ? high : low);
+        const char *const scene[] = { table, "surface sphere", NULL };
+        const char *const lines[] = { strokes[0], strokes[1], NULL };
+        moments[i] = (WrAppMoments){ .lines = lines, .rounds = 8 };
+        WrSession *session = open_session(cli, scene, err);
+        const WrAppOptions options = { .session = session,
+                                       .threads = cli->threads,
+                                       .isa = cli->isa };
+        const bool good = session && wr_app_moments(&options, &moments[i], err);
+        wr_session_free(session);
+        if (!good) return false;
+    }
+    wr_text_addf(text, "  %-62s %8.1f MB\n",
+                 "a corner painted on a new 16384x16384, beyond 512x512",
+                 ((double)moments[1].resident - (double)moments[0].resident) / 1e6);
+    add_delays(text, "  a stroke there, to the table", &moments[1].exact);
+    add_delays(text, "  to the patch", &moments[1].preview);
+    add_delays(text, "  the same on 512x512, to the table", &moments[0].exact);
+    return true;
+}
+
 bool wr_bench_moments(const WrCli *cli, bool quick, WrText *text, WrError *err)
 {
     wr_text_addf(text, "\nmoments in the window %51s %8s\n", "50 %", "95 %");
     if (!add_brush(cli, quick, text, err)) return false;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (!add_row(cli, &rows[i], quick, text, err)) return false;
-    return true;
+    return add_memory(cli, text, err);
 }
 #else
 bool wr_bench_moments(const WrCli *cli, bool quick, WrText *text, WrError *err)

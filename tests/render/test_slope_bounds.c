@@ -225,12 +225,66 @@ static void tiles_are_as_steep_as_what_is_read_of_them(void **state)
     wr_pool_free(pool);
 }
 
+/* The copy of a table with empty tiles, as numbers: 0 and -0 are the same. */
+static void assert_same_copies(const WrTable *a, const WrTable *b, WrCopyKind kind, int rows)
+{
+    const WrTableCopy *one = &a->copies[kind], *other = &b->copies[kind];
+    assert_int_equal(one->pitch, other->pitch);
+    const size_t floats = kind == WR_COPY_GRADIENT ? 2 : 1;
+    const size_t count = (size_t)one->pitch * (size_t)(rows + 2 * WR_APRON) * floats;
+    for (size_t i = 0; i < count; i++)
+        if (one->data ? one->data[i] != other->data[i] : one->fine[i] != other->fine[i])
+            fail_msg("kind %d: number %zu differs", (int)kind, i);
+}
+
+/* Empty tiles are left out of copies; those of a table that stores its zeros are not. Both are edited, and edits undone. */
+static void empty_tiles_are_left_out_and_read_as_zeros(void **state)
+{
+    (void)state;
+    TestRandom random = { 1612 };
+    WrError err = { "" };
+    WrPool *pool = wr_pool_new(2);
+    for (int k = 0; k < 24; k++) {
+        const int w = WR_TILE * (3 + k % 5), h = WR_TILE * (2 + k % 7), kind = k % WR_COPY_COUNT;
+        const WrWrap u = k % 2 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC;
+        const WrWrap v = k % 4 < 2 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC;
+        WrField *empty = wr_field_new(w, h, u, v, 0, NULL), *full = wr_field_share(empty);
+        WrField *first = wr_field_share(empty);
+        for (int ty = 0; ty < wr_field_tiles_v(full); ty++)
+            for (int tx = 0; tx < wr_field_tiles_u(full); tx++) wr_field_tile_write(full, tx, ty);
+        WrField *first_full = wr_field_share(full);
+        WrTable tables[2];
+        for (int n = 0; n < 2; n++) {
+            wr_table_init(&tables[n]);
+            if (k >= 12) tables[n].precision = WR_PRECISION_DOUBLE;
+        }
+        for (int edit = 0; edit < 7; edit++) {
+            assert_true(wr_table_update(&tables[0], (WrCopyKind)kind, empty, pool, &err));
+            assert_true(wr_table_update(&tables[1], (WrCopyKind)kind, full, pool, &err));
+            assert_same_copies(&tables[0], &tables[1], (WrCopyKind)kind, h);
+            const int i = edit % 2 ? (int)(w * test_random(&random)) : edit % 4 ? 0 : w - 1;
+            const int j = edit % 3 ? (int)(h * test_random(&random)) : 0;
+            const float height = (float)test_random(&random);
+            if (edit == 3) { /* all of it undone */
+                wr_field_free(empty), wr_field_free(full);
+                empty = wr_field_share(first), full = wr_field_share(first_full);
+            } else {
+                wr_field_set(empty, i, j, height), wr_field_set(full, i, j, height);
+            }
+        }
+        for (int n = 0; n < 2; n++) wr_table_fini(&tables[n]);
+        wr_field_free(empty), wr_field_free(full), wr_field_free(first), wr_field_free(first_full);
+    }
+    wr_pool_free(pool);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_spared_shows_nowhere),
         cmocka_unit_test(edits_show_wherever_they_are),
         cmocka_unit_test(tiles_are_as_steep_as_what_is_read_of_them),
+        cmocka_unit_test(empty_tiles_are_left_out_and_read_as_zeros),
         cmocka_unit_test(no_tile_that_a_box_reads_is_steeper_than_it_says),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -63,6 +63,8 @@ typedef struct WrAppMoments {
     WrAppDelays first;   /* the first frame of the canvas with the change */
     WrAppDelays exact;   /* the first such frame in which nothing is approximate */
     WrAppDelays preview; /* the patch shows the change; with lines only */
+    uint64_t
+        resident; /* bytes of the process's memory after the last change, with the window open; 0: unknown */
 } WrAppMoments;
 
 /* Measure changes in a hidden window (no display needed). With lines each change waits until everything is shown; pans

@@ -22,6 +22,7 @@
 #include "base/text.h"
 #include "image/image.h"
 #include "system/clock.h"
+#include "system/process.h"
 #include "system/thread.h"
 
 #include <SDL.h>
@@ -411,6 +412,8 @@ bool wr_app_moments(const WrAppOptions *options, WrAppMoments *out, WrError *err
     if (good) {
         app->settings->turning = false;
         good = measure_moments(app, &moment, out, err);
+        rest(app, MOMENT_SECONDS);
+        out->resident = wr_process_resident();
     }
     out->first = percentiles(moment.first.data, moment.first.count);
     out->exact = percentiles(moment.exact.data, moment.exact.count);

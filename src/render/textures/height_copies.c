@@ -7,6 +7,7 @@
 #include "base/pool.h"
 #include "base/progress.h"
 #include "field/field.h"
+#include "system/large_pages.h"
 
 #include <float.h>
 #include <math.h>
@@ -272,6 +273,7 @@ typedef struct CopyJob {
     WrTableCopy *copy;
     WrCopyKind kind;
     const WrField *field;
+    bool skips;  /* what stays empty is left out */
     bool border; /* a texel that the apron repeats has changed */
     int changed; /* changed tiles */
 } CopyJob;
@@ -297,10 +299,37 @@ static void widen(CopyJob *job, int i, int j, int w, int h)
     wr_free(t);
 }
 
-static void refresh(CopyJob *job, int i, int j, int w, int h)
+/* True if texels near (x, y) are not stored, now and when the copy was made. */
+static bool empty_at(const CopyJob *job, int x, int y)
+{
+    const int w = wr_field_width(job->field), h = wr_field_height(job->field);
+    const bool wraps_u = wr_field_wrap_u(job->field) == WR_WRAP_PERIODIC;
+    const bool wraps_v = wr_field_wrap_v(job->field) == WR_WRAP_PERIODIC;
+    x = wraps_u ? (x % w + w) % w : x < 0 ? 0 : x >= w ? w - 1 : x;
+    y = wraps_v ? (y % h + h) % h : y < 0 ? 0 : y >= h ? h - 1 : y;
+    const WrField *seen = job->copy->seen;
+    return !wr_field_tile(job->field, x / WR_TILE, y / WR_TILE) &&
+           (!seen || !wr_field_tile(seen, x / WR_TILE, y / WR_TILE));
+}
+
+/* True if the copy is 0 in a rectangle, and stays so. Extrapolation at clamped ends depends on 3 texels. */
+static bool stays_empty(const CopyJob *job, int i, int j, int w, int h)
+{
+    const int more = kinds[job->kind].reach + 3;
+    const int right = i + w - 1 + more, bottom = j + h - 1 + more;
+    if (!job->skips) return false;
+    for (int y = j - more;; y = y + WR_TILE < bottom ? y + WR_TILE : bottom) {
+        for (int x = i - more;; x = x + WR_TILE < right ? x + WR_TILE : right) {
+            if (!empty_at(job, x, y)) return false;
+            if (x == right) break;
+        }
+        if (y == bottom) return true;
+    }
+}
+
+static void fill(CopyJob *job, int i, int j, int w, int h)
 {
     const WrTableCopy *copy = job->copy;
-    if (w <= 0 || h <= 0) return;
     if (copy->data)
         kinds[job->kind].fill(job->field, i, j, w, h, copy->data + place(job, i, j),
                               (size_t)copy->pitch);
@@ -309,6 +338,35 @@ static void refresh(CopyJob *job, int i, int j, int w, int h)
                               (size_t)copy->pitch);
     else widen(job, i, j, w, h);
     __atomic_fetch_add(&job->table->texels_refreshed, (int64_t)w * h, __ATOMIC_RELAXED);
+}
+
+/* The end of the tile that holds x, or `end` if that is nearer. */
+static int tile_end(int x, int end)
+{
+    const int next = (x & -WR_TILE) + WR_TILE;
+    return next < end ? next : end;
+}
+
+/* Memory of empty tiles is not touched, and costs nothing: a new table of 16384 x 16384 would need 2 GB for its slopes. */
+static void refresh(CopyJob *job, int i, int j, int w, int h)
+{
+    if (w <= 0 || h <= 0) return;
+    if (!job->skips) {
+        fill(job, i, j, w, h);
+        return;
+    }
+    for (int y = j, y1; y < j + h; y = y1) {
+        y1 = tile_end(y, j + h);
+        for (int x = i, x1; x < i + w; x = x1) {
+            x1 = tile_end(x, i + w);
+            if (stays_empty(job, x, y, x1 - x, y1 - y)) continue;
+            for (int next; x1 < i + w; x1 = next) {
+                next = tile_end(x1, i + w);
+                if (stays_empty(job, x1, y, next - x1, y1 - y)) break;
+            }
+            fill(job, x, y, x1 - x, y1 - y);
+        }
+    }
 }
 
 /* Non-negative floats have the same order as their bits; NaN sorts last.
@@ -386,7 +444,8 @@ static void build_strip(int strip, int worker, void *ctx)
     int to = bottom == h ? h + WR_APRON : bottom;
     refresh(job, -WR_APRON, from, w + 2 * WR_APRON, to - from);
     if (job->kind == WR_COPY_GRADIENT)
-        for (int tx = 0; tx < wr_field_tiles_u(job->field); tx++) mark_steep(job, tx, strip);
+        for (int tx = 0; tx < wr_field_tiles_u(job->field); tx++)
+            if (!stays_empty(job, tx * WR_TILE, top, WR_TILE, WR_TILE)) mark_steep(job, tx, strip);
 }
 
 /* Interval [a, b) of one axis, split into pieces inside [0, n): a periodic axis wraps.
@@ -500,6 +559,22 @@ static void count_tile(int tx, int ty, void *ctx)
     ((CopyJob *)ctx)->changed++;
 }
 
+#define MANY_TILES 4096
+
+/* True if less than an eighth of a large table is stored. */
+static bool is_sparse(const WrField *field)
+{
+    const size_t tile = WR_TILE * WR_TILE * sizeof(float), tiles = (size_t)tile_count(field);
+    return tiles >= MANY_TILES && wr_field_bytes(field) < tiles * tile / 8;
+}
+
+/* Of whole tiles at 0, as new documents are. */
+static bool may_skip(const WrField *field)
+{
+    return field && wr_field_level(field) == 0.0f && wr_field_width(field) % WR_TILE == 0 &&
+           wr_field_height(field) % WR_TILE == 0;
+}
+
 static bool allocate(CopyJob *job, WrError *err)
 {
     int w = wr_field_width(job->field), h = wr_field_height(job->field);
@@ -512,6 +587,10 @@ static bool allocate(CopyJob *job, WrError *err)
                      (size_t)kinds[job->kind].floats * (single ? sizeof(float) : sizeof(double)),
                      kinds[job->kind].what, err);
     if (!data) return false;
+    job->copy->sparse = is_sparse(job->field);
+    if (job->copy->sparse)
+        wr_pages_small(data, (size_t)pitch * (size_t)(h + 2 * WR_APRON) *
+                                 (size_t)kinds[job->kind].floats * sizeof(float));
     if (single) job->copy->data = data;
     else job->copy->fine = data;
     job->copy->precision = job->table->precision;
@@ -533,12 +612,15 @@ bool wr_table_update(WrTable *table, WrCopyKind kind, const WrField *field, WrPo
         wr_field_changes(copy->seen, field, count_tile, &job);
         if (job.changed == 0) return true;
     }
+    job.skips = may_skip(field) && (!copy->seen || wr_field_level(copy->seen) == 0.0f);
     if (same_layout(copy->seen, field) && job.changed <= tile_count(field) / 2) {
         wr_field_changes(copy->seen, field, refresh_tile, &job);
         if (job.border) refresh_apron(&job);
         if (kind == WR_COPY_GRADIENT) wr_field_changes(copy->seen, field, mark_tile, &job);
     } else {
-        if (!same_layout(copy->seen, field) && !allocate(&job, err)) return false;
+        const bool fits = same_layout(copy->seen, field) && (!copy->sparse || is_sparse(field));
+        if (!fits && !allocate(&job, err)) return false;
+        job.skips = may_skip(field) && (!copy->seen || wr_field_level(copy->seen) == 0.0f);
         wr_pool_run(pool, wr_field_tiles_v(field), build_strip, &job);
     }
     if (wr_progress_stopped()) {

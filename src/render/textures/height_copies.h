@@ -66,6 +66,7 @@ typedef struct WrTableCopy {
     float *data;  /* owned; only for SINGLE */
     double *fine; /* owned; for the other precisions */
     int pitch;    /* texels per row */
+    bool sparse;  /* in small pages, because most of the table was empty */
 } WrTableCopy;
 
 typedef struct WrTable {
