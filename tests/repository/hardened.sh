@@ -12,7 +12,7 @@ complain() {
     failures=$((failures + 1))
 }
 
-for file in wrinkle wrinkle-reader wrinkle_oiio.so wrinkle_assimp.so wrinkle_librsvg.so; do
+for file in wrinkle wrinkle-reader wrinkle_oiio.so wrinkle_assimp.so wrinkle_librsvg.so wrinkle_window.so; do
     [[ -f $file ]] || { complain "$file is not built"; continue; }
     header=$(readelf -hW "$file") segments=$(readelf -lW "$file") dynamic=$(readelf -dW "$file")
     symbols=$(readelf --dyn-syms -W "$file")

@@ -89,7 +89,7 @@ targets() {
     local known id
     is_hard && { echo hard_rows; return; }
     known=$(ninja -C "$1" -t targets all | cut -d : -f 1)
-    for id in wrinkle wrinkle-reader wrinkle_oiio wrinkle_assimp wrinkle_librsvg wr_fault hang $(named | sed 's/^/test_/'); do
+    for id in wrinkle wrinkle-reader wrinkle_oiio wrinkle_assimp wrinkle_librsvg wrinkle_window wr_fault hang $(named | sed 's/^/test_/'); do
         grep -qxF "$id" <<<"$known" && echo "$id"
     done
 }
