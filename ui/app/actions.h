@@ -133,8 +133,6 @@ void wr_act_view_forward(WrApp *app);
 void wr_act_camera_reset(WrApp *app);
 void wr_act_pose_reset(WrApp *app);
 void wr_act_camera_fill(WrApp *app);
-/* Another surface was chosen: a camera that was placed by hand goes to where the whole is visible. */
-void wr_camera_refit(WrApp *app);
 void wr_act_camera_kind(WrApp *app);
 void wr_act_view_from_front(WrApp *app);
 void wr_act_view_from_back(WrApp *app);

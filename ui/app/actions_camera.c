@@ -144,11 +144,6 @@ void wr_act_camera_fill(WrApp *app)
     wr_app_run_linef(app, "camera fill aspect=%.5g turn=%.5g,%.5g", aspect, from, to);
 }
 
-void wr_camera_refit(WrApp *app)
-{
-    if (!wr_app_scene(app)->camera.fit) wr_act_camera_fill(app);
-}
-
 bool wr_is_perspective(const WrApp *app)
 {
     return !wr_app_scene(app)->camera.orthographic;

@@ -1,6 +1,5 @@
 /* Scene panel: every field shows the document's value, changes the preview while it is dragged, and runs one command
    at the end. */
-#include "ui/app/actions.h"
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/background_command.h"
 #include "ui/app/state/dialog.h"
@@ -158,7 +157,7 @@ static void take_file(WrApp *app, WrSurfaceKind kind, const char *path)
     run_file(app, &shape, NULL, path, table);
     /* The repeats were those of the surface before; the mesh's own (u,v) or its projection place the table. */
     if (kind == WR_SURFACE_mesh && first && repeats) wr_app_run_line(app, "replicate 1,1");
-    wr_camera_refit(app);
+    wr_scene_refit(app);
 }
 
 void wr_surface_take_mesh(WrApp *app, const char *path)
@@ -349,7 +348,7 @@ static void surface(WrApp *app)
         WrShape shape;
         wr_shape_default((WrSurfaceKind)kind, &shape);
         wr_surface_run(app, &shape, NULL);
-        wr_camera_refit(app);
+        wr_scene_refit(app);
     }
     wr_gui_tip(wr_surfaces[kind]->help);
     surface_params(app);

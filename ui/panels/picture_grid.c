@@ -1,5 +1,4 @@
 #include "ui/panels/picture_grid.h"
-#include "ui/app/actions.h"
 #include "ui/app/state/scene_line.h"
 #include "ui/app/state/session_view.h"
 #include "ui/toolkit/gui.h"
@@ -153,7 +152,7 @@ void wr_model_grid(WrApp *app)
                                         model_now(wr_app_scene(app)), model_item);
     if (pressed < 0) return;
     set_line(app, "model ", wr_stock_models[pressed].name);
-    wr_camera_refit(app);
+    wr_scene_refit(app);
 }
 
 static void light_item(const WrApp *app, int i, WrPictureItem *out)

@@ -1,7 +1,6 @@
 /* The index of the search. Rows come from drawing each place once off screen, so that a new row is found without a list;
    rows that are hidden at present come from the tables they are made of. */
 #include "ui/panels/search_index.h"
-#include "ui/app/actions.h"
 #include "ui/panels/picture_grid.h"
 #include "ui/app/state/action.h"
 #include "ui/app/state/action_list.h"
@@ -12,6 +11,7 @@
 #include "ui/app/state/registry.h"
 #include "ui/app/state/search_score.h"
 #include "ui/app/state/search_words.h"
+#include "ui/app/state/scene_line.h"
 #include "ui/app/state/session_view.h"
 #include "ui/app/state/settings.h"
 #include "ui/canvas/tools/preset_browser.h"
@@ -746,7 +746,7 @@ void wr_search_index_open(WrApp *app, const WrSearchEntry *entry)
         break;
     case WR_SEARCH_MODEL:
         wr_app_run_line(app, entry->action);
-        wr_camera_refit(app);
+        wr_scene_refit(app);
         break;
     case WR_SEARCH_MATERIAL: wr_app_run_line(app, entry->action); break;
     case WR_SEARCH_ACTION:

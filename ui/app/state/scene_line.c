@@ -1,4 +1,6 @@
 #include "ui/app/state/scene_line.h"
+#include "ui/app/state/action.h"
+#include "ui/app/state/action_list.h"
 #include "ui/app/state/background_command.h"
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/registry.h"
@@ -15,6 +17,11 @@ void wr_scene_run(WrApp *app, WrText *line)
     wr_app_live_end(app);
     wr_app_run_line(app, wr_text_get(line));
     wr_text_fini(line);
+}
+
+void wr_scene_refit(WrApp *app)
+{
+    if (!wr_app_scene(app)->camera.fit) wr_action_run(app, WR_ACT(camera_fill));
 }
 
 void wr_line_param(WrText *line, const WrSceneParam *param, const double *values)
