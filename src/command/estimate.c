@@ -16,7 +16,8 @@
 
 #define PI 3.14159265358979323846
 #define LEAST_MB 64.0    /* smaller amounts are not reported */
-#define ROWS_BYTES 1.5e6 /* of any command: rows, lists, a block of tiles */
+#define ROWS_BYTES 2.5e6 /* of any command: rows, lists, a block of tiles */
+#define PNG_BYTES 9.8e6  /* rows of a PNG that threads compress at once */
 #define TABLE 4.2        /* bytes of a texel in tiles, with what lists them */
 
 typedef struct Job {
@@ -284,7 +285,7 @@ static const Need needs[] = {
     UNKNOWN("export", "horizon", "it goes by the number of directions and threads"),
     UNKNOWN("export", "solid", "it goes by the relief, and by its error="),
     { "export", "glb", texels, .bytes = 36 }, /* three maps in memory */
-    { "maps", NULL, texels, .bytes = 34 },
+    { "maps", NULL, texels, .bytes = 32 },
     { "render", NULL, picture, .bytes = 17 },
     { "script", .count = NULL },
 };
@@ -310,6 +311,17 @@ bool wr_estimate_has(const char *verb, const char *form)
     return find(verb, form) != NULL;
 }
 
+static bool writes_png(const WrCall *call)
+{
+    for (int i = 0; i < call->count; i++) {
+        const char *dot = call->specs[i].type == WR_ARG_PATH && call->args[i].text
+                              ? strrchr(call->args[i].text, '.')
+                              : NULL;
+        if (dot && strcmp(dot, ".png") == 0) return true;
+    }
+    return false;
+}
+
 void wr_session_estimate_call(const WrSession *session, const WrCall *call, WrEstimate *out)
 {
     *out = (WrEstimate){ 0 };
@@ -333,7 +345,9 @@ void wr_session_estimate_call(const WrSession *session, const WrCall *call, WrEs
     out->unknown = need->unknown;
     if (need->unknown) return;
     if (need->count) out->bytes = need->count(&job, need) + ROWS_BYTES;
-    const bool whole = call->command->kind == WR_CLASS_OUTPUT && document->layer_count > 1;
+    const bool output = call->command->kind == WR_CLASS_OUTPUT;
+    const bool whole = output && document->layer_count > 1;
+    if (output && writes_png(call)) out->bytes += PNG_BYTES;
     if (whole && !session->options.composites)
         out->bytes += 1.2 * TABLE * job.texels; /* the composite */
 }

@@ -10,7 +10,7 @@
 #include <string.h>
 #include <zlib.h>
 
-#define SEGMENT (1 << 19) /* bytes of rows compressed as one */
+#define SEGMENT (1 << 18) /* bytes of rows compressed as one */
 #define BATCH 8           /* segments compressed at once */
 #define SAMPLE (1 << 15)  /* bytes that select a segment's strategy */
 #define LEVEL 4           /* half the time of zlib's default, 6, for files 2 % larger */

@@ -49,8 +49,8 @@ static void add_numbers(WrText *tip, const WrSeamEdge *edge)
     wr_text_add(tip, numbers);
 }
 
-/* Measure with the canvas's tiling, while the table is unchanged; not during strokes, which wrap and make no
-   seams. */
+/* Measure with the canvas's tiling; not during strokes, which wrap and make no seams. The first picture of a change does not
+   wait for it: a large table needs some milliseconds. */
 static void measure(WrApp *app)
 {
     const WrField *field = wr_app_field(app);
@@ -64,6 +64,12 @@ static void measure(WrApp *app)
                              4 +
                          (uint64_t)tiling;
     if (key == app->seam_key || wr_session_in_stroke(app->session)) return;
+    const bool fresh = app->seam_key != 0 && key != app->seam_wanted;
+    app->seam_wanted = key;
+    if (fresh) {
+        wr_app_redraw(app);
+        return;
+    }
     *app->certificate = scene->analytic.kind != WR_ANALYTIC_OFF
                             ? wr_certificate_formula(&scene->analytic)
                             : wr_certificate_table(field, scene->scheme, &lay);
