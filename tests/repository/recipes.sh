@@ -50,7 +50,7 @@ compile() {
 like() {
     sed -n "\\|^$1\t|{s|$1|$2|gp;q}" "$folder/commands" >"$folder/like" && cat "$folder/like" >>"$folder/commands"
 }
-# links WHAT MESSAGE FILE...: the program with these files of the copy in place of its own: does not link, with that message, or
+# links WHAT MESSAGE FILE...: the tests of the window with these files of the copy in place of its own: does not link, with that message, or
 # links where the message is empty.
 links() {
     local what=$1 message=$2 file command objects=() said=$folder/link
@@ -60,8 +60,8 @@ links() {
         objects+=("$folder/${file//\//_}.o")
         CCACHE_DISABLE=1 bash -c "${command/-fsyntax-only/-o ${objects[-1]}}" || wrong "$what: $file"
     done
-    command=$(ninja -C "$build" -t commands wrinkle | tail -1)
-    (cd "$build" && LC_ALL=C timeout 120 bash -c "${command/-o wrinkle/${objects[*]} -o $folder/program}") >"$said" 2>&1
+    command=$(ninja -C "$build" -t commands run_ui | tail -1)
+    (cd "$build" && LC_ALL=C timeout 120 bash -c "${command/-o run_ui/${objects[*]} -o $folder/program}") >"$said" 2>&1
     case $?:$message in
     0:) printf '%s: links\n' "$what" ;;
     124:* | 0:* | *:) wrong "$what: $(tail -1 "$said")" ;;
