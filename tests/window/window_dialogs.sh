@@ -254,7 +254,7 @@ ends 0
 
 # ---- without its samples the program says so, and calls nothing by their name; without icons there are words ----
 mkdir alone
-cp "$program" alone/wrinkle
+cp "$program" "${program%/*}/wrinkle_window.so" alone/
 (
     unset WRINKLE_DATA
     export WRINKLE_FONTS=$folder/nowhere
