@@ -130,7 +130,7 @@ static bool add_memory(const WrCli *cli, WrText *text, WrError *err)
 bool wr_bench_moments(const WrCli *cli, bool quick, WrText *text, WrError *err)
 {
     wr_text_addf(text, "\nmoments in the window %51s %8s\n", "50 %", "95 %");
-    /* first: what the others have used stays with the process for a while */
+    /* first: memory of the others stays with the process for a while */
     if (!add_memory(cli, text, err) || !add_brush(cli, quick, text, err)) return false;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (!add_row(cli, &rows[i], quick, text, err)) return false;
