@@ -435,7 +435,7 @@ static bool gain(const WrCoverage *cover, WrPage *page, const WrDabShape *shape,
 static float bound_in_tile(const WrDabShape *shape, const WrRun *run)
 {
     const WrCapsule *c = &shape->capsule;
-    const double half = 0.5 * (WR_TILE - 1), diagonal = 44.6; /* > sqrt(2) half */
+    const double half = 0.5 * (WR_TILE - 1), diagonal = 1.4143 * half; /* > sqrt(2) half */
     if (shape->kind != WR_SHAPE_DAB && shape->kind != WR_SHAPE_MOTION)
         return (float)shape->strongest;
     const double x = run->x - run->at % WR_TILE + half - c->x;

@@ -72,8 +72,8 @@ typedef enum WrCoverageRule {
 } WrCoverageRule;
 
 typedef struct WrPage {
-    float *
-        cover; /* a tile, owned: memory that tables have left is used first; unused texels of the last tiles stay 0 */
+    /* a tile (wr_field_tile_make), owned; texels beyond the table's edge stay 0 */
+    float *cover;
     float *rest;   /* for sums: rounding errors; owned, or NULL */
     float *target; /* owned, or NULL */
     int tx, ty;

@@ -108,7 +108,7 @@ typedef struct Piece {
     int i, count, texel;
 } Piece;
 
-/* What all pieces of one scan share. */
+/* Shared by all pieces of a scan; the scan owns the lists. */
 typedef struct Scan {
     const WrField *field;
     const WrDabShape *shape;
@@ -169,7 +169,8 @@ static bool many(const Scan *scan, const WrPool *pool)
            wide <= wr_field_width(scan->field) && tall <= wr_field_height(scan->field);
 }
 
-/* All tiles of the shape at once: threads are awoken once for a motion. The ends of a period share tiles, which follow. */
+/* All tiles of the shape at once: threads are woken once for a motion. Tiles that the two ends of a period share are scanned twice: the second time
+   after the threads. */
 static void scan_together(Scan *scan, WrPool *pool)
 {
     const int most = (scan->rows.high - scan->rows.low) / WR_TILE + 3;

@@ -103,11 +103,18 @@ static double masking(const Job *job, const Need *need)
     return (wr_call_given(job->call, "live") ? 4.0 : 1.0) * need->bytes * job->texels;
 }
 
+/* path: may be NULL */
+static bool ends_with(const char *path, const char *ending)
+{
+    const char *dot = path ? strrchr(path, '.') : NULL;
+    return dot && strcmp(dot, ending) == 0;
+}
+
 /* OpenRaster files also hold the composite. */
 static double saving(const Job *job, const Need *need)
 {
-    const char *dot = strrchr(wr_call_arg(job->call, "FILE")->text, '.');
-    return dot && strcmp(dot, ".ora") == 0 ? need->bytes * job->texels : 0.0;
+    return ends_with(wr_call_arg(job->call, "FILE")->text, ".ora") ? need->bytes * job->texels
+                                                                   : 0.0;
 }
 
 /* bytes: per texel of the new tables. */
@@ -313,13 +320,10 @@ bool wr_estimate_has(const char *verb, const char *form)
 
 static bool writes_png(const WrCall *call)
 {
-    for (int i = 0; i < call->count; i++) {
-        const char *dot = call->specs[i].type == WR_ARG_PATH && call->args[i].text
-                              ? strrchr(call->args[i].text, '.')
-                              : NULL;
-        if (dot && strcmp(dot, ".png") == 0) return true;
-    }
-    return false;
+    bool any = false;
+    for (int i = 0; i < call->count; i++)
+        any |= call->specs[i].type == WR_ARG_PATH && ends_with(call->args[i].text, ".png");
+    return any;
 }
 
 void wr_session_estimate_call(const WrSession *session, const WrCall *call, WrEstimate *out)

@@ -115,7 +115,8 @@ const WrRayTree *wr_session_mesh_tree(const WrSession *session, const WrTriangle
 
 /* A stroke in progress is an open command: `head` is a stroke command without points, such as "stroke radius=20
    strength=0.1". Each sample is rounded to its printed text (u, v to 1e-7, pressure, tilt and seconds to 1e-4, turn
-   to 0.01 degrees) and then applied at once; replaying the finished line is bit-identical. While a stroke is open, run, open and go fail.
+   to 0.01 degrees) and then applied at once; replaying the finished line is bit-identical. While a stroke is open, run, open and go
+   fail.
    The active layer must be visible and unlocked; the stroke is limited to the selection. A sample with a u or v that
    is not finite or beyond 1e9 is refused. */
 bool wr_session_stroke_begin(WrSession *session, const char *head, WrError *err);
@@ -125,8 +126,8 @@ bool wr_session_stroke_add(WrSession *session, const WrSample *samples, int coun
    left. The result does not depend on the division of the work. */
 bool wr_session_stroke_push(WrSession *session, const WrSample *samples, int count, WrError *err);
 bool wr_session_stroke_work(WrSession *session, double seconds); /* false without a stroke */
-int64_t wr_session_stroke_drawn(
-    const WrSession *session); /* number of samples in the table; 0 without a stroke */
+/* Number of the stroke's samples that the table holds; 0 without a stroke. */
+int64_t wr_session_stroke_drawn(const WrSession *session);
 /* End the stroke after drawing all queued samples. A stroke without samples has no effect. */
 bool wr_session_stroke_end(WrSession *session, WrError *err);
 void wr_session_stroke_cancel(

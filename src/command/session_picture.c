@@ -385,7 +385,7 @@ static bool write_picture(Picture *picture, const char *path, WrError *err)
                              .data = picture->linear,
                              .rows = give_rows,
                              .ctx = picture,
-                             .tells = true };
+                             .reports = true };
     if (!wr_image_write(path, &out, 1, err)) return false;
     if (picture->replaced)
         wr_session_note(picture->session, "%s: %lld values were not finite and became 0", path,

@@ -182,7 +182,7 @@ typedef struct WrImageOut {
     WrRowSeen seen; /* NULL: no callback */
     void *ctx;
     WrPool *pool; /* threads that compress a PNG; NULL: the caller's */
-    bool tells;   /* rows reports the progress itself: it is most of the work */
+    bool reports; /* `rows` reports the progress itself, because it is most of the work */
     bool half;    /* all floats are halves, and are stored as such: EXR */
     /* EXR: the parts are the mip levels of one tiled image, each half as large as the one before
        (rounded down, at least 1), down to 1x1. Attributes are those of the first. */

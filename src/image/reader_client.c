@@ -391,8 +391,8 @@ static bool send_order(WrReader *reader, const WrWireOrder *order, int fd, WrErr
     return sent;
 }
 
-/* One of several attempts that share a deadline. Fails without a message if the child needs the library. *gone: no reply at all, not even the child's exit
- * status: the process itself may have ended. */
+/* One of several attempts that share a deadline. Fails without a message if the child needs the library.
+ * *gone: no reply at all, not even the child's exit status: the process itself may have ended. */
 static bool open_once(WrReader *reader, const WrWireOrder *order, int fd, double deadline,
                       bool *gone, WrError *err)
 {

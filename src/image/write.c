@@ -279,7 +279,7 @@ static bool write_part(Writing *to, const WrImageOut *part, WrHash *digest, WrEr
     bool ok = pixels && to->values;
     for (int y = 0; y < part->height && ok; y += strip) {
         int rows = part->height - y < strip ? part->height - y : strip;
-        if (part->tells ? wr_progress_stopped() : !wr_progress_report((double)y / part->height)) {
+        if (part->reports ? wr_progress_stopped() : !wr_progress_report((double)y / part->height)) {
             ok = wr_fail(err, "cancelled");
             break;
         }

@@ -35,9 +35,9 @@ static WrSession *open_session(const WrCli *cli, const char *const *lines, WrErr
     return session;
 }
 
-static void add_delays(WrText *text, const char *what, const WrAppDelays *ms)
+static void add_delays(WrText *text, const char *label, const WrAppDelays *ms)
 {
-    wr_text_addf(text, "  %-62s %8.1f %8.1f ms\n", what, ms->half, ms->most);
+    wr_text_addf(text, "  %-62s %8.1f %8.1f ms\n", label, ms->half, ms->most);
 }
 
 /* A brush of radius 1000 on 4096 x 4096. */
@@ -55,7 +55,7 @@ static bool add_brush(const WrCli *cli, bool quick, WrText *text, WrError *err)
 }
 
 typedef struct Row {
-    const char *what;
+    const char *label;
     const char *const *scene;
     const char *lines[5]; /* run in turns */
     int rounds, width, height;
@@ -88,7 +88,7 @@ static bool add_row(const WrCli *cli, const Row *row, bool quick, WrText *text, 
     const bool good = session && wr_app_moments(&options, &moments, err);
     wr_session_free(session);
     if (!good) return false;
-    add_delays(text, row->what, &moments.first);
+    add_delays(text, row->label, &moments.first);
     add_delays(text, "  to the exact table", &moments.exact);
     if (row->lines[0]) add_delays(text, "  to the patch", &moments.preview);
     return true;

@@ -34,7 +34,7 @@ static bool run(const char *folder, const char *words)
     wr_text_addf(&line,
                  "cd '%s' && HOME='%s' XDG_CONFIG_HOME='%s' WRINKLE_STATE='%s' "
                  "SDL_VIDEODRIVER=dummy WRINKLE_RENDERER=software WRINKLE_TIMING=%.6f "
-                 "'%s/wrinkle' %s >out 2>told </dev/null",
+                 "'%s/wrinkle' %s >out 2>report </dev/null",
                  folder, folder, folder, folder, wr_clock_seconds(), beside, words);
     const bool good = !strchr(beside, '\'') && system(wr_text_get(&line)) == 0;
     wr_text_fini(&line);
@@ -45,15 +45,15 @@ static bool run(const char *folder, const char *words)
 /* Milliseconds from the command to the first picture; negative: no report. */
 static double first_picture(const char *folder)
 {
-    char path[64], *told = NULL;
+    char path[64], *report = NULL;
     double ms = -1;
     size_t length;
     WrError err;
-    snprintf(path, sizeof path, "%s/told", folder);
-    if (!run(folder, "paint") || !wr_file_read(path, 65536, &told, &length, &err) ||
-        sscanf(told, "first picture after %lf", &ms) != 1)
+    snprintf(path, sizeof path, "%s/report", folder);
+    if (!run(folder, "paint") || !wr_file_read(path, 65536, &report, &length, &err) ||
+        sscanf(report, "first picture after %lf", &ms) != 1)
         ms = -1;
-    wr_free(told);
+    wr_free(report);
     return ms;
 }
 

@@ -55,19 +55,19 @@ bool wr_app_latency(const WrAppOptions *options, WrAppLatency *latency, WrError 
 /* Milliseconds from a change to its display in a hidden window. */
 typedef struct WrAppMoments {
     /* input */
-    const char *const *
-        lines; /* commands, NULL at the end, run in turns; NULL: the canvas is panned and zoomed instead */
+    /* commands, run in turns, NULL at the end; borrowed; NULL: the canvas is panned and zoomed instead */
+    const char *const *lines;
     int rounds;        /* changes, 1..10000 */
     int width, height; /* of the window, pixels; 0: 1440 x 900 */
     /* results */
     WrAppDelays first;   /* the first frame of the canvas with the change */
     WrAppDelays exact;   /* the first such frame in which nothing is approximate */
     WrAppDelays preview; /* the patch shows the change; with lines only */
-    uint64_t
-        resident; /* bytes of the process's memory after the last change, with the window open; 0: unknown */
+    /* bytes of the process's memory after the last change, with the window open; 0: unknown */
+    uint64_t resident;
 } WrAppMoments;
 
 /* Measure changes in a hidden window (no display needed). With lines each change waits until everything is shown; pans
- * and zooms are sent 60 times per second like a drag, and `exact` is the time from the last to the exact frame. Changes the session's document.
- * Error: no window, a line fails, interrupted. */
+ * and zooms are sent 60 times per second like a drag, and `exact` is the time from the last to the exact frame. Changes
+ * the session's document. Error: no window, a line fails, interrupted. */
 bool wr_app_moments(const WrAppOptions *options, WrAppMoments *moments, WrError *err);

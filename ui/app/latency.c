@@ -305,12 +305,12 @@ bool wr_app_latency(const WrAppOptions *options, WrAppLatency *out, WrError *err
 /* Delays of all changes, in ms. */
 typedef struct Moment {
     WR_ARRAY(float) first, exact, preview;
-    double shown,
-        finished; /* clock of the newest frame, and of the newest exact one; 0: none since the change */
+    /* clock of the first frame since the change, and of the first exact one; 0: none */
+    double shown, finished;
 } Moment;
 
-static Moment
-    *moment_now; /* of the running measurement: `drawn` has no other argument than the window */
+/* Of the running measurement: `drawn` has no other argument than the window. */
+static Moment *moment_now;
 
 static void moment_drawn(WrApp *app)
 {

@@ -38,7 +38,7 @@ struct WrCanvas {
     WrCellTaps *columns, *rows; /* [2][width], [2][height]: the second one for shifted copies */
     bool *moved_column,
         *moved_row;          /* [width], [height]: the tiling shifts that copy down, to the right */
-    struct Lines *lines;     /* [threads of the pool] */
+    Lines *lines;            /* [threads of the pool] */
     bool *needed, *needed_v; /* [tiles_u], [tiles_v] tile columns and rows used by a rectangle */
     int threads;             /* 0: one per processor */
     WrPool *pool;            /* owned; created with the first picture */
@@ -271,7 +271,7 @@ static void prepare(WrCanvas *canvas, Run *run, int tiles_v, int shift)
     for (int k = 0; k < canvas->fields; k++)
         wr_canvas_mips_prepare(canvas->cells[k], canvas->needed, canvas->needed_v, run->deadline,
                                canvas->pool);
-    run->deadline = -1.0; /* what is rough stays so until the next picture */
+    run->deadline = -1.0; /* rough blocks stay rough until the next picture */
 }
 
 /* Paint columns x0 to x1 of a rectangle with one set of rows. */

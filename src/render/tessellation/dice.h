@@ -74,9 +74,9 @@ typedef struct WrDice {
     double epsilon;    /* largest error of the facets in pixels: the requested one, or more */
     double rise;       /* largest |F|, object units */
     WrHash key;        /* of everything that the facets depend on */
-    WrDiceCell *
-        cells; /* measured needs of the parts of a surface that is no mesh, for the next view; owned */
-    WrHash shape; /* wr_raised_key of these */
+    /* measured needs of the parts of a surface that is no mesh, for the next view; owned, or NULL */
+    WrDiceCell *cells;
+    WrHash shape; /* wr_raised_key of the surface that `cells` belong to */
 } WrDice;
 
 typedef struct WrDiceRequest {

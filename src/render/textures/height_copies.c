@@ -273,7 +273,7 @@ typedef struct CopyJob {
     WrTableCopy *copy;
     WrCopyKind kind;
     const WrField *field;
-    bool skips;  /* what stays empty is left out */
+    bool skips;  /* tiles that stay empty are left out */
     bool border; /* a texel that the apron repeats has changed */
     int changed; /* changed tiles */
 } CopyJob;

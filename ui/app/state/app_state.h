@@ -163,7 +163,7 @@ struct WrApp {
     WrSeam *seam;
     WrCertificate *certificate;
     uint64_t seam_key;    /* key of the table and the scheme for which the seams were measured */
-    uint64_t seam_wanted; /* of the last picture */
+    uint64_t seam_wanted; /* the same, of the last picture drawn */
     WrMeter *meter;
     WrDeferred *later;
     /* command running in the background (ui/app/state/background_command.h); owned, NULL: none */
