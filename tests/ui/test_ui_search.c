@@ -573,6 +573,38 @@ static void every_row_is_found_opened_and_lit(void **state)
     assert_true(rows > 120);
 }
 
+/* An undo, say, adds or removes rows above the one that was found: the row stays where it was seen. */
+static void a_found_row_stays_in_place_when_rows_come_above_it(void **state)
+{
+    (void)state;
+    static const char *const surfaces[] = { "surface revolution", "surface plane",
+                                            "surface torus" };
+    Walk walk;
+    WrSearchHit hits[MOST];
+    float before[4], after[4];
+    walk_open(&walk, "en");
+    wr_gui_reports_all = false;
+    walk_frame(&walk);
+    wr_search_index_update(walk.app);
+    const WrSearchIndex *index = &walk.app->finder->index;
+    assert_true(wr_search_index_find(index, "bump height", hits, MOST) > 0);
+    int stayed = 0;
+    for (int i = 0; i < 30 && stayed < 3;
+         i++) { /* on a busy machine the frame may be gone before the pictures are drawn */
+        assert_true(opens_lit(&walk, &index->entries.data[hits[0].entry]));
+        walk_frame(&walk);
+        const bool lit = wr_gui_lit_row(walk.app->gui, before);
+        WrError err = { 0 };
+        if (!wr_session_run(walk.session, surfaces[i % 3], &err)) fail_msg("%s", err.text);
+        for (int k = 0; k < 6; k++) walk_frame(&walk);
+        if (!lit || !wr_gui_lit_row(walk.app->gui, after)) continue;
+        assert_memory_equal(before, after, sizeof before);
+        stayed++;
+    }
+    assert_int_equal(stayed, 3);
+    walk_close(&walk);
+}
+
 /* A row of the table of synonyms whose label is not in the program serves nobody. */
 static void every_synonym_has_its_thing(void **state)
 {
@@ -617,6 +649,8 @@ int main(void)
                                         cmocka_unit_test(german_words_find_their_things_first),
                                         cmocka_unit_test(french_words_find_their_things_first),
                                         cmocka_unit_test(every_row_is_found_opened_and_lit),
+                                        cmocka_unit_test(
+                                            a_found_row_stays_in_place_when_rows_come_above_it),
                                         cmocka_unit_test(every_synonym_has_its_thing) };
     return cmocka_run_group_tests(tests, enter_window, remove_folder);
 }

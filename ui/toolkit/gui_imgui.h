@@ -77,6 +77,7 @@ struct WrLight {
     int lit_in;                    /* frame in which it was drawn last */
     bool inside;                   /* the rows being drawn are in its section */
     bool heading;                  /* the section's heading is framed instead */
+    float scrolled;                /* how far the area was scrolled, pixels */
     float place[4];                /* x, y, width, height, pixels of the window */
 };
 

@@ -9,6 +9,7 @@
 
 #define LIT_MS 2000
 #define PATIENCE 4 /* frames in which a row must appear */
+#define SCROLLS 3  /* frames that scroll to a row */
 
 /* The name of a label "12 changed###NAME" or "NAME##7" stays the same while its text changes. */
 static const char *name_of(const char *label, size_t *length)
@@ -46,12 +47,16 @@ static void frame(WrLight *light, ImVec2 low, ImVec2 high)
 {
     const float out = (float)wr_gui_px(3);
     low = ImVec2(low.x - out, low.y - out), high = ImVec2(high.x + out, high.y + out);
+    const ImGuiWindow *window = ImGui::GetCurrentWindow();
     if (light->since == 0) light->since = SDL_GetTicks64();
+    /* Rows above it that come or go later, after an undo for example, must not move it away from under the pointer. */
+    else if (window->Scroll.y == light->scrolled && low.y != light->place[1])
+        light->scrolls = SCROLLS;
+    light->scrolled = window->Scroll.y;
     if (light->scrolls > 0) { /* sections that unfold above it move it once more */
         if (light->scrolls > 1) ImGui::SetScrollFromPosY(low.y - ImGui::GetWindowPos().y, 0.3f);
         light->scrolls--;
     }
-    const ImGuiWindow *window = ImGui::GetCurrentWindow();
     ImDrawList *list = ImGui::GetWindowDrawList();
     list->PushClipRect(window->InnerRect.Min, window->InnerRect.Max, false);
     list->AddRectFilled(low, high, wr_gui_colour_u32((WR_COLOUR_ACCENT & 0xffffffu) | 0x30000000u));
@@ -147,7 +152,7 @@ extern "C" void wr_gui_light_row(WrGui *gui, const char *section, const char *la
 {
     WrLight *light = &gui->light;
     *light = WrLight{};
-    light->scrolls = 3;
+    light->scrolls = SCROLLS;
     light->lit_in = -1;
     SDL_utf8strlcpy(light->section, section, sizeof light->section);
     SDL_utf8strlcpy(light->label, label, sizeof light->label);
