@@ -300,6 +300,35 @@ static double cells(const WrNoise *noise, const double *t, double *slope)
     return noise_blend(fade, dim, x, corner, slope);
 }
 
+/* cells() of 2D perlin noise from the hash, without slopes: the same operations in the same order, so the same bits, in a fifth
+   of the time. Patterns evaluate it several times a texel. */
+static double perlin_2d(const WrNoise *noise, const double *t)
+{
+    const WrFadeInfo *fade = &wr_fades[noise->fade];
+    const double scale = wr_noise_perlin_scale(2), x0 = floor(t[0]), y0 = floor(t[1]);
+    const double x[2] = { t[0] - x0, t[0] - x0 - 1.0 }, y[2] = { t[1] - y0, t[1] - y0 - 1.0 };
+    const uint32_t i = (uint32_t)(int64_t)x0, j = (uint32_t)(int64_t)y0;
+    const uint32_t period_u = (uint32_t)noise->lattice.period[0];
+    const uint32_t period_v = (uint32_t)noise->lattice.period[1];
+    const uint32_t c[2] = { i, period_u && i + 1 == period_u ? 0 : i + 1 };
+    const uint32_t part[2] = {
+        wr_lattice_hash_part(j, 1),
+        wr_lattice_hash_part(period_v && j + 1 == period_v ? 0 : j + 1, 1),
+    };
+    const uint32_t start = wr_lattice_hash_start(noise->lattice.seed);
+    const double alpha_u = wr_fade_value(fade, x[0]), alpha_v = wr_fade_value(fade, y[0]);
+    double f[2][2], row[2]; /* [v][u] */
+    for (int u = 0; u < 2; u++) {
+        const uint32_t link = wr_lattice_hash_link(start, wr_lattice_hash_part(c[u], 0));
+        for (int v = 0; v < 2; v++) {
+            const double *g = wr_lattice_gradient(2, wr_lattice_hash_link(link, part[v]));
+            f[v][u] = 0.0 + scale * g[0] * x[u] + scale * g[1] * y[v];
+        }
+    }
+    for (int v = 0; v < 2; v++) row[v] = f[v][0] + alpha_u * (f[v][1] - f[v][0]);
+    return row[0] + alpha_v * (row[1] - row[0]);
+}
+
 /* A period is reduced exactly in double (HC61). Without a period coordinates beyond 2^40 are folded, so that
    the casts to integers are defined and fractions keep 12 bits. */
 static double noise_simplex(const WrNoise *noise, const double *t, double *slope);
@@ -313,11 +342,14 @@ static double noise_cubes(const WrNoise *noise, const double *t, double *slope);
 double wr_noise_at(const WrNoise *noise, const double *t, double *slope)
 {
     double reduced[WR_NOISE_AXES], unwanted[WR_NOISE_AXES];
-    if (!slope) slope = unwanted;
     for (int a = 0; a < noise->dim; a++) {
         int period = noise->lattice.period[a];
         reduced[a] = wr_noise_reduce(t[a], period ? period : fabs(t[a]) > 0x1p40 ? 0x1p40 : 0.0);
     }
+    if (!slope && noise->kind == WR_NOISE_PERLIN && noise->dim == 2 &&
+        noise->lattice.source == WR_LATTICE_HASH)
+        return perlin_2d(noise, reduced);
+    if (!slope) slope = unwanted;
     switch (noise->kind) {
     case WR_NOISE_SIMPLEX: return noise_simplex(noise, reduced, slope);
     case WR_NOISE_SHEARED: return noise_sheared(noise, reduced, slope);

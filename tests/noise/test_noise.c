@@ -152,6 +152,23 @@ static void fades_add_up_to_one_with_their_mirror_image(void **state)
     }
 }
 
+/* Values have code of their own where no slopes are wanted. */
+static void a_value_has_the_same_bits_with_and_without_slopes(void **state)
+{
+    (void)state;
+    TestRandom r = { 77 };
+    for (int k = 0; k < 40000; k++) {
+        WrNoise noise = { .kind = WR_NOISE_PERLIN, .dim = 2, .fade = k % WR_FADE_COUNT };
+        noise.lattice.seed = (uint32_t)test_random_u64(&r);
+        for (int a = 0; a < 2; a++) noise.lattice.period[a] = (int)(test_random_u64(&r) % 7);
+        double t[3], slope[3];
+        random_place(&r, t);
+        if (k % 5 == 0) t[0] = floor(t[0]), t[1] *= 1e9;
+        const double with = wr_noise_at(&noise, t, slope), without = wr_noise_at(&noise, t, NULL);
+        assert_memory_equal(&with, &without, sizeof with);
+    }
+}
+
 /* The largest difference between the analytic slope and a central difference of step h. */
 static double slope_error(const WrNoise *noise, double h)
 {
@@ -479,6 +496,7 @@ int main(void)
         cmocka_unit_test(two_dimensions_are_the_lectures_four_corners),
         cmocka_unit_test(fades_are_as_smooth_as_their_rows_say),
         cmocka_unit_test(fades_add_up_to_one_with_their_mirror_image),
+        cmocka_unit_test(a_value_has_the_same_bits_with_and_without_slopes),
         cmocka_unit_test(gradients_are_those_of_the_values_to_second_order),
         cmocka_unit_test(hc60_negative_coordinates_are_as_good_as_others),
         cmocka_unit_test(hc61_huge_coordinates_are_reduced_exactly),
