@@ -325,7 +325,7 @@ static void repaint(Update *update, WrPool *pool)
         int tx = update->dirty.data[i] % update->tiles_u;
         int ty = update->dirty.data[i] / update->tiles_u;
         if (!is_bare(update, tx, ty)) {
-            Job job = { tx, ty, wr_field_tile_write(c->result, tx, ty) };
+            Job job = { tx, ty, wr_field_tile_fresh(c->result, tx, ty) };
             wr_array_push(&update->jobs, job);
         } else if (update->dirty.count > STRAYS) {
             wr_field_tile_share(c->result, update->floor, tx, ty);

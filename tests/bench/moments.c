@@ -20,13 +20,21 @@
 
 static const char *const relief_4096[] = { "table 4096x4096", "noise perlin cells=24 octaves=6",
                                            "surface sphere", NULL };
+static const char *const layers_4096[] = {
+    "table 4096x4096", "noise perlin cells=24 octaves=6",    "surface sphere",
+    "layer add",       "noise perlin cells=7 amplitude=0.2", NULL
+};
 static const char *const relief_16384[] = { "table 16384x16384",
                                             "grid cells=64x64 width=40 high=0.5", "surface sphere",
                                             NULL };
 
 static WrSession *open_session(const WrCli *cli, const char *const *lines, WrError *err)
 {
-    WrSession *session = wr_cli_session(cli, true, err);
+    /* as `wrinkle paint` opens one */
+    const WrSessionOptions options = {
+        .pool = cli->pool, .outputs = true, .isa = cli->isa, .composites = true, .smooth = true
+    };
+    WrSession *session = wr_session_new(&options);
     for (int i = 0; session && lines[i]; i++)
         if (!wr_session_run(session, lines[i], err)) {
             wr_session_free(session);
@@ -63,8 +71,8 @@ typedef struct Row {
 
 static const Row rows[] = {
     { "layer on and off, 4096x4096, to the first frame of the table",
-      relief_4096,
-      { "layer set 1 visible=off", "layer set 1 visible=on" },
+      layers_4096,
+      { "layer set 2 visible=off", "layer set 2 visible=on" },
       24,
       0,
       0 },

@@ -487,6 +487,8 @@ void wr_app_step(WrApp *app)
         draw(app, now);
         wr_timing_note(app, wr_clock_seconds() - now);
     }
+    for (const WrPart *const *p = app->registry->parts; *p; p++)
+        if ((*p)->after) (*p)->after(app);
     wr_settings_autosave(app);
     wr_idle_probe_step(app, app->busy || works(app));
 }

@@ -232,7 +232,7 @@ static void face_sheet(WrPatch *p, const WrScene *scene)
     if (turn > WR_ROCK_DEG && turn < 360.0 - WR_ROCK_DEG && rocks(p, scene)) p->turn_deg = 0.0;
 }
 
-/* Send requests; fetch results. */
+/* Fetch results. */
 static void patch_update(WrApp *app)
 {
     WrPatch *p = app->patch;
@@ -245,6 +245,13 @@ static void patch_update(WrApp *app)
     hold_still(app);
     wr_patch_prepare_mesh(app);
     if (p->zoom_commit_at > 0.0 && now >= p->zoom_commit_at) wr_patch_commit_zoom(app, true);
+}
+
+/* Send requests: after the frame, because the table of a large change is drawn by all processors, sooner than the patch. */
+static void patch_after(WrApp *app)
+{
+    WrPatch *p = app->patch;
+    const double now = wr_clock_seconds();
     if (app->layout->patch.w <= 0 || !app->visible || app->drawn_at == 0.0) return;
     bool ready = !p->outstanding && now >= p->wished_at + picture_seconds(app);
     if (turns(app)) {
@@ -397,6 +404,7 @@ static void forget(WrApp *app)
 }
 
 const WrPart wr_part_patch = { .update = patch_update,
+                               .after = patch_after,
                                .next_time = wr_patch_next_time,
                                .view_event = wr_patch_view_event,
                                .draw = patch_draw,
