@@ -85,5 +85,29 @@ done <<<"$table"
 while read -r name; do
     grep -q "^$name " <<<"$table" || complain "$name is not in the table"
 done < <("$program" --help | sed -nE 's/^  wrinkle \[?([a-z]+)\]? .*/\1/p')
+# Without a display there is no window: one message, which names the subcommand for pictures. SDL_VIDEODRIVER=dummy opens one.
+# no_display WHY VARIABLE=VALUE...
+no_display() {
+    local got
+    env -u SDL_VIDEODRIVER -u XDG_RUNTIME_DIR "${@:2}" timeout 300 "$program" a.wrinkle >out 2>err </dev/null
+    got=$?
+    [[ $got == 1 && ! -s out ]] || complain "status $got without a display: ${*:2}"
+    [[ $(grep -c '^wrinkle: ' err) == 1 ]] && grep -q "there is no display ($1.*wrinkle render FILE -o PICTURE.*--do COMMAND" err ||
+        complain "without a display: ${*:2}: $(cat err)"
+}
+if ! "$program" paint </dev/null 2>&1 | grep -q 'no window: try'; then
+    no_display 'DISPLAY and WAYLAND_DISPLAY are not set' A=
+    [[ $(wc -l <err) == 1 ]] || complain "not one line: $(cat err)"
+    no_display 'DISPLAY and WAYLAND_DISPLAY are not set' XDG_SESSION_TYPE=wayland SDL_VIDEODRIVER= DISPLAY=
+    no_display 'neither DISPLAY nor WAYLAND_DISPLAY names one' WAYLAND_DISPLAY=nosuch
+    no_display 'neither DISPLAY nor WAYLAND_DISPLAY names one' DISPLAY=:4711
+    SDL_VIDEODRIVER=dummy WRINKLE_TIMING=1 "$program" a.wrinkle >out 2>err </dev/null &
+    child=$!
+    until grep -q 'first picture' err || ! kill -0 "$child" 2>/dev/null; do sleep 0.05; done
+    kill -0 "$child" 2>/dev/null || complain "no window by SDL_VIDEODRIVER=dummy: $(cat err)"
+    kill -TERM "$child" 2>/dev/null
+    wait "$child"
+    child=
+fi
 [[ -z $(find . -name '.?*.part*') && ! -e r.exr ]] || complain "half-written files: $(find . -name '.?*')"
 exit $bad

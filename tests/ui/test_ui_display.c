@@ -72,6 +72,11 @@ static void a_window_that_nobody_sees_is_found_out(void **state)
     assert_false(wr_display_no_output(NULL, "x11"));
     assert_false(wr_display_no_output(NULL, "wayland"));
     assert_false(wr_display_no_output(NULL, "KMSDRM"));
+    assert_true(wr_display_none(&(WrDisplayEnv){ NULL, NULL, NULL, "wayland" }));
+    assert_true(wr_display_none(&(WrDisplayEnv){ "", "", "", "tty" }));
+    assert_false(wr_display_none(&(WrDisplayEnv){ NULL, ":0", NULL, NULL }));
+    assert_false(wr_display_none(&(WrDisplayEnv){ NULL, NULL, "wayland-0", NULL }));
+    assert_false(wr_display_none(&(WrDisplayEnv){ "offscreen", NULL, NULL, NULL }));
 }
 
 int main(void)

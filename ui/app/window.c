@@ -86,22 +86,37 @@ static bool open_screen(WrApp *app)
     return false;
 }
 
-static void choose_display(void)
+/* True if the user, a test or a measurement requests a driver, possibly one without output. */
+static bool is_driver_requested(void)
+{
+    const char *driver = SDL_GetHint(SDL_HINT_VIDEODRIVER);
+    return driver && *driver;
+}
+
+static bool fail_display(const char *why)
+{
+    SDL_SetError("there is no display (%s); `wrinkle render FILE -o PICTURE` needs none, and "
+                 "--do COMMAND paints: `wrinkle help`",
+                 why);
+    return false;
+}
+
+/* Without a display SDL falls back to a driver without output or to the console; such a window could be neither seen nor
+   closed. */
+static bool open_display(void)
 {
     const WrDisplayEnv env = wr_display_env();
     const char *driver = wr_display_driver(&env);
-    if (driver && !SDL_GetHint(SDL_HINT_VIDEODRIVER)) SDL_SetHint(SDL_HINT_VIDEODRIVER, driver);
-}
-
-/* Without a display SDL falls back to a driver without output; such a window could be neither seen nor closed. */
-static bool has_display(void)
-{
-    if (!wr_display_no_output(SDL_GetHint(SDL_HINT_VIDEODRIVER), SDL_GetCurrentVideoDriver()))
+    const bool requested = is_driver_requested();
+    if (!requested && wr_display_none(&env))
+        return fail_display("DISPLAY and WAYLAND_DISPLAY are not set");
+    if (driver && !requested) SDL_SetHint(SDL_HINT_VIDEODRIVER, driver);
+    const bool opened = SDL_InitSubSystem(SDL_INIT_VIDEO) == 0;
+    if (requested) return opened;
+    if (opened &&
+        !wr_display_no_output(SDL_GetHint(SDL_HINT_VIDEODRIVER), SDL_GetCurrentVideoDriver()))
         return true;
-    SDL_SetError(
-        "there is no display (neither DISPLAY nor WAYLAND_DISPLAY names one that answers); "
-        "`wrinkle render` makes pictures without a window");
-    return false;
+    return fail_display("neither DISPLAY nor WAYLAND_DISPLAY names one that answers");
 }
 
 static void report_display(WrApp *app)
@@ -119,8 +134,7 @@ bool wr_window_open(WrApp *app)
     SDL_SetHint(SDL_HINT_QUIT_ON_LAST_WINDOW_CLOSE, "0");
     /* SDL turns these signals into SDL_QUIT, but only without other handlers. */
     wr_process_drop_interrupts();
-    choose_display();
-    if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0 || !has_display() || !open_screen(app)) return false;
+    if (!open_display() || !open_screen(app)) return false;
     report_display(app);
     SDL_SetWindowMinimumSize(app->window, 640, 420);
     SDL_SetRenderDrawBlendMode(app->renderer, SDL_BLENDMODE_BLEND);

@@ -34,6 +34,11 @@ const char *wr_display_driver(const WrDisplayEnv *env)
     return said(env->x11) ? "x11,wayland" : "wayland,x11";
 }
 
+bool wr_display_none(const WrDisplayEnv *env)
+{
+    return !said(env->driver) && !said(env->x11) && !said(env->wayland);
+}
+
 bool wr_display_no_output(const char *asked, const char *opened)
 {
     static const char *const unseen[] = { "dummy", "offscreen", "evdev" };

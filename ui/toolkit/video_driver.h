@@ -14,6 +14,9 @@ typedef struct WrDisplayEnv {
 WrDisplayEnv wr_display_env(void);
 /* Drivers for SDL to try, in this order; NULL: SDL's default. */
 const char *wr_display_driver(const WrDisplayEnv *env);
+/* True if the environment names no X11 or Wayland display and no driver. SDL would then open the console or a driver without
+   output. */
+bool wr_display_none(const WrDisplayEnv *env);
 /* True if SDL has opened a driver without output that was not requested. asked: SDL's hint for the driver, or
    NULL. */
 bool wr_display_no_output(const char *asked, const char *opened);
