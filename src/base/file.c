@@ -208,12 +208,6 @@ char *wr_config_path(const char *name)
     return path.data;
 }
 
-/* Defined by the build. Fuzzers, which are built from single files, do not define it. */
-#ifndef WR_BUILD_FOLDER
-#define WR_BUILD_FOLDER ""
-#define WR_SOURCE_FOLDER ""
-#endif
-
 static char chosen_folder[4096]; /* as set; "": none */
 
 void wr_program_folder_set(const char *folder)
@@ -226,28 +220,29 @@ char *wr_program_folder(void)
     char exe[4096];
     if (*chosen_folder) return wr_strdup(chosen_folder);
     if (wr_process_program(exe, sizeof exe)) return wr_path_folder(exe);
-    return wr_strdup(*WR_BUILD_FOLDER ? WR_BUILD_FOLDER : "."); /* the system does not report the
-                                                                   path */
+    return wr_strdup("."); /* the system does not report the path */
 }
 
-/* The checkout that the program was built from, if the program runs in its build folder; else NULL. */
-static const char *source_folder(const char *program_folder)
+/* The checkout of a program that runs in its build folder, whose file wrinkle.checkout has the path; else NULL. The caller frees
+   it. */
+static char *checkout_folder(const char *program_folder)
 {
-    WrFileIdentity here = wr_file_identity(program_folder),
-                   built = wr_file_identity(WR_BUILD_FOLDER);
-    bool same = here.there && here.device == built.device && here.inode == built.inode;
-    return same ? WR_SOURCE_FOLDER : NULL;
+    char *name = wr_path_join(program_folder, "wrinkle.checkout"), *text = NULL;
+    size_t length;
+    if (wr_file_read(name, 4096, &text, &length, NULL)) text[strcspn(text, "\n")] = '\0';
+    wr_free(name);
+    return text;
 }
 
 bool wr_data_find(const char *name, WrText *path)
 {
-    char *folder = wr_program_folder();
+    char *folder = wr_program_folder(), *checkout = checkout_folder(folder);
     const struct {
         const char *folder, *tail;
     } places[] = { { getenv("WRINKLE_DATA"), "" },
                    { folder, "/../share/wrinkle" },
                    { folder, "/.." },
-                   { source_folder(folder), "" } };
+                   { checkout, "" } };
     bool found = false;
     for (size_t i = 0; i < sizeof places / sizeof *places && !found; i++) {
         if (!places[i].folder) continue;
@@ -256,7 +251,25 @@ bool wr_data_find(const char *name, WrText *path)
         found = wr_path_can_read(wr_text_get(path));
     }
     wr_free(folder);
+    wr_free(checkout);
     return found;
+}
+
+/* The default is that of the XDG Base Directory Specification. */
+bool wr_shared_find(const char *name, WrText *path)
+{
+    const char *folders = getenv("XDG_DATA_DIRS");
+    if (!folders || !*folders) folders = "/usr/local/share:/usr/share";
+    for (const char *at = folders; *at;) {
+        const size_t length = strcspn(at, ":");
+        if (*at == '/') { /* relative folders are invalid */
+            wr_text_clear(path);
+            wr_text_addf(path, "%.*s/%s", (int)length, at, name);
+            if (wr_path_can_read(wr_text_get(path))) return true;
+        }
+        at += length + (at[length] == ':');
+    }
+    return false;
 }
 
 /* ---- atomic replacement ---- */

@@ -129,9 +129,12 @@ char *wr_config_path(const char *name);
 
 /* Finds a data file that ships with the program ("samples/bricks.wrinkle"). Search order:
  * $WRINKLE_DATA, ../share/wrinkle beside the program's folder (installed), the folder above it (a build
- * folder inside a checkout), the checkout it was built from (if the program is in its build folder).
- * Returns false if not found. */
+ * folder inside a checkout), the checkout that the file wrinkle.checkout in its folder names (any build
+ * folder). Returns false if not found. */
 bool wr_data_find(const char *name, WrText *path);
+/* Finds a file or folder that another program installs ("gimp/2.0/brushes") in the folders of
+ * $XDG_DATA_DIRS; the first match wins. Returns false if not found. */
+bool wr_shared_find(const char *name, WrText *path);
 /* Folder of the running program. Caller frees with wr_free. */
 char *wr_program_folder(void);
 /* Sets it, for libraries in other programs; NULL: as above. Call it before other functions use the folder. */

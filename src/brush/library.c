@@ -37,6 +37,14 @@ static char *user_folder(void)
     return home && *home ? wr_path_join(home, ".local/share/wrinkle/brushes") : NULL;
 }
 
+static char *shared_folder(const char *name)
+{
+    WrText path = { 0 };
+    if (wr_shared_find(name, &path)) return path.data;
+    wr_text_fini(&path);
+    return NULL;
+}
+
 /* NULL if it does not exist. The caller frees it. Collections are in order of priority: a preset of the user hides one of the
    same name further down. */
 static char *collection_folder(Collection collection)
@@ -48,8 +56,8 @@ static char *collection_folder(Collection collection)
         if (wr_data_find("brushes", &path)) return path.data;
         wr_text_fini(&path);
         return NULL;
-    case MYPAINT2: return wr_strdup("/usr/share/mypaint-data/2.0/brushes");
-    case MYPAINT1: return wr_strdup("/usr/share/mypaint-data/1.0/brushes");
+    case MYPAINT2: return shared_folder("mypaint-data/2.0/brushes");
+    case MYPAINT1: return shared_folder("mypaint-data/1.0/brushes");
     case COLLECTIONS: break;
     }
     return NULL;

@@ -74,7 +74,7 @@ WrCall *wr_call_inner(const WrCall *call);
 typedef void WrCallVisit(WrCall *call, void *ctx);
 void wr_call_visit(WrCall *call, WrCallVisit *visit, void *ctx);
 /* The first file that a layer's line names and that cannot be read: its argument's name (static; "": it has none in lines) and its
-   path, appended to `path`. NULL: all can be read, or the line is not known. */
+   path, appended to `path`; of a font by name, its family. NULL: all can be read, or the line is not known. */
 const char *wr_line_missing_file(const char *line, WrText *path);
 /* Append a tuple of `count` numbers to a list argument. */
 void wr_call_add_row(WrCall *call, const char *name, const double *numbers, int count);

@@ -383,11 +383,11 @@ static bool is_font_missing(const WrCall *call, WrText *path)
     const WrParam *p = generator ? generator->params : NULL;
     while (p && p->name && p->words != wr_font_names) p++;
     if (!p || !p->name || wr_call_given(call, FONT_FILE)) return false;
-    char *file = wr_font_path(wr_call_choice(call, p->name), 32.0);
-    const bool missing = !wr_path_can_read(file);
-    if (missing) wr_text_add(path, file);
+    const int index = wr_call_choice(call, p->name);
+    char *file = wr_font_find(index, 32.0, NULL);
+    if (!file) wr_text_add(path, wr_font_family(index));
     wr_free(file);
-    return missing;
+    return !file;
 }
 
 const char *wr_line_missing_file(const char *line, WrText *path)

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "image/font_list.h"
 
 #include <ft2build.h>
 #include FT_FREETYPE_H
@@ -11,11 +12,6 @@ struct WrLabel {
     FT_Library library;
     FT_Face face;
 };
-
-static const char *const faces[] = { "/usr/share/fonts/opentype/inter/Inter-Regular.otf",
-                                     "/usr/share/fonts/truetype/inter/Inter-Regular.ttf",
-                                     "/usr/share/fonts/inter/Inter-Regular.otf",
-                                     "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf" };
 
 WrLabel *wr_label_new(int size, WrError *err)
 {
@@ -29,8 +25,10 @@ WrLabel *wr_label_new(int size, WrError *err)
         wr_fail(err, "labels: FreeType does not start");
         goto fail;
     }
-    for (size_t i = 0; i < sizeof faces / sizeof *faces && !label->face; i++)
-        if (FT_New_Face(label->library, faces[i], 0, &label->face)) label->face = NULL;
+    char *file =
+        wr_font_file((const char *const[]){ "Inter", "DejaVu Sans", "sans-serif", NULL }, 400);
+    if (!file || FT_New_Face(label->library, file, 0, &label->face)) label->face = NULL;
+    wr_free(file);
     if (!label->face || FT_Set_Pixel_Sizes(label->face, 0, (FT_UInt)size)) {
         wr_fail(err, "labels: no typeface found: install the package fonts-inter");
         goto fail;

@@ -20,34 +20,84 @@
 
 /* ---- names ---- */
 
-#define SYSTEM_FONTS "/usr/share/fonts"
-
 const char *const wr_font_names[] = { WR_FONT_FAMILIES(WR_WORD) NULL };
 
-typedef struct Place {
-    const char *path, *package;
-} Place;
+typedef struct Named {
+    const char *family; /* as fontconfig lists it */
+    int weight;         /* of OpenType */
+    const char *package;
+} Named;
 
-WR_ROWS(places);
-static const Place places[] = {
-    [WR_ROW(WR_FONT_TERMINUS)] = { "n", "xfonts-terminus" },
-    [WR_ROW(WR_FONT_TERMINUS_BOLD)] = { "b", "xfonts-terminus" },
-    [WR_ROW(WR_FONT_SANS)] = { SYSTEM_FONTS "/truetype/dejavu/DejaVuSans.ttf",
-                               "fonts-dejavu-core" },
-    [WR_ROW(WR_FONT_SANS_BOLD)] = { SYSTEM_FONTS "/truetype/dejavu/DejaVuSans-Bold.ttf",
-                                    "fonts-dejavu-core" },
-    [WR_ROW(WR_FONT_SERIF)] = { SYSTEM_FONTS "/truetype/dejavu/DejaVuSerif.ttf",
-                                "fonts-dejavu-core" },
-    [WR_ROW(WR_FONT_SERIF_BOLD)] = { SYSTEM_FONTS "/truetype/dejavu/DejaVuSerif-Bold.ttf",
-                                     "fonts-dejavu-core" },
-    [WR_ROW(WR_FONT_MONO)] = { SYSTEM_FONTS "/truetype/dejavu/DejaVuSansMono.ttf",
-                               "fonts-dejavu-core" },
-    [WR_ROW(WR_FONT_MONO_BOLD)] = { SYSTEM_FONTS "/truetype/dejavu/DejaVuSansMono-Bold.ttf",
-                                    "fonts-dejavu-core" },
-    [WR_ROW(WR_FONT_INTER)] = { SYSTEM_FONTS "/opentype/inter/Inter-Regular.otf", "fonts-inter" },
-    [WR_ROW(WR_FONT_INTER_BOLD)] = { SYSTEM_FONTS "/opentype/inter/Inter-Bold.otf", "fonts-inter" },
+WR_ROWS(named);
+static const Named named[] = {
+    [WR_ROW(WR_FONT_TERMINUS)] = { "Terminus", 400, "xfonts-terminus" },
+    [WR_ROW(WR_FONT_TERMINUS_BOLD)] = { "Terminus", 700, "xfonts-terminus" },
+    [WR_ROW(WR_FONT_SANS)] = { "DejaVu Sans", 400, "fonts-dejavu-core" },
+    [WR_ROW(WR_FONT_SANS_BOLD)] = { "DejaVu Sans", 700, "fonts-dejavu-core" },
+    [WR_ROW(WR_FONT_SERIF)] = { "DejaVu Serif", 400, "fonts-dejavu-core" },
+    [WR_ROW(WR_FONT_SERIF_BOLD)] = { "DejaVu Serif", 700, "fonts-dejavu-core" },
+    [WR_ROW(WR_FONT_MONO)] = { "DejaVu Sans Mono", 400, "fonts-dejavu-core" },
+    [WR_ROW(WR_FONT_MONO_BOLD)] = { "DejaVu Sans Mono", 700, "fonts-dejavu-core" },
+    [WR_ROW(WR_FONT_INTER)] = { "Inter", 400, "fonts-inter" },
+    [WR_ROW(WR_FONT_INTER_BOLD)] = { "Inter", 700, "fonts-inter" },
 };
-WR_ROWS_END(places, WR_FONT_FAMILY_COUNT);
+WR_ROWS_END(named, WR_FONT_FAMILY_COUNT);
+
+/* The first readable file of an exact family and weight, in the order of their paths; NULL: none. Instances of variable fonts
+   and further faces of a collection (index > 0) are left out: their files open as another face. */
+static char *first_file(FcConfig *config, const char *family, int weight)
+{
+    char *found = NULL;
+    FcObjectSet *members = FcObjectSetBuild(FC_FILE, FC_INDEX, (char *)NULL);
+    FcPattern *pattern = FcPatternBuild(
+        NULL, FC_FAMILY, FcTypeString, family, FC_WEIGHT, FcTypeInteger,
+        FcWeightFromOpenType(weight), FC_SLANT, FcTypeInteger, FC_SLANT_ROMAN, FC_WIDTH,
+        FcTypeInteger, FC_WIDTH_NORMAL, FC_VARIABLE, FcTypeBool, FcFalse, (char *)NULL);
+    FcFontSet *set = members && pattern ? FcFontList(config, pattern, members) : NULL;
+    for (int i = 0; set && i < set->nfont; i++) {
+        FcChar8 *file = NULL;
+        int index = 1;
+        FcPatternGetInteger(set->fonts[i], FC_INDEX, 0, &index);
+        if (index != 0 || FcPatternGetString(set->fonts[i], FC_FILE, 0, &file) != FcResultMatch ||
+            (found && strcmp(found, (const char *)file) <= 0) ||
+            !wr_path_can_read((const char *)file))
+            continue;
+        wr_free(found);
+        found = wr_strdup((const char *)file);
+    }
+    if (set) FcFontSetDestroy(set);
+    if (pattern) FcPatternDestroy(pattern);
+    if (members) FcObjectSetDestroy(members);
+    return found;
+}
+
+char *wr_font_file(const char *const *families, int weight)
+{
+    static const uint32_t letter = 'A';
+    char *found = NULL;
+    if (!wr_font_config(NULL)) return NULL;
+    FcConfig *config = FcConfigReference(NULL);
+    for (; config && *families && !found; families++)
+        if (strcmp(*families, "sans-serif") != 0) found = first_file(config, *families, weight);
+        else wr_font_lenders(&letter, 1, weight >= 600 ? "sans-bold" : "sans", NULL, 1, &found);
+    if (config) FcConfigDestroy(config);
+    return found;
+}
+
+/* A file in one of fontconfig's folders. Its lists lack bitmap fonts where its rules refuse them, as Debian's do. */
+static char *file_in_folders(const char *name)
+{
+    char *found = NULL;
+    if (!wr_font_config(NULL)) return NULL;
+    FcStrList *folders = FcConfigGetFontDirs(NULL);
+    for (FcChar8 *folder; folders && !found && (folder = FcStrListNext(folders));) {
+        char *path = wr_path_join((const char *)folder, name);
+        if (wr_path_can_read(path)) found = path;
+        else wr_free(path);
+    }
+    if (folders) FcStrListDone(folders);
+    return found;
+}
 
 /* Bitmap fonts scale by whole numbers only: the largest strike that divides the size, else the largest below it. */
 static int terminus_dots(double size)
@@ -62,31 +112,35 @@ static int terminus_dots(double size)
     return smaller ? smaller : 12;
 }
 
-char *wr_font_path(int index, double size)
+/* Debian adds "_unicode" to the names of the font's own build. */
+static char *terminus_file(double size, bool bold)
 {
-    WrText path = { 0 }, moved = { 0 };
-    const char *folder = getenv("WRINKLE_FONTS");
-    const Place *place = &places[index];
-    if (place->path[0] == '/') wr_text_add(&path, place->path);
-    else
-        wr_text_addf(&path, SYSTEM_FONTS "/X11/misc/ter-u%d%s_unicode.pcf.gz", terminus_dots(size),
-                     place->path);
-    if (folder) wr_text_addf(&moved, "%s%s", folder, wr_text_get(&path) + strlen(SYSTEM_FONTS));
-    char *found = wr_strdup(wr_text_get(folder ? &moved : &path));
-    wr_text_fini(&path);
-    wr_text_fini(&moved);
+    static const char *const tails[] = { "_unicode.pcf.gz", ".pcf.gz" };
+    char *found = NULL;
+    for (size_t i = 0; i < sizeof tails / sizeof *tails && !found; i++) {
+        WrText name = { 0 };
+        wr_text_addf(&name, "ter-u%d%c%s", terminus_dots(size), bold ? 'b' : 'n', tails[i]);
+        found = file_in_folders(wr_text_get(&name));
+        wr_text_fini(&name);
+    }
     return found;
+}
+
+const char *wr_font_family(int index)
+{
+    return named[index].family;
 }
 
 char *wr_font_find(int index, double size, WrError *err)
 {
-    const Place *place = &places[index];
-    char *found = wr_font_path(index, size);
-    if (wr_path_can_read(found)) return found;
-    wr_fail(err, "the font %s is not installed (%s): install the package %s", wr_font_names[index],
-            found, place->package);
-    wr_free(found);
-    return NULL;
+    const Named *font = &named[index];
+    char *found = index <= WR_FONT_TERMINUS_BOLD
+                      ? terminus_file(size, index == WR_FONT_TERMINUS_BOLD)
+                      : wr_font_file((const char *const[]){ font->family, NULL }, font->weight);
+    if (!found)
+        wr_fail(err, "the font %s is not installed (%s): install the package %s",
+                wr_font_names[index], font->family, font->package);
+    return found;
 }
 
 /* ---- shaping ---- */

@@ -25,8 +25,7 @@ typedef struct WrError WrError;
 
 /* ---- fonts by name ---- */
 
-/* Names of fonts installed by Debian packages at known paths; ends with NULL. The first is the default:
-   a bitmap font. */
+/* Names of fonts that text commands use; ends with NULL. The first is the default: a bitmap font. */
 #define WR_FONT_FAMILIES(X)                                                                        \
     X(WR_FONT_TERMINUS, "terminus")                                                                \
     X(WR_FONT_TERMINUS_BOLD, "terminus-bold")                                                      \
@@ -40,10 +39,9 @@ typedef struct WrError WrError;
     X(WR_FONT_INTER_BOLD, "inter-bold")
 enum { WR_FONT_FAMILIES(WR_WORD_ID) WR_FONT_FAMILY_COUNT };
 extern const char *const wr_font_names[];
-/* Path of the file of wr_font_names[index] at a size, whether it is there or not; WRINKLE_FONTS, if set, replaces
- * /usr/share/fonts. The caller frees with wr_free. */
-char *wr_font_path(int index, double size);
-/* The same if it can be read; for bitmap families the best one for `size` texels: the tallest
+/* The family of wr_font_names[index], as in "DejaVu Serif". */
+const char *wr_font_family(int index);
+/* The file of wr_font_names[index], found by fontconfig; for bitmap families the best one for `size` texels: the tallest
  * that divides the size, else the tallest that is not taller. Errors: not installed, with the name of
  * its package. The caller frees with wr_free. */
 char *wr_font_find(int index, double size, WrError *err);

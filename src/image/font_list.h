@@ -24,6 +24,14 @@ bool wr_font_list(WrFontList *list, WrError *err);
 void wr_font_list_fini(WrFontList *list);
 void wr_font_entry_fini(WrFontEntry *entry); /* frees its members */
 
+/* The file of an installed upright font; NULL: none.
+ *
+ * families  exact names, in order of preference, or "sans-serif", the desktop's choice; ends with NULL
+ * weight    of OpenType: 400 regular, 600 semi-bold, 700 bold
+ * Result    the caller frees it with wr_free
+ * Threads   any */
+char *wr_font_file(const char *const *families, int weight);
+
 /* ---- Fontconfig ---- */
 
 /* Loads its list of installed fonts, once. Without a cache fontconfig reads every font itself, which

@@ -73,3 +73,4 @@ foreach(name cancelled step stopped report) # progress_checks.h
     target_link_options(test_cancel PRIVATE -Wl,--wrap=wr_progress_${name})
     target_link_options(test_cancel_anywhere PRIVATE -Wl,--wrap=wr_progress_${name})
 endforeach()
+target_link_libraries(run_command PRIVATE PkgConfig::FONTCONFIG)

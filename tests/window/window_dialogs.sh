@@ -257,7 +257,8 @@ mkdir alone
 cp "$program" "${program%/*}/wrinkle_window.so" alone/
 (
     unset WRINKLE_DATA
-    export WRINKLE_FONTS=$folder/nowhere
+    printf '<?xml version="1.0"?><fontconfig></fontconfig>' >none.conf
+    export FONTCONFIG_FILE=$PWD/none.conf
     program=$folder/alone/wrinkle
     start
     title_is untitled || complain "without samples the title is $(xdotool getwindowname "$window")"

@@ -62,7 +62,7 @@ extern "C" {
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "system/path.h"
+#include "image/font_list.h"
 #include "ui/toolkit/theme.h"
 }
 
@@ -70,44 +70,13 @@ extern "C" {
 #include <stb_truetype.h>
 
 #include <math.h>
-#include <stdlib.h>
-
-#define SYSTEM_FONTS "/usr/share/fonts"
-
-/* The first of these files that is readable; relative to WRINKLE_FONTS if that is set. The caller frees it. */
-static char *first_readable(const char *const *paths)
-{
-    const char *folder = getenv("WRINKLE_FONTS");
-    for (; *paths; paths++) {
-        char *path =
-            folder ? wr_path_join(folder, *paths + sizeof SYSTEM_FONTS) : wr_strdup(*paths);
-        if (wr_path_can_read(path)) return path;
-        wr_free(path);
-    }
-    return nullptr;
-}
-
-static const char *const text_faces[] = { SYSTEM_FONTS "/opentype/inter/Inter-Regular.otf",
-                                          SYSTEM_FONTS "/truetype/inter/Inter-Regular.ttf",
-                                          SYSTEM_FONTS "/inter/Inter-Regular.otf",
-                                          SYSTEM_FONTS "/truetype/dejavu/DejaVuSans.ttf",
-                                          SYSTEM_FONTS "/truetype/noto/NotoSans-Regular.ttf",
-                                          SYSTEM_FONTS
-                                          "/truetype/liberation/LiberationSans-Regular.ttf",
-                                          nullptr };
-static const char *const bold_faces[] = { SYSTEM_FONTS "/opentype/inter/Inter-SemiBold.otf",
-                                          SYSTEM_FONTS "/truetype/inter/Inter-SemiBold.ttf",
-                                          SYSTEM_FONTS "/inter/Inter-SemiBold.otf",
-                                          SYSTEM_FONTS "/truetype/dejavu/DejaVuSans-Bold.ttf",
-                                          SYSTEM_FONTS "/truetype/noto/NotoSans-Bold.ttf",
-                                          SYSTEM_FONTS
-                                          "/truetype/liberation/LiberationSans-Bold.ttf",
-                                          nullptr };
 /* font sizes in units: text, bold, small */
 static const float face_ems[] = { 14.0f, 14.0f, 12.0f };
-static const char *const icon_faces[] = {
-    SYSTEM_FONTS "/truetype/materialdesignicons-webfont/materialdesignicons-webfont.ttf", nullptr
-};
+
+/* families of the window's text, in order of preference, and of its icons */
+static const char *const text_families[] = { "Inter",           "DejaVu Sans", "Noto Sans",
+                                             "Liberation Sans", "sans-serif",  nullptr };
+static const char *const icon_families[] = { "Material Design Icons", nullptr };
 
 /* A font file and its metrics as designed. */
 struct Face {
@@ -209,8 +178,9 @@ static void add_icons(ImFontAtlas *atlas, const char *path, float size, bool mer
 
 static void add_fonts(WrGui *gui, ImFontAtlas *atlas, Face faces[WR_FONT_ICON])
 {
-    char *text = first_readable(text_faces), *bold = first_readable(bold_faces);
-    char *icons = first_readable(icon_faces);
+    char *text = wr_font_file(text_families, 400);
+    char *bold = wr_font_file(text_families, 600);
+    char *icons = wr_font_file(icon_families, 400);
     gui->no_text = !text;
     gui->no_icons = !icons;
     for (int i = 0; i < WR_FONT_ICON; i++) {

@@ -153,6 +153,21 @@ static void search_shipped(WrApp *app)
     wr_text_fini(&place);
 }
 
+/* Brushes that other programs install. */
+static void search_programs(WrApp *app)
+{
+    static const struct {
+        const char *folder, *group;
+    } programs[] = { { "gimp/2.0/brushes", "GIMP" },
+                     { "gimp/3.0/brushes", "GIMP" },
+                     { "krita/brushes", "Krita" } };
+    WrText path = { 0 };
+    for (size_t i = 0; i < sizeof programs / sizeof *programs; i++)
+        if (wr_shared_find(programs[i].folder, &path))
+            search(app, wr_text_get(&path), programs[i].group, 0);
+    wr_text_fini(&path);
+}
+
 void wr_stamps_find(WrApp *app)
 {
     WrText ours = { 0 };
@@ -166,7 +181,7 @@ void wr_stamps_find(WrApp *app)
     if (wr_data_find("brushes", &ours)) /* without its folders */
         search(app, wr_text_get(&ours), "Tips of brushes", DEPTH_MAX);
     wr_text_fini(&ours);
-    search(app, "/usr/share/gimp/2.0/brushes", "GIMP", 0);
+    search_programs(app);
 }
 
 static void stamps_free(WrApp *app)
