@@ -19,7 +19,7 @@ wr_test_packages=(
     dbus-daemon xvfb xauth xdotool xclip x11-utils openbox valgrind
     weston xserver-xorg-core xserver-xorg-dev xserver-xorg-video-dummy xinput
     imagemagick openimageio-tools
-    desktop-file-utils groff-base jq librsvg2-bin parallel python3-cffi python3-numpy shellcheck
+    appstream desktop-file-utils groff-base jq librsvg2-bin parallel python3-cffi python3-numpy shared-mime-info shellcheck
 )
 # Of tests/run.sh --full.
 # shellcheck disable=SC2034

@@ -120,8 +120,7 @@ static CheckSource source_of(const char *path)
 {
     char ending[16];
     wr_path_ending(path, ending);
-    for (const char *const *mesh = wr_mesh_endings; *mesh; mesh++)
-        if (strcmp(ending, *mesh) == 0) return CHECK_MESH;
+    if (wr_mesh_named(path)) return CHECK_MESH;
     return strcmp(ending, "wrinkle") == 0 ? CHECK_SCRIPT : CHECK_PICTURE;
 }
 

@@ -5,6 +5,7 @@
 #include "base/text.h"
 
 #ifdef WR_HAVE_UI
+#include "base/file.h"
 #include "scene/export_settings.h"
 #include "system/process.h"
 #include "ui/app/app.h"
@@ -16,14 +17,21 @@ static void keep_note(void *ctx, const char *text)
     wr_text_addf(ctx, "%s\n", text);
 }
 
+static bool is_brush(const char *path)
+{
+    char buffer[16];
+    return path && strcmp(wr_path_ending(path, buffer), "myb") == 0;
+}
+
 /* Runs on a worker thread of the window. Output commands among the --do lines are skipped, as in all subcommands except
    run; they work once the document is open. */
 static bool open_asked(WrSession *session, void *ctx, WrError *err)
 {
     const WrCli *cli = ctx;
     wr_session_set_outputs(session, false);
-    const bool good = (!cli->file || wr_session_open(session, cli->file, err)) &&
-                      wr_cli_run_dos(cli, session, err);
+    const bool good =
+        (!cli->file || is_brush(cli->file) || wr_session_open(session, cli->file, err)) &&
+        wr_cli_run_dos(cli, session, err);
     wr_session_set_outputs(session, true);
     wr_session_set_journal(session, true);
     return good;
@@ -54,7 +62,8 @@ int wr_cli_paint(const WrCli *cli)
                                  .composites = true,
                                  .smooth = true };
     WrSession *session = wr_session_new(&options);
-    const bool given = cli->file || cli->do_count > 0;
+    const bool brush = is_brush(cli->file) && !cli->live;
+    const bool given = (cli->file && !brush) || cli->do_count > 0;
     int status = WR_EXIT_FAILED;
     if (!check_live(cli, &err)) {
         wr_session_free(session);
@@ -65,7 +74,8 @@ int wr_cli_paint(const WrCli *cli)
         WrAppOptions app = { .session = session,
                              .open = given ? open_asked : NULL,
                              .open_ctx = (void *)cli,
-                             .file = cli->do_count == 0 ? cli->file : NULL,
+                             .file = cli->do_count == 0 && !brush ? cli->file : NULL,
+                             .brush = brush ? cli->file : NULL,
                              .file_given = given,
                              .live_folder = cli->live,
                              .live_as = cli->kind,

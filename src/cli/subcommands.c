@@ -8,7 +8,10 @@
 
 const WrSubcommand wr_subcommands[] = {
     { "paint", "[paint] [FILE] [--live FOLDER [--as KIND]]", "the window", BIT(LIVE),
-      "Opens FILE, or a starter document, for painting.", wr_cli_paint },
+      "Opens FILE for painting, without one a starter document. A mesh becomes the object's "
+      "surface,\n"
+      "a .myb file the brush.",
+      wr_cli_paint },
     { "run", "run SCRIPT [--json]", "run a script's commands, files included", BIT(JSON),
       "SCRIPT is a text file with one command a line; - reads standard input. Files are read "
       "relative\n"

@@ -12,8 +12,10 @@
 #include "document/ora.h"
 #include "image/gltf.h"
 #include "image/image.h"
+#include "image/mesh.h"
 #include "image/svg.h"
 #include "scene/scene.h"
+#include "surface/triangles.h"
 #include "system/fd.h"
 #include "system/path.h"
 
@@ -435,7 +437,7 @@ static bool open_script(WrSession *session, const char *path, WrError *err)
     return good;
 }
 
-/* verb: of the command that reads it, with a space. */
+/* verb: of the command that reads it, with a space or "=" at the end. */
 static bool open_picture(WrSession *session, const char *verb, const char *path, WrError *err)
 {
     WrText line = { 0 };
@@ -445,6 +447,23 @@ static bool open_picture(WrSession *session, const char *verb, const char *path,
     bool good = wr_session_run(session, wr_text_get(&line), err);
     session->nameless = false;
     wr_text_fini(&line);
+    return good;
+}
+
+/* A mesh without texture coordinates is projected, else painting would have no place on it: the table is as wide as its
+   bounding sphere's radius. */
+static bool open_mesh(WrSession *session, const char *path, WrError *err)
+{
+    if (!open_picture(session, "surface mesh file=", path, err)) return false;
+    const WrTriangles *mesh = wr_scene_mesh_source(session->state.document->scene);
+    if (mesh->mapped) return true;
+    WrText line = { 0 }, cell = { 0 };
+    wr_text_add_number(&cell, (double)(float)mesh->radius);
+    wr_text_addf(&line, "surface mesh projection=box cell=%s,%s", wr_text_get(&cell),
+                 wr_text_get(&cell));
+    const bool good = wr_session_run(session, wr_text_get(&line), err);
+    wr_text_fini(&line);
+    wr_text_fini(&cell);
     return good;
 }
 
@@ -480,6 +499,7 @@ bool wr_session_open(WrSession *session, const char *path, WrError *err)
     WrSessionState old = wr_session_begin_state(session, wr_session_new_document(session));
     session->opening = true;
     if (script) good = open_script(session, path, err);
+    else if (wr_mesh_named(path)) good = open_mesh(session, path, err);
     else if ((exr && wr_document_recognise(path)) || wr_ora_recognise(path))
         good = open_document(session, path, err);
     else good = open_picture(session, wr_svg_named(path) ? "open " : "image ", path, err);

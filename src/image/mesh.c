@@ -15,6 +15,15 @@
 const char *const wr_mesh_endings[] = { "obj", "ply", "stl", "gltf", "glb", "3mf", "off",
                                         "dae", "3ds", "fbx", "lwo",  "x3d", NULL };
 
+bool wr_mesh_named(const char *path)
+{
+    char buffer[16];
+    const char *ending = wr_path_ending(path, buffer);
+    for (const char *const *known = wr_mesh_endings; *known; known++)
+        if (strcmp(ending, *known) == 0) return true;
+    return false;
+}
+
 /* ---- results of the reader ---- */
 
 /* Normals and (u,v) may have any value; parts must be contiguous and cover all triangles. */

@@ -44,6 +44,7 @@ typedef struct WrMesh {
 
 /* Endings of the mesh files that dialogs offer and that name a mesh without another word; NULL-terminated. */
 extern const char *const wr_mesh_endings[];
+bool wr_mesh_named(const char *path); /* the file's name has one of them */
 
 /* Reads a file; for a glTF also the buffers beside it (gltf.h). out: owned by the caller (fini);
  * unchanged on failure.

@@ -1,6 +1,7 @@
 # The program as a user starts it.
 if(TARGET wrinkle)
     wr_script(cli cli.sh heavy $<TARGET_FILE:wrinkle>)
+    wr_script(open_types open_types.sh heavy $<TARGET_FILE:wrinkle> ${PROJECT_SOURCE_DIR})
     wr_script(completion completion.sh quick $<TARGET_FILE:wrinkle>)
     wr_script(pipes pipes.sh quick $<TARGET_FILE:wrinkle>)
     wr_script(exit_status exit_status.sh heavy $<TARGET_FILE:wrinkle> ${WR_SANITIZE})

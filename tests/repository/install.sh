@@ -37,8 +37,9 @@ mv stage/usr moved
 try "$folder/moved"
 
 share=$folder/prefix/share
-for file in applications/wrinkle.desktop mime/packages/wrinkle.xml man/man1/wrinkle.1 \
-    icons/hicolor/scalable/apps/wrinkle.svg icons/hicolor/48x48/apps/wrinkle.png \
+for file in applications/wrinkle.desktop metainfo/org.wrinkle.Wrinkle.metainfo.xml mime/packages/wrinkle.xml man/man1/wrinkle.1 \
+    icons/hicolor/scalable/apps/wrinkle.svg icons/hicolor/16x16/apps/wrinkle.png icons/hicolor/48x48/apps/wrinkle.png icons/hicolor/256x256/apps/wrinkle.png \
+    bash-completion/completions/wrinkle \
     wrinkle/samples/bricks.wrinkle wrinkle/samples/rivets.wrinkle wrinkle/samples/screenshot.png \
     wrinkle/brushes/chain.myb wrinkle/brushes/stamps/stamps.conf wrinkle/brushes/stamps/chain-link.png wrinkle/brushes/generators.wrinkle \
     wrinkle/samples/cells/moon-surface.wrinkle wrinkle/samples/cells/moon-surface.png \

@@ -145,6 +145,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
     wr_accuracy_panel_new(app);
     app->rest = app->latency ? NULL : wr_idle_probe_new(app->rest_event);
     if (!wr_app_start(app, err)) return false;
+    if (app->options->brush) wr_preset_browser_take_file(app, app->options->brush);
     const char *fonts = wr_gui_missing_fonts(app->gui);
     WrError missing;
     if (fonts && !wr_fail(&missing, "%s", fonts)) wr_app_fail(app, &missing);

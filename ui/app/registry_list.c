@@ -127,6 +127,7 @@ static WrFileTake *const takes[] = {
     [WR_ROW(WR_FILE_TERRAIN)] = wr_surface_terrain_file_chosen,
     [WR_ROW(WR_FILE_GLTF)] = wr_file_take_gltf,
     [WR_ROW(WR_FILE_BAKE)] = wr_file_take_bake,
+    [WR_ROW(WR_FILE_BRUSH)] = wr_preset_browser_take_file,
     [WR_ROW(WR_FILE_PRESET)] = wr_preset_browser_overwrite,
 };
 WR_ROWS_END(takes, WR_FILE_PURPOSES);

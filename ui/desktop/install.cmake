@@ -18,26 +18,15 @@ install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/LICENSE
 configure_file(${desktop}/wrinkle.1 ${CMAKE_BINARY_DIR}/wrinkle.1 @ONLY)
 install(FILES ${CMAKE_BINARY_DIR}/wrinkle.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${desktop}/wrinkle.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
+install(FILES ${desktop}/org.wrinkle.Wrinkle.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo)
 install(FILES ${desktop}/wrinkle-mime.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages
         RENAME wrinkle.xml)
 
 set(icons ${CMAKE_INSTALL_DATADIR}/icons/hicolor)
 install(FILES ${PROJECT_SOURCE_DIR}/ui/icon.svg DESTINATION ${icons}/scalable/apps
         RENAME wrinkle.svg)
-find_program(RSVG_CONVERT rsvg-convert)
-if(RSVG_CONVERT)
-    foreach(size 16 32 48 64 128 256)
-        set(icon ${CMAKE_BINARY_DIR}/icons/wrinkle-${size}.png)
-        add_custom_command(
-            OUTPUT ${icon}
-            COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_BINARY_DIR}/icons
-            COMMAND ${RSVG_CONVERT} -w ${size} -h ${size} ${PROJECT_SOURCE_DIR}/ui/icon.svg -o ${icon}
-            DEPENDS ${PROJECT_SOURCE_DIR}/ui/icon.svg
-            VERBATIM)
-        list(APPEND rendered ${icon})
-        install(FILES ${icon} DESTINATION ${icons}/${size}x${size}/apps RENAME wrinkle.png)
-    endforeach()
-    add_custom_target(icons ALL DEPENDS ${rendered})
-endif()
+foreach(size 16 32 48 64 128 256) # drawn by icons.sh
+    install(FILES ${desktop}/icons/wrinkle-${size}.png DESTINATION ${icons}/${size}x${size}/apps RENAME wrinkle.png)
+endforeach()
 
 include(ui/addons/addons.cmake)

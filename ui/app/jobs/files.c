@@ -87,6 +87,7 @@ static const struct {
     [WR_ROW(WR_FILE_TERRAIN)] = { "Choose a picture of elevations", "Choose", NULL },
     [WR_ROW(WR_FILE_GLTF)] = { "Take the materials of a glTF", "Take", NULL },
     [WR_ROW(WR_FILE_BAKE)] = { "Choose a detailed mesh", "Choose", NULL },
+    [WR_ROW(WR_FILE_BRUSH)] = { NULL, NULL, NULL },  /* dropped, no file dialog */
     [WR_ROW(WR_FILE_PRESET)] = { NULL, NULL, NULL }, /* typed name, no file dialog */
 };
 WR_ROWS_END(purposes, WR_FILE_PURPOSES);
@@ -511,7 +512,7 @@ static const char *const *file_endings(WrFilePurpose purpose)
     static const char *const patches[] = { "bpt", "txt", NULL };
     static const char *const grounds[] = { PICTURES, "r16", "r32", "raw", "hgt", "fits", NULL };
     if (wr_file_purpose_writes(purpose) || purpose == WR_FILE_GENERATE ||
-        purpose == WR_FILE_LOCATE || purpose == WR_FILE_PRESET)
+        purpose == WR_FILE_LOCATE || purpose == WR_FILE_BRUSH || purpose == WR_FILE_PRESET)
         return NULL;
     if (purpose == WR_FILE_STAMP) return stamps;
     if (purpose == WR_FILE_GLTF) return models;
@@ -526,5 +527,6 @@ bool wr_file_fits(WrFilePurpose purpose, const char *name)
 {
     char buffer[16];
     const char *const *endings = file_endings(purpose);
-    return !endings || is_one_of(wr_path_ending(name, buffer), endings);
+    return !endings || is_one_of(wr_path_ending(name, buffer), endings) ||
+           (purpose == WR_FILE_OPEN && wr_mesh_named(name));
 }

@@ -30,6 +30,7 @@ typedef enum WrFilePurpose {
     WR_FILE_TERRAIN, /* terrain heights of the active object */
     WR_FILE_GLTF,    /* materials and pictures of a glTF */
     WR_FILE_BAKE,    /* a detailed mesh for the active object's */
+    WR_FILE_BRUSH,   /* not used in a dialog: a .myb file is dropped, or named at the start */
     WR_FILE_PRESET,  /* not used in a dialog: a preset's name is typed */
     WR_FILE_PURPOSES
 } WrFilePurpose;

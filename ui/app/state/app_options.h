@@ -15,7 +15,8 @@ typedef struct WrAppOptions {
     void *open_ctx;
     const char
         *file; /* with open: requested file, if nothing else was requested; borrowed; NULL: none */
-    bool file_given; /* false: the window opens samples/starters/bricks.wrinkle */
+    const char *brush; /* .myb file of the brush at the start; borrowed; NULL: the last brush */
+    bool file_given;   /* false: the window opens samples/starters/bricks.wrinkle */
     /* live export from the start: folder of the maps, set or kind (NULL: the document's), and the file
        whose name they have; borrowed; live_folder NULL: off */
     const char *live_folder, *live_as, *live_file;

@@ -27,6 +27,7 @@
 #include "command/command_table.h"
 #include "command/variants.h"
 #include "field/field.h"
+#include "image/mesh.h"
 #include "system/locale.h"
 #include "system/path.h"
 #include "system/thread.h"
@@ -106,7 +107,8 @@ static void lay_flat(WrSession *session, Opened *opened)
 {
     char ending[16];
     opened->flat = !wr_session_path(session)[0] &&
-                   strcmp(wr_path_ending(opened->path, ending), "wrinkle") != 0;
+                   strcmp(wr_path_ending(opened->path, ending), "wrinkle") != 0 &&
+                   !wr_mesh_named(opened->path);
     if (!opened->flat) return;
     WrText lines = { 0 };
     const WrField *field = wr_document_field(wr_session_document(session));

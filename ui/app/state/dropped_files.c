@@ -12,6 +12,7 @@
 #include "document/document_file.h"
 #include "document/ora.h"
 #include "image/image.h"
+#include "image/mesh.h"
 #include "image/svg.h"
 #include "system/clock.h"
 
@@ -102,7 +103,7 @@ static bool is_document(const char *path)
     char buffer[16];
     const char *ending = wr_path_ending(path, buffer);
     if (strcmp(ending, "exr") == 0) return wr_document_recognise(path);
-    return strcmp(ending, "wrinkle") == 0 || wr_ora_recognise(path);
+    return strcmp(ending, "wrinkle") == 0 || wr_mesh_named(path) || wr_ora_recognise(path);
 }
 
 static void ask(WrApp *app, const char *path)
@@ -131,6 +132,7 @@ void wr_app_drop(WrApp *app, const char *path)
     if (wr_svg_named(path)) wr_app_add_drawing(app, path, NULL, NULL);
     else if (strcmp(ending, "gbr") == 0 || strcmp(ending, "gih") == 0)
         wr_app_file_chosen(app, WR_FILE_STAMP, path);
+    else if (strcmp(ending, "myb") == 0) wr_app_file_chosen(app, WR_FILE_BRUSH, path);
     else if (is_document(path)) wr_app_open_path(app, path);
     else ask(app, path);
 }

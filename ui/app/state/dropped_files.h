@@ -1,4 +1,4 @@
-/* dropped_files.h - files dropped on the window: documents open, drawings become layers, and a dialog offers the uses of pictures. */
+/* dropped_files.h - files dropped on the window: documents and meshes open, drawings become layers, and a dialog offers the uses of pictures. */
 #pragma once
 #include "ui/app/state/app_state.h"
 

@@ -24,6 +24,7 @@
 #include "system/path.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 const WrLibrary *wr_preset_browser_library(WrApp *app)
@@ -126,6 +127,14 @@ bool wr_preset_browser_choose(WrApp *app, const char *id)
     wr_free(copy);
     wr_app_redraw(app);
     return true;
+}
+
+void wr_preset_browser_take_file(WrApp *app, const char *path)
+{
+    char *full =
+        wr_path_real(path); /* strokes name the preset, also after a change of the folder */
+    wr_preset_browser_choose(app, full ? full : path);
+    free(full);
 }
 
 void wr_preset_browser_tune_all(WrApp *app, const char *set)

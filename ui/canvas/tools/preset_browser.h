@@ -68,6 +68,8 @@ int wr_preset_browser_find(WrApp *app, const char *id);
 const char *wr_preset_browser_chosen(const WrApp *app);
 /* Choose a preset and copy its values; a failure becomes a message. WR_ROUND: none. */
 bool wr_preset_browser_choose(WrApp *app, const char *id);
+/* Choose the preset of a .myb file anywhere. */
+void wr_preset_browser_take_file(WrApp *app, const char *path);
 /* The preset's own values (of the round brush: its defaults). */
 WrBrush wr_preset_browser_own(const WrApp *app);
 /* Override one base value of the preset; NAN: restore its own. */
