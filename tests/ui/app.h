@@ -28,7 +28,7 @@ typedef struct Bench {
     WrApp *app;
 } Bench;
 
-static inline void begin(Bench *bench)
+static inline void begin_with(Bench *bench, const WrAppOptions *options)
 {
     WrError err = { "" };
     if (!getenv("XDG_STATE_HOME")) fail_msg("the group has no folder of its own: enter_window");
@@ -36,9 +36,9 @@ static inline void begin(Bench *bench)
     bench->pool = wr_pool_new(1);
     bench->session = wr_session_new(&(WrSessionOptions){ .pool = bench->pool, .outputs = true });
     if (!wr_session_run(bench->session, "table 64x64", &err)) fail_msg("%s", err.text);
-    bench->options = (WrAppOptions){
-        .session = bench->session, .file_given = true, .threads = 1, .width = 900, .height = 700
-    };
+    bench->options = *options;
+    bench->options.session = bench->session;
+    bench->options.threads = 1;
     bench->app = wr_store_new();
     bench->app->options = &bench->options;
     bench->app->session = bench->session;
@@ -47,6 +47,11 @@ static inline void begin(Bench *bench)
     while (bench->app->drawn_at == 0.0 && wr_clock_seconds() < end) wr_app_step(bench->app);
     assert_true(bench->app->drawn_at > 0.0);
     bench->app->file->clean_revision = wr_session_revision(bench->session);
+}
+
+static inline void begin(Bench *bench)
+{
+    begin_with(bench, &(WrAppOptions){ .file_given = true, .width = 900, .height = 700 });
 }
 
 static inline void finish(Bench *bench)

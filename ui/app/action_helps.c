@@ -243,6 +243,7 @@ const char *const wr_action_helps[] = {
     ROW(fullscreen, "The window fills the whole screen, or no longer"),
     ROW(tablet, "Show the pen's values, and bend its pressure curve to your hand"),
     ROW(help, "The guide with its pictures, page by page, and a search in it"),
+    ROW(tour, "Shows the parts of the window in a minute"),
     ROW(about, "Version and licence of this program"),
 };
 WR_ROWS_END(wr_action_helps, WR_ACTION_COUNT);

@@ -89,6 +89,7 @@ DIALOG(render, WR_DIALOG_RENDER)
 DIALOG(film, WR_DIALOG_FILM)
 DIALOG(help, WR_DIALOG_HELP)
 DIALOG(about, WR_DIALOG_ABOUT)
+DIALOG(tour, WR_DIALOG_TOUR)
 #undef DIALOG
 
 /* ---- tools ---- */
@@ -532,6 +533,7 @@ const WrAction wr_actions[] = {
     ROW(fullscreen, "Full screen", fullscreen, NULL, NULL),
     ROW(tablet, "Tablet tester...", wr_dialog_tablet_open, NULL, NULL),
     ROW(help, "Guide", help, NULL, NULL),
+    ROW(tour, "Tour of the window", tour, NULL, NULL),
     ROW(about, "About Wrinkle", about, NULL, NULL),
     [WR_ACTION_COUNT] = { NULL }
 };

@@ -151,6 +151,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
     if (fonts && !wr_fail(&missing, "%s", fonts)) wr_app_fail(app, &missing);
     wr_app_title(app);
     if (!app->latency) wr_dialog_recover_open(app);
+    if (!app->latency) wr_welcome_open(app);
     SDL_ShowWindow(app->window);
     SDL_StartTextInput();
     wr_app_redraw(app);

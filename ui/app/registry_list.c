@@ -73,6 +73,8 @@ static const WrDialogRow dialogs[] = {
     [WR_ROW(WR_DIALOG_BAKE)] = { wr_dialog_bake, false, WR_ACT(bake) },
     [WR_ROW(WR_DIALOG_CASES)] = { wr_dialog_cases, false },
     [WR_ROW(WR_DIALOG_DROP)] = { wr_dialog_drop, false },
+    [WR_ROW(WR_DIALOG_WELCOME)] = { wr_dialog_welcome, false },
+    [WR_ROW(WR_DIALOG_TOUR)] = { wr_dialog_tour, true },
     [WR_ROW(WR_DIALOG_HELP)] = { wr_dialog_help, false },
     [WR_ROW(WR_DIALOG_ABOUT)] = { wr_dialog_help, false },
 };

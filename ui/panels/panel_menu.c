@@ -288,8 +288,8 @@ static const char *const view_workspaces[] = { WR_ACT(workspace_paint), WR_ACT(w
                                                WR_ACT(workspace_reset), NULL };
 static const char *const view_theme[] = { WR_ACT(theme_dark), WR_ACT(theme_light),
                                           WR_ACT(theme_contrast), NULL };
-static const char *const help_menu[] = { WR_ACT(help), WR_ACT(study), WR_ACT(tablet), WR_ACT(about),
-                                         NULL };
+static const char *const help_menu[] = { WR_ACT(help),   WR_ACT(tour),  WR_ACT(study),
+                                         WR_ACT(tablet), WR_ACT(about), NULL };
 
 static void recent(WrApp *app)
 {

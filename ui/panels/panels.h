@@ -45,6 +45,10 @@ void wr_panel_plan(WrApp *app);
 void wr_dialog_unsaved(WrApp *app);
 void wr_dialog_new(WrApp *app);
 void wr_dialog_starters(WrApp *app);
+void wr_dialog_welcome(WrApp *app);
+void wr_dialog_tour(WrApp *app);
+/* Open the welcome if the program has never been used. */
+void wr_welcome_open(WrApp *app);
 void wr_dialog_table(WrApp *app);
 void wr_dialog_fill(WrApp *app);
 void wr_dialog_grid(WrApp *app);

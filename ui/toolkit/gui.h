@@ -378,6 +378,9 @@ void wr_gui_swatch(WrColour colour, double radius, double tall);
 void wr_gui_group_begin(void);
 void wr_gui_group_end(void);
 
+/* A frame around a part of the window, above everything, for this frame. */
+void wr_gui_spotlight(const SDL_Rect *part);
+
 /* ---- drawing on the views, below the panels ---- */
 void wr_gui_draw_clip(SDL_Rect rect);
 void wr_gui_draw_unclip(void);

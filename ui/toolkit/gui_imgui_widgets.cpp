@@ -699,6 +699,15 @@ extern "C" void wr_gui_drop_frame(double y, double height)
     list->PopClipRect();
 }
 
+extern "C" void wr_gui_spotlight(const SDL_Rect *part)
+{
+    const float x = (float)part->x, y = (float)part->y, w = px(3);
+    ImGui::GetForegroundDrawList()->AddRect(
+        ImVec2(x + w / 2, y + w / 2),
+        ImVec2(x + (float)part->w - w / 2, y + (float)part->h - w / 2),
+        wr_gui_colour_u32(WR_COLOUR_ACCENT), 0, 0, w);
+}
+
 extern "C" bool wr_gui_held(void)
 {
     return ImGui::IsItemActive() && ImGui::GetIO().MouseDown[0];

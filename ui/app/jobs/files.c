@@ -87,7 +87,7 @@ static const struct {
     [WR_ROW(WR_FILE_TERRAIN)] = { "Choose a picture of elevations", "Choose", NULL },
     [WR_ROW(WR_FILE_GLTF)] = { "Take the materials of a glTF", "Take", NULL },
     [WR_ROW(WR_FILE_BAKE)] = { "Choose a detailed mesh", "Choose", NULL },
-    [WR_ROW(WR_FILE_BRUSH)] = { NULL, NULL, NULL },  /* dropped, no file dialog */
+    [WR_ROW(WR_FILE_BRUSH)] = { "Choose a brush", "Choose", NULL },
     [WR_ROW(WR_FILE_PRESET)] = { NULL, NULL, NULL }, /* typed name, no file dialog */
 };
 WR_ROWS_END(purposes, WR_FILE_PURPOSES);
@@ -509,13 +509,15 @@ static const char *const *file_endings(WrFilePurpose purpose)
     static const char *const documents[] = { PICTURES, "wrinkle", "ora", "svg", "svgz", NULL };
     static const char *const tables[] = { PICTURES, "wrinkle", "ora", NULL };
     static const char *const models[] = { "gltf", "glb", NULL };
+    static const char *const brushes[] = { "myb", NULL };
     static const char *const patches[] = { "bpt", "txt", NULL };
     static const char *const grounds[] = { PICTURES, "r16", "r32", "raw", "hgt", "fits", NULL };
     if (wr_file_purpose_writes(purpose) || purpose == WR_FILE_GENERATE ||
-        purpose == WR_FILE_LOCATE || purpose == WR_FILE_BRUSH || purpose == WR_FILE_PRESET)
+        purpose == WR_FILE_LOCATE || purpose == WR_FILE_PRESET)
         return NULL;
     if (purpose == WR_FILE_STAMP) return stamps;
     if (purpose == WR_FILE_GLTF) return models;
+    if (purpose == WR_FILE_BRUSH) return brushes;
     if (purpose == WR_FILE_MESH || purpose == WR_FILE_BAKE) return wr_mesh_endings;
     if (purpose == WR_FILE_PATCHES) return patches;
     if (purpose == WR_FILE_TERRAIN) return grounds;

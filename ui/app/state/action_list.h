@@ -228,6 +228,7 @@
     X(fullscreen, "F11")                                                                           \
     X(tablet, "Ctrl+Shift+T")                                                                      \
     X(help, "F1")                                                                                  \
+    X(tour, "")                                                                                    \
     X(about, "")
 
 /* Modifier actions: keys that are held while the pointer works. */

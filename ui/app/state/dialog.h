@@ -38,7 +38,9 @@ typedef enum WrDialog {
     WR_DIALOG_TABLET,
     WR_DIALOG_BAKE, /* maps of a detailed mesh */
     WR_DIALOG_CASES,
-    WR_DIALOG_DROP, /* use of dropped pictures */
+    WR_DIALOG_DROP,    /* use of dropped pictures */
+    WR_DIALOG_WELCOME, /* at the first start */
+    WR_DIALOG_TOUR,
     WR_DIALOG_HELP,
     WR_DIALOG_ABOUT,
     WR_DIALOG_COUNT
@@ -48,6 +50,7 @@ typedef enum WrDialog {
 typedef struct WrDialogState {
     WrDialog now;
     bool fresh; /* first frame */
+    int stop;   /* of the tour, from 0 */
     WrTimeLeft preview_left;
 } WrDialogState;
 

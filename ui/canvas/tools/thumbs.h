@@ -17,6 +17,7 @@ typedef enum WrThumbKind {
     WR_THUMB_MODEL,
     WR_THUMB_LIGHT,
     WR_THUMB_STARTER,
+    WR_THUMB_WELCOME,
     WR_THUMB_KINDS
 } WrThumbKind;
 
