@@ -290,8 +290,14 @@ static bool load(void *ctx, WrError *err)
            wr_fail(err, "fontconfig does not work"); /* also if no copy can be started */
 }
 
+static WrOnceAsync loaded = { .work = load };
+
 bool wr_font_config(WrError *err)
 {
-    static WrOnceAsync list = { .work = load };
-    return wr_once_async_wait(&list, err);
+    return wr_once_async_wait(&loaded, err);
+}
+
+void wr_font_config_begin(void)
+{
+    wr_once_async_begin(&loaded);
 }

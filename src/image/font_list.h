@@ -41,3 +41,4 @@ char *wr_font_file(const char *const *families, int weight);
  * Errors   it fails, or a font makes it crash or hang; "cancelled". The next call tries again
  * Threads  any */
 bool wr_font_config(WrError *err);
+void wr_font_config_begin(void); /* starts it in advance, and returns at once */

@@ -75,6 +75,7 @@
 #include "command/session.h"
 #include "export/film.h"
 #include "field/seam_check.h"
+#include "image/font_list.h"
 #include "scene/scene.h"
 #include "system/clock.h"
 
@@ -94,6 +95,7 @@
 bool wr_app_begin(WrApp *app, WrError *err)
 {
     wr_settings_begin(app);
+    wr_font_config_begin(); /* while the window opens */
     wr_app_start_ahead(app);
     wr_words_choose(app->settings->language);
     wr_theme_set(app->settings->theme);
