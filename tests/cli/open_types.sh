@@ -36,6 +36,7 @@ printf 'not a mesh\n' >wrong.stl
 
 # window FILE: runs the window until its first picture, and ends it.
 window() {
+    : >err
     SDL_VIDEODRIVER=dummy WRINKLE_TIMING=1 "$program" "$1" >out 2>err </dev/null &
     child=$!
     until grep -q 'first picture' err || ! kill -0 "$child" 2>/dev/null; do sleep 0.05; done

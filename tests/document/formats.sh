@@ -61,6 +61,7 @@ if ! "$program" paint </dev/null 2>&1 | grep -q 'no window: try'; then
     mkdir -p config/wrinkle
     { cat "$kept/window.conf"; echo 'of_a_later_version 7 words'; } >config/wrinkle/window.conf
     touch -d '2020-01-01' config/wrinkle/window.conf
+    : >err
     SDL_VIDEODRIVER=dummy WRINKLE_TIMING=1 "$program" "$kept/plain.exr" >out 2>err </dev/null &
     child=$!
     until grep -q 'first picture' err || ! kill -0 "$child" 2>/dev/null; do sleep 0.05; done
