@@ -85,14 +85,11 @@ static void set_program(const char *library)
 {
     char *folder = wr_path_folder(library);
     WrText path = { 0 };
-    wr_text_addf(&path, "%s/wrinkle", folder);
-    if (!wr_path_can_run(wr_text_get(&path))) {
-        wr_text_clear(&path);
-        wr_text_addf(&path, "%s/" WR_PROGRAM_FROM_LIBRARY, folder);
-        wr_program_folder_set(wr_text_get(&path));
-    } else {
-        wr_program_folder_set(folder);
-    }
+    wr_text_addf(&path, "%s/wrinkle-reader", folder);
+    const bool built = wr_path_is_file(wr_text_get(&path));
+    wr_text_clear(&path);
+    wr_text_addf(&path, "%s%s", folder, built ? "" : "/" WR_PROGRAM_FROM_LIBRARY);
+    wr_program_folder_set(wr_text_get(&path));
     wr_text_fini(&path);
     wr_free(folder);
 }

@@ -37,6 +37,13 @@ printf 'table 300x200\npattern bricks across=6 rows=8\ncell 3,2\nexport normal+y
 moved/bin/wrinkle run n.wrinkle 2>log || fail "$(cat log)"
 [[ $(compare -metric AE n.png normals.ppm null: 2>&1) == 0 ]] || fail "normals.ppm and n.png differ"
 
+# ---- the places of files ----
+# A library in lib/TRIPLET has the modules' folder `wrinkle` beside it; program, reader and data are found by its path to bin.
+mkdir -p deep/lib/wrinkle
+cp "$lib/libwrinkle.so.0" deep/lib/
+ln -s ../moved/bin deep/bin
+LD_LIBRARY_PATH=$PWD/deep/lib ./program2 >said 2>&1 || fail "with the library in another folder: $(cat said)"
+
 # ---- the interface ----
 printf '#include <wrinkle.h>\nint main() { return wr_doc_version() == nullptr; }\n' >header.cpp
 c++ -std=c++17 -Wall -Wextra -Werror "${sanitize[@]}" header.cpp -o header "${flags[@]}" 2>log || fail "in C++: $(cat log)"
