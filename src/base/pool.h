@@ -35,13 +35,13 @@ int64_t wr_pool_pieces(void);
 
    For work that cannot be interrupted, such as loading libraries (base/progress.h). */
 
-/* One initialisation of the process; a static variable each. All members but `work` and `ctx` are
- * private. */
+/* One initialisation of the process; a static variable each. Set `work` and `ctx`; `why` may be read while no other
+ * thread uses it; the others are private. */
 typedef struct WrOnceAsync {
     bool (*work)(void *ctx, WrError *err);
     void *ctx;
     bool busy, done;
-    WrError why; /* error of the last failed attempt */
+    WrError why; /* error of the last failed attempt; "": none failed */
 } WrOnceAsync;
 
 /* Waits until the work is done; the first caller starts it. A failure is not cached: the next call

@@ -10,6 +10,7 @@ int wr_app_run(const WrAppOptions *options)
 {
     static WrModule window = { .file = "wrinkle_window.so",
                                .serves = "windows",
+                               .package = WR_SDL_PACKAGE,
                                .symbol = WR_WINDOW_SYMBOL,
                                .version = WR_WINDOW_VERSION,
                                .quiet = true };

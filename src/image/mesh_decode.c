@@ -409,6 +409,7 @@ static const WrAssimpTable *library(WrError *err)
 {
     static WrModule module = { .file = "wrinkle_assimp.so",
                                .serves = "mesh files",
+                               .package = WR_ASSIMP_PACKAGE,
                                .symbol = WR_ASSIMP_SYMBOL,
                                .version = WR_ASSIMP_VERSION,
                                .loading = { .work = wr_module_load, .ctx = &module } };

@@ -33,14 +33,16 @@ bool wr_module_path(int place, const char *file, WrText *path)
 static const void *load(const WrModule *module, WrError *err)
 {
     const int *table = NULL;
-    WrText path = { 0 }, looked = { 0 };
+    WrText path = { 0 }, looked = { 0 }, reason = { 0 };
     for (int place = 0; place < WR_MODULE_PLACES && !table; place++) {
         if (!wr_module_path(place, module->file, &path)) continue;
         wr_text_addf(&looked, "%s%s", looked.length ? ", " : "", wr_text_get(&path));
         if (!wr_path_is_there(wr_text_get(&path))) continue;
         void *library = wr_object_open(wr_text_get(&path));
         if (!library) {
-            wr_text_addf(&looked, " (%s)", wr_object_why());
+            wr_text_clear(&reason);
+            wr_text_add(&reason, wr_object_why());
+            wr_text_addf(&looked, " (%s)", wr_text_get(&reason));
             continue;
         }
         table = wr_object_find(library, module->symbol);
@@ -50,10 +52,15 @@ static const void *load(const WrModule *module, WrError *err)
             wr_object_close(library);
         }
     }
-    if (!table)
+    if (!table && reason.length > 0 && module->package && *module->package)
+        wr_fail(err,
+                "%s need the module %s, which cannot be loaded: %s (on Debian: apt install %s)",
+                module->serves, module->file, wr_text_get(&reason), module->package);
+    else if (!table)
         wr_fail(err, "%s need the module %s, looked for at: %s", module->serves, module->file,
                 wr_text_get(&looked));
     wr_text_fini(&path);
+    wr_text_fini(&reason);
     wr_text_fini(&looked);
     return table;
 }
@@ -88,13 +95,26 @@ bool wr_module_load(void *ctx, WrError *err)
                    module->serves);
 }
 
+static bool sealed;
+
+void wr_modules_seal(void)
+{
+    sealed = true;
+}
+
 const void *wr_module_table(WrModule *module, WrError *err)
 {
+    const WrError *why = &module->loading.why;
+    if (sealed && !module->table && why->text[0]) {
+        wr_fail(err, "%s", wr_error_message(why));
+        return NULL;
+    }
     return wr_once_async_wait(&module->loading, err) ? module->table : NULL;
 }
 
 static WrModule oiio = { .file = "wrinkle_oiio.so",
                          .serves = "picture files",
+                         .package = WR_OIIO_PACKAGE,
                          .symbol = WR_OIIO_SYMBOL,
                          .version = WR_OIIO_VERSION,
                          .loading = { .work = wr_module_load, .ctx = &oiio } };

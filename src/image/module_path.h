@@ -17,6 +17,7 @@ bool wr_module_path(int place, const char *file, WrText *path);
  * is the only state here that outlives a call. */
 typedef struct WrModule {
     const char *file, *serves; /* "wrinkle_oiio.so", "picture files" */
+    const char *package;       /* Debian package of its library, for errors; NULL or "": unknown */
     const char *symbol;        /* name of its table, which begins with an int: its version */
     int version;
     bool quiet;          /* its libraries start no threads when they are loaded */
@@ -26,6 +27,9 @@ typedef struct WrModule {
 bool wr_module_load(void *module, WrError *err);
 
 /* The module's table, loaded by the first call, which can be cancelled meanwhile (base/pool.h). A
- * failure is not cached, so that a later call may succeed. NULL with one error that lists the searched
- * paths, or "cancelled". */
+ * failure is not cached, so that a later call may succeed. NULL with one error, or "cancelled": the
+ * system's reason and the package of a module that does not load, else the searched paths. */
 const void *wr_module_table(WrModule *module, WrError *err);
+/* For the sandboxed children of the reader process, which cannot open modules: from now on in this process a module that
+ * failed to load fails again with the same error. */
+void wr_modules_seal(void);

@@ -9,6 +9,7 @@
 #include "image/decode.h"
 #include "image/font_internal.h"
 #include "image/mesh_decode.h"
+#include "image/module_path.h"
 #include "image/oiio.h"
 #include "image/reader_protocol.h"
 #include "image/svg.h"
@@ -228,12 +229,13 @@ static void serve_block(const WrWireOrder *order)
 
 /* ---- all ---- */
 
-/* warm: the library is loaded; a child cannot load it. */
+/* warm: loading the library was tried; a child cannot load it. */
 static void serve(const WrWireOrder *order, int file, int channel, bool warm)
 {
     WrError err = { "" };
     bool memory = false;
     keep_two(file, channel);
+    wr_modules_seal();
     uint64_t space = wr_sandbox_space();
     wr_process_hear_signals();
     if (!wr_sandbox_enter(order->memory, order->seconds)) {
@@ -275,8 +277,9 @@ typedef struct Child {
 typedef struct Process {
     int signals; /* reports ended children */
     WR_ARRAY(Child) children;
-    bool warm; /* the image library is loaded, as far as possible */
-    bool used; /* an order came */
+    bool warm;   /* loading the image library was tried */
+    bool loaded; /* with success */
+    bool used;   /* an order came */
 } Process;
 
 /* Silences output, starts a new session, leaves the current folder. */
@@ -291,8 +294,8 @@ static void settle(void)
     wr_process_keep_rights();
 }
 
-/* One-time initialisation of the library, shared by all children. Errors recur when a file is read.
-   Dependencies of the library start threads when they are loaded. A child has none of these threads,
+/* One-time initialisation of the library, shared by all children. The children report its error; the next file tries again,
+   since the library may have been installed meanwhile. Dependencies of the library start threads when they are loaded. A child has none of these threads,
    but would inherit the locks they hold at that moment; waiting until they sleep ensures that they hold
    none. */
 static void warm(Process *process)
@@ -305,6 +308,7 @@ static void warm(Process *process)
     if (nothing >= 0) wr_fd_close(nothing);
     wr_process_wait_for_threads();
     process->warm = true;
+    process->loaded = library != NULL;
 }
 
 /* ---- children ---- */
@@ -319,7 +323,7 @@ static void start_child(Process *process, const WrWireOrder *order, int file, in
         wr_fd_close(channel);
         return;
     }
-    if (!process->warm && order->task == WR_WIRE_PICTURE &&
+    if (!process->loaded && order->task == WR_WIRE_PICTURE &&
         (order->library || wr_decoder_takes_module(file, order->ending)))
         warm(process);
     /* loaded in the parent, so that it is loaded only once */

@@ -13,6 +13,7 @@ static const WrLibrsvgTable *library(WrError *err)
 {
     static WrModule module = { .file = "wrinkle_librsvg.so",
                                .serves = "SVG files",
+                               .package = WR_LIBRSVG_PACKAGE,
                                .symbol = WR_LIBRSVG_SYMBOL,
                                .version = WR_LIBRSVG_VERSION,
                                .loading = { .work = wr_module_load, .ctx = &module } };

@@ -718,6 +718,28 @@ static void a_missing_module_is_an_error_and_the_variable_finds_it(void **state)
     wr_free(folder);
 }
 
+/* The sandboxed reader, which cannot open the module again, repeats the reason of the first attempt. */
+static void the_reader_repeats_why_a_module_cannot_be_loaded(void **state)
+{
+    (void)state;
+    WrError err;
+    char command[1024], *folder = wr_program_folder(), *text;
+    size_t length;
+    write_named("m.tif");
+    mkdir("half", 0777);
+    snprintf(command, sizeof command,
+             "cp /proc/%ld/exe half/program && cp '%s/wrinkle-reader' half", (long)getpid(),
+             folder);
+    assert_int_equal(system(command), 0);
+    assert_true(wr_file_write("half/wrinkle_oiio.so", "not a library", 13, &err));
+    assert_int_equal(WEXITSTATUS(system("half/program --read m.tif >out.txt")), 3);
+    assert_true(wr_file_read("out.txt", 4096, &text, &length, &err));
+    assert_non_null(strstr(text, "m.tif: picture files need the module wrinkle_oiio.so"));
+    assert_non_null(strstr(text, "/half/wrinkle_oiio.so: file too short"));
+    wr_free(text);
+    wr_free(folder);
+}
+
 /* ---- colours ---- */
 
 static void luma_is_rec_709_and_grey_stays_grey(void **state)
@@ -869,6 +891,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_failed_write_leaves_the_old_file_and_nothing_else),
         cmocka_unit_test(a_full_disk_is_an_error_and_leaves_nothing_half_written),
         cmocka_unit_test(a_missing_module_is_an_error_and_the_variable_finds_it),
+        cmocka_unit_test(the_reader_repeats_why_a_module_cannot_be_loaded),
         cmocka_unit_test(luma_is_rec_709_and_grey_stays_grey),
         cmocka_unit_test(srgb_curves_are_exact_to_float_and_invert_each_other),
         cmocka_unit_test(shared_pictures_live_until_the_last_owner),

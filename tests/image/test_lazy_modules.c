@@ -138,6 +138,31 @@ static void a_failure_is_told_and_not_kept(void **state)
     wr_progress_set(NULL);
 }
 
+/* The system's reason is repeated; without a package the searched paths are listed too. */
+static void a_library_that_is_missing_is_named_with_its_package(void **state)
+{
+    (void)state;
+    static WrModule module;
+    WrError err = { "" };
+    name_module(&module, "broken.so");
+    FILE *file = fopen("broken.so", "w");
+    assert_non_null(file);
+    assert_true(fputs("not a library", file) >= 0 && fclose(file) == 0);
+    assert_null(wr_module_table(&module, &err));
+    assert_non_null(strstr(err.text, "slow files need the module broken.so, looked for at: "));
+    assert_non_null(strstr(err.text, "/broken.so (/")); /* its path begins the reason */
+    module.package = "libslow1";
+    assert_null(wr_module_table(&module, &err));
+    assert_non_null(strstr(err.text, "need the module broken.so, which cannot be loaded: /"));
+    assert_non_null(
+        strstr(err.text, "/broken.so: file too short (on Debian: apt install libslow1)"));
+    remove("broken.so"); /* as in a sandbox */
+    wr_modules_seal();
+    assert_null(wr_module_table(&module, &err));
+    assert_non_null(
+        strstr(err.text, "/broken.so: file too short (on Debian: apt install libslow1)"));
+}
+
 /* The program's end does not wait for an unneeded load, and keeps its exit status and output. */
 static void the_program_ends_while_one_loads(void **state)
 {
@@ -211,6 +236,8 @@ int main(void)
         cmocka_unit_test(a_failure_is_told_and_not_kept),
         cmocka_unit_test(the_program_ends_while_one_loads),
         cmocka_unit_test(a_list_of_fonts_that_takes_long_can_be_cancelled),
+        cmocka_unit_test(
+            a_library_that_is_missing_is_named_with_its_package), /* last: it seals the modules */
     };
     char here[64];
     alarm(PATIENCE);
