@@ -28,7 +28,7 @@ extern "C" {
 #define WR_PUBLIC
 #endif
 
-/* "0.1.0". Constant text. */
+/* "1.0.0". Constant text. */
 WR_PUBLIC const char *wr_doc_version(void);
 
 /* ---- errors ---- */

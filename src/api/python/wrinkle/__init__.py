@@ -60,7 +60,7 @@ class Sample(NamedTuple):
 
 
 def version() -> str:
-    """The version of the library, "0.1.0"."""
+    """The version of the library, "1.0.0"."""
     return _ffi.string(_lib.wr_doc_version()).decode()
 
 
