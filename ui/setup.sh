@@ -21,9 +21,12 @@ wr_test_packages=(
     imagemagick openimageio-tools
     appstream desktop-file-utils groff-base jq librsvg2-bin parallel python3-cffi python3-numpy shared-mime-info shellcheck
 )
+# Of ui/desktop/package.sh.
+# shellcheck disable=SC2034
+wr_package_packages=(debhelper dh-python dpkg-dev librsvg2-bin xz-utils)
 # Of tests/run.sh --full.
 # shellcheck disable=SC2034
-wr_full_packages=(blender krita python3-pyqt5)
+wr_full_packages=(blender krita python3-pyqt5 lintian mmdebstrap "${wr_package_packages[@]}")
 
 wr_say() {
     printf 'wrinkle: %s\n' "$*" >&2
