@@ -93,6 +93,7 @@ if ! DEB_BUILD_OPTIONS=${DEB_BUILD_OPTIONS:-parallel=$(nproc)} dpkg-buildpackage
     wr_say "building the packages failed; all of the output is in $out/build.log"
     exit 1
 fi
+cd "$out"
 rm -rf "$tree"
 ls "$out"/*_"$version"_*.deb "$out/wrinkle_$version.dsc"
 if [[ $tarball == yes ]]; then
