@@ -4,7 +4,7 @@
 bl_info = {
     "name": "Wrinkle",
     "author": "The Wrinkle authors",
-    "version": (0, 1, 0),
+    "version": (1, 0, 0),
     "blender": (3, 4, 0),
     "location": "3D View and Shader Editor > Sidebar > Wrinkle",
     "description": "Paint bumps in Wrinkle; they appear on Blender's materials",

@@ -7,7 +7,7 @@ import subprocess
 import tempfile
 
 MINIMUM = (0, 1, 0)  # the first version with `paint --live` and the set `blender-live`
-BEYOND = (1, 0, 0)  # command lines may change there
+BEYOND = (2, 0, 0)  # command lines may change there
 
 
 class WrinkleError(Exception):
