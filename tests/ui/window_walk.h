@@ -249,11 +249,16 @@ static inline bool walk_open_curves(Walk *walk, int which)
     return walk_name(walk, "curves of %s", wr_preset_setting(i)->name);
 }
 
-static inline bool walk_open_unsaved(Walk *walk, int which)
+/* Dialogs that no action opens, and that need no data. */
+static inline bool walk_open_by_itself(Walk *walk, int which)
 {
-    if (which > 0) return false;
-    wr_dialog_open(walk->app, WR_DIALOG_UNSAVED);
-    return walk_name(walk, "dialog %s", "unsaved");
+    static const struct {
+        WrDialog dialog;
+        const char *name;
+    } rows[] = { { WR_DIALOG_UNSAVED, "unsaved" }, { WR_DIALOG_WELCOME, "welcome" } };
+    if (which >= (int)WR_LENGTH(rows)) return false;
+    wr_dialog_open(walk->app, rows[which].dialog);
+    return walk_name(walk, "dialog %s", rows[which].name);
 }
 
 /* The window's own file dialog, for each purpose. */
@@ -372,7 +377,7 @@ static inline void walk_dialogs(Walk *walk)
     walk_each(walk, walk_open_curves, NULL);
     wr_dialog_close(app);
     wr_preset_browser_choose(app, WR_ROUND);
-    walk_each(walk, walk_open_unsaved, walk_close_dialog);
+    walk_each(walk, walk_open_by_itself, walk_close_dialog);
     walk_each(walk, walk_open_file, walk_close_dialog);
     walk_each(walk, walk_open_replace, walk_close_dialog);
     walk_each(walk, walk_open_rasterize, walk_close_dialog);
