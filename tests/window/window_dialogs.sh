@@ -282,7 +282,7 @@ if command -v openbox >/dev/null; then
     printf 'turning 0\nwidth 1440\nheight 900\n' >config/wrinkle/window.conf
     start flat.wrinkle
     on_screen() {
-        eval "$(xdotool getwindowgeometry --shell "$window" | grep -E '^(X|Y|WIDTH|HEIGHT)=')"
+        look_where
         read -r left right top bottom < <(xprop -id "$window" _NET_FRAME_EXTENTS | sed 's/.*= //; s/,//g')
         [[ ${top:-0} -gt 0 && $((WIDTH + left + right)) -le 1280 && $((HEIGHT + top + bottom)) -le 900 ]]
     }

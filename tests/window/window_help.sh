@@ -67,6 +67,10 @@ has_window() {
 shows_picture() { grep -q 'first picture' err; }
 is_gone() { ! kill -0 "$pid" 2>/dev/null; }
 
+# look_where: X, Y, WIDTH and HEIGHT of the window on the screen. xdotool counts the frame of a window manager twice.
+look_where() {
+    eval "$(xwininfo -id "$window" | sed -nE 's/^ *Absolute upper-left ([XY]): +/\1=/p; s/^ *Width: +/WIDTH=/p; s/^ *Height: +/HEIGHT=/p')"
+}
 # start ARGUMENT...: open the window and wait until it has drawn itself.
 start() {
     : >err
@@ -77,7 +81,7 @@ start() {
     pid=$!
     until_true 120 "the first picture" shows_picture || { cat err; exit 1; }
     until_true 120 "the window" has_window || exit 1
-    eval "$(xdotool getwindowgeometry --shell "$window" | grep -E '^(X|Y|WIDTH|HEIGHT)=')"
+    look_where
     # Without a window manager keys go where the pointer is.
     xdotool mousemove $((X + 330)) $((Y + 400))
     settle

@@ -20,8 +20,8 @@ grep -q 'need threads, and the system gives no more' err || complain "not the re
 [[ -s out.exr ]] || complain "a document was not saved without a thread"
 [[ ! -e out.tif ]] || complain "a file was begun all the same"
 
-# ---- in the window: one thread, for the questions of these tests ----
-export WR_THREADS=1 LD_PRELOAD=$shim
+# ---- in the window: a thread that loads the fonts, and one for the questions of these tests ----
+export WR_THREADS=2 LD_PRELOAD=$shim
 start --threads 1 small.wrinkle
 unset LD_PRELOAD
 drag 180 300 6 4 20
