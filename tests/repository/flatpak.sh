@@ -57,8 +57,8 @@ value() { # KEY
     sed -nE "s/^$1: '?([^']*)'?\$/\1/p" "$manifest"
 }
 grep -q "<id>$(value id)</id>" "ui/desktop/$(value id).metainfo.xml" || complain "the metadata have no id $(value id)"
-for name in "$(value rename-desktop-file)" "RENAME $(value rename-icon).svg" "RENAME $(value rename-mime-file)"; do
-    grep -qF "$name" ui/desktop/install.cmake || complain "ui/desktop/install.cmake has no $name"
+for name in "$(value rename-desktop-file)" "RENAME $(value rename-icon).svg" 'RENAME wrinkle.xml'; do
+    grep -qF -- "$name" ui/desktop/install.cmake || complain "ui/desktop/install.cmake has no $name"
 done
 # Names within files that flatpak-builder leaves as they are: the commands that rename them find each.
 icon=$(value rename-icon)
