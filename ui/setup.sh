@@ -23,7 +23,7 @@ wr_test_packages=(
 )
 # Of ui/desktop/package.sh.
 # shellcheck disable=SC2034
-wr_package_packages=(debhelper dh-python dpkg-dev librsvg2-bin xz-utils)
+wr_package_packages=(debhelper dh-python dpkg-dev xz-utils)
 # Of tests/run.sh --full.
 # shellcheck disable=SC2034
 wr_full_packages=(blender krita python3-pyqt5 lintian mmdebstrap "${wr_package_packages[@]}")

@@ -300,8 +300,8 @@ static double cells(const WrNoise *noise, const double *t, double *slope)
     return noise_blend(fade, dim, x, corner, slope);
 }
 
-/* cells() of 2D perlin noise from the hash, without slopes: the same operations in the same order, so the same bits, in a fifth
-   of the time. Patterns evaluate it several times a texel. */
+/* cells() of 2D perlin noise from the hash, without slopes: the same operations in the same order, so the same bits, in less
+   than half the time. Patterns evaluate it several times a texel. */
 static double perlin_2d(const WrNoise *noise, const double *t)
 {
     const WrFadeInfo *fade = &wr_fades[noise->fade];

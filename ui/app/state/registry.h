@@ -39,8 +39,8 @@ typedef struct WrTab {
 /* A component with background work. Each function may be NULL. */
 typedef struct WrPart {
     void (*update)(WrApp *app); /* once before each frame, in the order of the list */
-    void (*after)(
-        WrApp *app); /* after it: starts work that the frame should not share processors with */
+    /* after the frame: starts work that it should not share processors with */
+    void (*after)(WrApp *app);
     /* clock at which update must run next; 0: only after events */
     double (*next_time)(const WrApp *app);
     bool (*works)(WrApp *app); /* true while it computes: its progress bar moves */
