@@ -144,6 +144,7 @@ void wr_dialog_tour(WrApp *app)
         return;
     if (part_of(app)->w > 0) wr_gui_spotlight(part_of(app));
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, stops[*stop].words);
+    const int shown = *stop;
     wr_gui_space(4);
     wr_gui_disable(*stop == 0);
     if (wr_gui_button("Back##tour", false)) --*stop;
@@ -160,6 +161,6 @@ void wr_dialog_tour(WrApp *app)
     wr_gui_text(WR_FONT_SMALL, WR_COLOUR_MUTED, text);
     if (ends || (next && last)) wr_dialog_close(app);
     else if (next) ++*stop;
-    wr_app_redraw(app);
+    if (*stop != shown) wr_app_redraw(app); /* the frame is drawn before the buttons are read */
     wr_gui_dialog_end();
 }
