@@ -37,11 +37,11 @@ static char *user_folder(void)
     return home && *home ? wr_path_join(home, ".local/share/wrinkle/brushes") : NULL;
 }
 
-static char *shared_folder(const char *name)
+/* The path of a search that took place; NULL if it found nothing. */
+static char *taken(bool found, WrText *path)
 {
-    WrText path = { 0 };
-    if (wr_shared_find(name, &path)) return path.data;
-    wr_text_fini(&path);
+    if (found) return path->data;
+    wr_text_fini(path);
     return NULL;
 }
 
@@ -52,12 +52,9 @@ static char *collection_folder(Collection collection)
     WrText path = { 0 };
     switch (collection) {
     case USER: return user_folder();
-    case OURS:
-        if (wr_data_find("brushes", &path)) return path.data;
-        wr_text_fini(&path);
-        return NULL;
-    case MYPAINT2: return shared_folder("mypaint-data/2.0/brushes");
-    case MYPAINT1: return shared_folder("mypaint-data/1.0/brushes");
+    case OURS: return taken(wr_data_find("brushes", &path), &path);
+    case MYPAINT2: return taken(wr_shared_find("mypaint-data/2.0/brushes", &path), &path);
+    case MYPAINT1: return taken(wr_shared_find("mypaint-data/1.0/brushes", &path), &path);
     case COLLECTIONS: break;
     }
     return NULL;

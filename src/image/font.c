@@ -26,63 +26,23 @@ typedef struct Named {
     const char *family; /* as fontconfig lists it */
     int weight;         /* of OpenType */
     const char *package;
+    bool strikes; /* a bitmap font, with a file for each size */
 } Named;
 
 WR_ROWS(named);
 static const Named named[] = {
-    [WR_ROW(WR_FONT_TERMINUS)] = { "Terminus", 400, "xfonts-terminus" },
-    [WR_ROW(WR_FONT_TERMINUS_BOLD)] = { "Terminus", 700, "xfonts-terminus" },
-    [WR_ROW(WR_FONT_SANS)] = { "DejaVu Sans", 400, "fonts-dejavu-core" },
-    [WR_ROW(WR_FONT_SANS_BOLD)] = { "DejaVu Sans", 700, "fonts-dejavu-core" },
-    [WR_ROW(WR_FONT_SERIF)] = { "DejaVu Serif", 400, "fonts-dejavu-core" },
-    [WR_ROW(WR_FONT_SERIF_BOLD)] = { "DejaVu Serif", 700, "fonts-dejavu-core" },
-    [WR_ROW(WR_FONT_MONO)] = { "DejaVu Sans Mono", 400, "fonts-dejavu-core" },
-    [WR_ROW(WR_FONT_MONO_BOLD)] = { "DejaVu Sans Mono", 700, "fonts-dejavu-core" },
-    [WR_ROW(WR_FONT_INTER)] = { "Inter", 400, "fonts-inter" },
-    [WR_ROW(WR_FONT_INTER_BOLD)] = { "Inter", 700, "fonts-inter" },
+    [WR_ROW(WR_FONT_TERMINUS)] = { "Terminus", 400, "xfonts-terminus", true },
+    [WR_ROW(WR_FONT_TERMINUS_BOLD)] = { "Terminus", 700, "xfonts-terminus", true },
+    [WR_ROW(WR_FONT_SANS)] = { "DejaVu Sans", 400, "fonts-dejavu-core", false },
+    [WR_ROW(WR_FONT_SANS_BOLD)] = { "DejaVu Sans", 700, "fonts-dejavu-core", false },
+    [WR_ROW(WR_FONT_SERIF)] = { "DejaVu Serif", 400, "fonts-dejavu-core", false },
+    [WR_ROW(WR_FONT_SERIF_BOLD)] = { "DejaVu Serif", 700, "fonts-dejavu-core", false },
+    [WR_ROW(WR_FONT_MONO)] = { "DejaVu Sans Mono", 400, "fonts-dejavu-core", false },
+    [WR_ROW(WR_FONT_MONO_BOLD)] = { "DejaVu Sans Mono", 700, "fonts-dejavu-core", false },
+    [WR_ROW(WR_FONT_INTER)] = { "Inter", 400, "fonts-inter", false },
+    [WR_ROW(WR_FONT_INTER_BOLD)] = { "Inter", 700, "fonts-inter", false },
 };
 WR_ROWS_END(named, WR_FONT_FAMILY_COUNT);
-
-/* The first readable file of an exact family and weight, in the order of their paths; NULL: none. Instances of variable fonts
-   and further faces of a collection (index > 0) are left out: their files open as another face. */
-static char *first_file(FcConfig *config, const char *family, int weight)
-{
-    char *found = NULL;
-    FcObjectSet *members = FcObjectSetBuild(FC_FILE, FC_INDEX, (char *)NULL);
-    FcPattern *pattern = FcPatternBuild(
-        NULL, FC_FAMILY, FcTypeString, family, FC_WEIGHT, FcTypeInteger,
-        FcWeightFromOpenType(weight), FC_SLANT, FcTypeInteger, FC_SLANT_ROMAN, FC_WIDTH,
-        FcTypeInteger, FC_WIDTH_NORMAL, FC_VARIABLE, FcTypeBool, FcFalse, (char *)NULL);
-    FcFontSet *set = members && pattern ? FcFontList(config, pattern, members) : NULL;
-    for (int i = 0; set && i < set->nfont; i++) {
-        FcChar8 *file = NULL;
-        int index = 1;
-        FcPatternGetInteger(set->fonts[i], FC_INDEX, 0, &index);
-        if (index != 0 || FcPatternGetString(set->fonts[i], FC_FILE, 0, &file) != FcResultMatch ||
-            (found && strcmp(found, (const char *)file) <= 0) ||
-            !wr_path_can_read((const char *)file))
-            continue;
-        wr_free(found);
-        found = wr_strdup((const char *)file);
-    }
-    if (set) FcFontSetDestroy(set);
-    if (pattern) FcPatternDestroy(pattern);
-    if (members) FcObjectSetDestroy(members);
-    return found;
-}
-
-char *wr_font_file(const char *const *families, int weight)
-{
-    static const uint32_t letter = 'A';
-    char *found = NULL;
-    if (!wr_font_config(NULL)) return NULL;
-    FcConfig *config = FcConfigReference(NULL);
-    for (; config && *families && !found; families++)
-        if (strcmp(*families, "sans-serif") != 0) found = first_file(config, *families, weight);
-        else wr_font_lenders(&letter, 1, weight >= 600 ? "sans-bold" : "sans", NULL, 1, &found);
-    if (config) FcConfigDestroy(config);
-    return found;
-}
 
 /* A file in one of fontconfig's folders. Its lists lack bitmap fonts where its rules refuse them, as Debian's do. */
 static char *file_in_folders(const char *name)
@@ -134,8 +94,8 @@ const char *wr_font_family(int index)
 char *wr_font_find(int index, double size, WrError *err)
 {
     const Named *font = &named[index];
-    char *found = index <= WR_FONT_TERMINUS_BOLD
-                      ? terminus_file(size, index == WR_FONT_TERMINUS_BOLD)
+    char *found = font->strikes
+                      ? terminus_file(size, font->weight > 400)
                       : wr_font_file((const char *const[]){ font->family, NULL }, font->weight);
     if (!found)
         wr_fail(err, "the font %s is not installed (%s): install the package %s",

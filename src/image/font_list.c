@@ -301,3 +301,46 @@ void wr_font_config_begin(void)
 {
     wr_once_async_begin(&loaded);
 }
+
+/* ---- files of families ---- */
+
+/* The first readable file of an exact family and weight, in the order of their paths; NULL: none. Instances of variable fonts
+   and further faces of a collection (index > 0) are left out: their files open as another face. */
+static char *first_file(FcConfig *config, const char *family, int weight)
+{
+    char *found = NULL;
+    FcObjectSet *members = FcObjectSetBuild(FC_FILE, FC_INDEX, (char *)NULL);
+    FcPattern *pattern = FcPatternBuild(
+        NULL, FC_FAMILY, FcTypeString, family, FC_WEIGHT, FcTypeInteger,
+        FcWeightFromOpenType(weight), FC_SLANT, FcTypeInteger, FC_SLANT_ROMAN, FC_WIDTH,
+        FcTypeInteger, FC_WIDTH_NORMAL, FC_VARIABLE, FcTypeBool, FcFalse, (char *)NULL);
+    FcFontSet *set = members && pattern ? FcFontList(config, pattern, members) : NULL;
+    for (int i = 0; set && i < set->nfont; i++) {
+        FcChar8 *file = NULL;
+        int index = 1;
+        FcPatternGetInteger(set->fonts[i], FC_INDEX, 0, &index);
+        if (index != 0 || FcPatternGetString(set->fonts[i], FC_FILE, 0, &file) != FcResultMatch ||
+            (found && strcmp(found, (const char *)file) <= 0) ||
+            !wr_path_can_read((const char *)file))
+            continue;
+        wr_free(found);
+        found = wr_strdup((const char *)file);
+    }
+    if (set) FcFontSetDestroy(set);
+    if (pattern) FcPatternDestroy(pattern);
+    if (members) FcObjectSetDestroy(members);
+    return found;
+}
+
+char *wr_font_file(const char *const *families, int weight)
+{
+    static const uint32_t letter = 'A';
+    char *found = NULL;
+    if (!wr_font_config(NULL)) return NULL;
+    FcConfig *config = FcConfigReference(NULL);
+    for (; config && *families && !found; families++)
+        if (strcmp(*families, "sans-serif") != 0) found = first_file(config, *families, weight);
+        else wr_font_lenders(&letter, 1, weight >= 600 ? "sans-bold" : "sans", NULL, 1, &found);
+    if (config) FcConfigDestroy(config);
+    return found;
+}
