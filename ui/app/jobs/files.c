@@ -58,41 +58,54 @@ struct WrFiles {
     int place_count;                    /* -1: not yet looked up */
 };
 
+#define PICTURES                                                                                   \
+    "png", "exr", "tif", "tiff", "jpg", "jpeg", "jp2", "bmp", "tga", "hdr", "pfm", "pgm", "ppm",   \
+        "webp", "gif", "psd", "dpx", "heic", "avif", "jxl"
+
+/* Endings of the files that a purpose reads. */
+static const char *const pictures[] = { PICTURES, NULL };
+static const char *const stamps[] = { PICTURES, "gbr", "gih", "pat", NULL };
+static const char *const documents[] = { PICTURES, "wrinkle", "ora", "svg", "svgz", NULL };
+static const char *const tables[] = { PICTURES, "wrinkle", "ora", NULL };
+static const char *const models[] = { "gltf", "glb", NULL };
+static const char *const brushes[] = { "myb", NULL };
+static const char *const patches[] = { "bpt", "txt", NULL };
+static const char *const grounds[] = { PICTURES, "r16", "r32", "raw", "hgt", "fits", NULL };
+
 WR_ROWS(purposes);
 static const struct {
     const char *title, *done;
     /* of a file to be written, for names without extension; NULL: the file is read */
     const char *ending;
+    const char *const *endings; /* of files that are read; NULL: any */
 } purposes[WR_FILE_PURPOSES] = {
-    [WR_ROW(WR_FILE_OPEN)] = { "Open", "Open", NULL },
-    [WR_ROW(WR_FILE_SAVE)] = { "Save as", "Save", ".exr" },
-    [WR_ROW(WR_FILE_EXPORT)] = { "Export to", "Export", ".png" },
-    [WR_ROW(WR_FILE_RENDER)] = { "Render to", "Render", ".png" },
-    [WR_ROW(WR_FILE_FILM)] = { "Save the film to", "Save", ".mp4" },
-    [WR_ROW(WR_FILE_IMPORT)] = { "Import heights", "Import", NULL },
-    [WR_ROW(WR_FILE_HISTORY)] = { "Save the history as a script", "Save", ".wrinkle" },
-    [WR_ROW(WR_FILE_MACRO_SAVE)] = { "Save steps as a macro", "Save", ".wrinkle" },
-    [WR_ROW(WR_FILE_MACRO)] = { "Run a macro", "Open", NULL },
-    [WR_ROW(WR_FILE_STAMP)] = { "Open a picture as a stamp", "Open", NULL },
-    [WR_ROW(WR_FILE_GENERATE)] = { "Choose a file", "Choose", NULL },
-    [WR_ROW(WR_FILE_LOCATE)] = { "Locate the missing file", "Locate", NULL },
-    [WR_ROW(WR_FILE_TABLE)] = { "A table for the object", "Choose", NULL },
-    [WR_ROW(WR_FILE_COLOUR)] = { "Choose a picture of colours", "Choose", NULL },
-    [WR_ROW(WR_FILE_NORMALS)] = { "Choose a normal map", "Choose", NULL },
-    [WR_ROW(WR_FILE_ROUGHNESS)] = { "Choose a picture of roughness", "Choose", NULL },
-    [WR_ROW(WR_FILE_METALNESS)] = { "Choose a picture of metalness", "Choose", NULL },
-    [WR_ROW(WR_FILE_SURROUND)] = { "Choose a picture of surroundings", "Choose", NULL },
-    [WR_ROW(WR_FILE_MESH)] = { "Choose a mesh", "Choose", NULL },
-    [WR_ROW(WR_FILE_PATCHES)] = { "Choose a set of patches", "Choose", NULL },
-    [WR_ROW(WR_FILE_TERRAIN)] = { "Choose a picture of elevations", "Choose", NULL },
-    [WR_ROW(WR_FILE_GLTF)] = { "Take the materials of a glTF", "Take", NULL },
-    [WR_ROW(WR_FILE_BAKE)] = { "Choose a detailed mesh", "Choose", NULL },
-    [WR_ROW(WR_FILE_BRUSH)] = { "Choose a brush", "Choose", NULL },
-    [WR_ROW(WR_FILE_PRESET)] = { NULL, NULL, NULL }, /* typed name, no file dialog */
+    [WR_ROW(WR_FILE_OPEN)] = { "Open", "Open", NULL, documents },
+    [WR_ROW(WR_FILE_SAVE)] = { "Save as", "Save", ".exr", NULL },
+    [WR_ROW(WR_FILE_EXPORT)] = { "Export to", "Export", ".png", NULL },
+    [WR_ROW(WR_FILE_RENDER)] = { "Render to", "Render", ".png", NULL },
+    [WR_ROW(WR_FILE_FILM)] = { "Save the film to", "Save", ".mp4", NULL },
+    [WR_ROW(WR_FILE_IMPORT)] = { "Import heights", "Import", NULL, pictures },
+    [WR_ROW(WR_FILE_HISTORY)] = { "Save the history as a script", "Save", ".wrinkle", NULL },
+    [WR_ROW(WR_FILE_MACRO_SAVE)] = { "Save steps as a macro", "Save", ".wrinkle", NULL },
+    [WR_ROW(WR_FILE_MACRO)] = { "Run a macro", "Open", NULL, pictures },
+    [WR_ROW(WR_FILE_STAMP)] = { "Open a picture as a stamp", "Open", NULL, stamps },
+    [WR_ROW(WR_FILE_GENERATE)] = { "Choose a file", "Choose", NULL, NULL },
+    [WR_ROW(WR_FILE_LOCATE)] = { "Locate the missing file", "Locate", NULL, NULL },
+    [WR_ROW(WR_FILE_TABLE)] = { "A table for the object", "Choose", NULL, tables },
+    [WR_ROW(WR_FILE_COLOUR)] = { "Choose a picture of colours", "Choose", NULL, pictures },
+    [WR_ROW(WR_FILE_NORMALS)] = { "Choose a normal map", "Choose", NULL, pictures },
+    [WR_ROW(WR_FILE_ROUGHNESS)] = { "Choose a picture of roughness", "Choose", NULL, pictures },
+    [WR_ROW(WR_FILE_METALNESS)] = { "Choose a picture of metalness", "Choose", NULL, pictures },
+    [WR_ROW(WR_FILE_SURROUND)] = { "Choose a picture of surroundings", "Choose", NULL, pictures },
+    [WR_ROW(WR_FILE_MESH)] = { "Choose a mesh", "Choose", NULL, wr_mesh_endings },
+    [WR_ROW(WR_FILE_PATCHES)] = { "Choose a set of patches", "Choose", NULL, patches },
+    [WR_ROW(WR_FILE_TERRAIN)] = { "Choose a picture of elevations", "Choose", NULL, grounds },
+    [WR_ROW(WR_FILE_GLTF)] = { "Take the materials of a glTF", "Take", NULL, models },
+    [WR_ROW(WR_FILE_BAKE)] = { "Choose a detailed mesh", "Choose", NULL, wr_mesh_endings },
+    [WR_ROW(WR_FILE_BRUSH)] = { "Choose a brush", "Choose", NULL, brushes },
+    [WR_ROW(WR_FILE_PRESET)] = { NULL, NULL, NULL, NULL }, /* typed name, no file dialog */
 };
 WR_ROWS_END(purposes, WR_FILE_PURPOSES);
-
-static const char *const *file_endings(WrFilePurpose purpose);
 
 bool wr_file_purpose_writes(WrFilePurpose purpose)
 {
@@ -166,7 +179,7 @@ static bool ask_portal(WrFiles *files, const char *folder, const char *name)
                                     .parent = files->parent,
                                     .kind = wr_words("What can be read here"),
                                     .all = wr_words("All files"),
-                                    .endings = writes ? NULL : file_endings(files->purpose),
+                                    .endings = writes ? NULL : purposes[files->purpose].endings,
                                     .save = writes,
                                     .patience = files->way == WR_FILE_WAY_DESKTOP ? LATE : SOON };
     files->stop = 0;
@@ -497,38 +510,10 @@ static bool is_one_of(const char *ending, const char *const *list)
     return false;
 }
 
-#define PICTURES                                                                                   \
-    "png", "exr", "tif", "tiff", "jpg", "jpeg", "jp2", "bmp", "tga", "hdr", "pfm", "pgm", "ppm",   \
-        "webp", "gif", "psd", "dpx", "heic", "avif", "jxl"
-
-/* The allowed extensions, NULL-terminated; NULL: any. */
-static const char *const *file_endings(WrFilePurpose purpose)
-{
-    static const char *const pictures[] = { PICTURES, NULL };
-    static const char *const stamps[] = { PICTURES, "gbr", "gih", "pat", NULL };
-    static const char *const documents[] = { PICTURES, "wrinkle", "ora", "svg", "svgz", NULL };
-    static const char *const tables[] = { PICTURES, "wrinkle", "ora", NULL };
-    static const char *const models[] = { "gltf", "glb", NULL };
-    static const char *const brushes[] = { "myb", NULL };
-    static const char *const patches[] = { "bpt", "txt", NULL };
-    static const char *const grounds[] = { PICTURES, "r16", "r32", "raw", "hgt", "fits", NULL };
-    if (wr_file_purpose_writes(purpose) || purpose == WR_FILE_GENERATE ||
-        purpose == WR_FILE_LOCATE || purpose == WR_FILE_PRESET)
-        return NULL;
-    if (purpose == WR_FILE_STAMP) return stamps;
-    if (purpose == WR_FILE_GLTF) return models;
-    if (purpose == WR_FILE_BRUSH) return brushes;
-    if (purpose == WR_FILE_MESH || purpose == WR_FILE_BAKE) return wr_mesh_endings;
-    if (purpose == WR_FILE_PATCHES) return patches;
-    if (purpose == WR_FILE_TERRAIN) return grounds;
-    if (purpose == WR_FILE_TABLE) return tables;
-    return purpose == WR_FILE_OPEN ? documents : pictures;
-}
-
 bool wr_file_fits(WrFilePurpose purpose, const char *name)
 {
     char buffer[16];
-    const char *const *endings = file_endings(purpose);
+    const char *const *endings = purposes[purpose].endings;
     return !endings || is_one_of(wr_path_ending(name, buffer), endings) ||
            (purpose == WR_FILE_OPEN && wr_mesh_named(name));
 }
