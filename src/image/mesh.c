@@ -12,8 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-const char *const wr_mesh_endings[] = { "obj", "ply", "stl", "gltf", "glb", "3mf", "off",
-                                        "dae", "3ds", "fbx", "lwo",  "x3d", NULL };
+const char *const wr_mesh_endings[] = { WR_MESH_ENDINGS, NULL };
 
 bool wr_mesh_named(const char *path)
 {

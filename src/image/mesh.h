@@ -43,6 +43,8 @@ typedef struct WrMesh {
 } WrMesh;
 
 /* Endings of the mesh files that dialogs offer and that name a mesh without another word; NULL-terminated. */
+#define WR_MESH_ENDINGS                                                                            \
+    "obj", "ply", "stl", "gltf", "glb", "3mf", "off", "dae", "3ds", "fbx", "lwo", "x3d"
 extern const char *const wr_mesh_endings[];
 bool wr_mesh_named(const char *path); /* the file's name has one of them */
 

@@ -31,7 +31,7 @@ list() { # FILE NAME: the strings of this table
 endings=$(
     list ui/app/jobs/files.c '#define PICTURES'
     list ui/app/jobs/files.c 'documents\[\] = '
-    list src/image/mesh.c 'wr_mesh_endings\[\] = '
+    list src/image/mesh.h '#define WR_MESH_ENDINGS'
     echo myb
 )
 endings=$(sort -u <<<"$endings")

@@ -48,7 +48,10 @@ static void files_are_shown_for_what_they_can_be_read_as(void **state)
     assert_true(wr_file_fits(WR_FILE_OPEN, "Bark.PNG"));
     assert_false(wr_file_fits(WR_FILE_OPEN, "notes.txt"));
     assert_false(wr_file_fits(WR_FILE_OPEN, "png"));
+    assert_true(wr_file_fits(WR_FILE_OPEN, "vase.STL"));
     assert_false(wr_file_fits(WR_FILE_IMPORT, "a.wrinkle"));
+    assert_true(wr_file_fits(WR_FILE_MACRO, "a.wrinkle"));
+    assert_false(wr_file_fits(WR_FILE_MACRO, "Bark.png"));
     assert_true(wr_file_fits(WR_FILE_STAMP, "leaf.gih"));
     assert_false(wr_file_fits(WR_FILE_COLOUR, "leaf.gih"));
     assert_true(wr_file_fits(WR_FILE_GLTF, "helmet.GLB"));

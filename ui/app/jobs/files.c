@@ -65,7 +65,9 @@ struct WrFiles {
 /* Endings of the files that a purpose reads. */
 static const char *const pictures[] = { PICTURES, NULL };
 static const char *const stamps[] = { PICTURES, "gbr", "gih", "pat", NULL };
-static const char *const documents[] = { PICTURES, "wrinkle", "ora", "svg", "svgz", NULL };
+static const char *const documents[] = { PICTURES, "wrinkle",       "ora", "svg",
+                                         "svgz",   WR_MESH_ENDINGS, NULL };
+static const char *const scripts[] = { "wrinkle", NULL };
 static const char *const tables[] = { PICTURES, "wrinkle", "ora", NULL };
 static const char *const models[] = { "gltf", "glb", NULL };
 static const char *const brushes[] = { "myb", NULL };
@@ -87,7 +89,7 @@ static const struct {
     [WR_ROW(WR_FILE_IMPORT)] = { "Import heights", "Import", NULL, pictures },
     [WR_ROW(WR_FILE_HISTORY)] = { "Save the history as a script", "Save", ".wrinkle", NULL },
     [WR_ROW(WR_FILE_MACRO_SAVE)] = { "Save steps as a macro", "Save", ".wrinkle", NULL },
-    [WR_ROW(WR_FILE_MACRO)] = { "Run a macro", "Open", NULL, pictures },
+    [WR_ROW(WR_FILE_MACRO)] = { "Run a macro", "Open", NULL, scripts },
     [WR_ROW(WR_FILE_STAMP)] = { "Open a picture as a stamp", "Open", NULL, stamps },
     [WR_ROW(WR_FILE_GENERATE)] = { "Choose a file", "Choose", NULL, NULL },
     [WR_ROW(WR_FILE_LOCATE)] = { "Locate the missing file", "Locate", NULL, NULL },
@@ -514,6 +516,5 @@ bool wr_file_fits(WrFilePurpose purpose, const char *name)
 {
     char buffer[16];
     const char *const *endings = purposes[purpose].endings;
-    return !endings || is_one_of(wr_path_ending(name, buffer), endings) ||
-           (purpose == WR_FILE_OPEN && wr_mesh_named(name));
+    return !endings || is_one_of(wr_path_ending(name, buffer), endings);
 }
