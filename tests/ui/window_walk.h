@@ -255,7 +255,9 @@ static inline bool walk_open_by_itself(Walk *walk, int which)
     static const struct {
         WrDialog dialog;
         const char *name;
-    } rows[] = { { WR_DIALOG_UNSAVED, "unsaved" }, { WR_DIALOG_WELCOME, "welcome" } };
+    } rows[] = { { WR_DIALOG_UNSAVED, "unsaved" },
+                 { WR_DIALOG_WELCOME, "welcome" },
+                 { WR_DIALOG_TOUR, "tour" } };
     if (which >= (int)WR_LENGTH(rows)) return false;
     wr_dialog_open(walk->app, rows[which].dialog);
     return walk_name(walk, "dialog %s", rows[which].name);

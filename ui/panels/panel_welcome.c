@@ -144,6 +144,8 @@ void wr_dialog_tour(WrApp *app)
         return;
     if (part_of(app)->w > 0) wr_gui_spotlight(part_of(app));
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, stops[*stop].words);
+    snprintf(text, sizeof text, wr_words("%d of %d"), *stop + 1, count);
+    wr_gui_text(WR_FONT_SMALL, WR_COLOUR_MUTED, text);
     const int shown = *stop;
     wr_gui_space(4);
     wr_gui_disable(*stop == 0);
@@ -156,9 +158,6 @@ void wr_dialog_tour(WrApp *app)
     wr_gui_same_line(6);
     const bool ends =
         wr_gui_button("End the tour", false) || (!app->dialog->fresh && wr_gui_escape_pressed());
-    snprintf(text, sizeof text, wr_words("%d of %d"), *stop + 1, count);
-    wr_gui_same_line(10);
-    wr_gui_text(WR_FONT_SMALL, WR_COLOUR_MUTED, text);
     if (ends || (next && last)) wr_dialog_close(app);
     else if (next) ++*stop;
     if (*stop != shown) wr_app_redraw(app); /* the frame is drawn before the buttons are read */

@@ -44,16 +44,22 @@ const char *wr_gui_labelled(const char *label, char (&buffer)[320])
         gui->next_id = nullptr;
         return buffer;
     }
+    /* "Next##tour" has a translation of its own, "Weiter##tour": the same word may be another elsewhere. That of a composed
+       label, "12 changed###NAME", is in its words. */
     char seen[256];
-    const char *id = strstr(label, "##");
+    const char *id = strstr(label, "##"), *looked = label;
     const size_t length = id ? (size_t)(id - label) : strlen(label);
     if (length == 0 || length >= sizeof seen) return label;
-    memcpy(seen, label, length);
-    seen[length] = '\0';
-    const char *looked = id ? seen : label, *said = wr_gui_said(looked);
+    if (id && id[2] == '#') {
+        memcpy(seen, label, length);
+        seen[length] = '\0';
+        looked = seen;
+    }
+    const char *said = wr_gui_said(looked), *end = strstr(said, "##");
     if (said == looked) return label;
-    if (id && id[2] == '#') snprintf(buffer, sizeof buffer, "%.250s%.60s", said, id);
-    else snprintf(buffer, sizeof buffer, "%.250s###%.60s", said, label);
+    if (looked == seen) snprintf(buffer, sizeof buffer, "%.250s%.60s", said, id);
+    else
+        snprintf(buffer, sizeof buffer, "%.*s###%.60s", end ? (int)(end - said) : 250, said, label);
     return buffer;
 }
 
