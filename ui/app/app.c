@@ -54,6 +54,7 @@
 #include "ui/canvas/tools/thumbs.h"
 #include "ui/canvas/tools/tool_stamp.h"
 #include "ui/canvas/overlays/marks.h"
+#include "ui/canvas/overlays/panel_seam.h"
 #include "ui/app/jobs/files.h"
 #include "ui/app/jobs/job.h"
 #include "ui/app/jobs/edit_preview.h"
@@ -74,7 +75,6 @@
 #include "base/memory.h"
 #include "command/session.h"
 #include "export/film.h"
-#include "field/seam_check.h"
 #include "image/font_list.h"
 #include "scene/scene.h"
 #include "system/clock.h"
@@ -169,6 +169,7 @@ void wr_app_end(WrApp *app)
     wr_accuracy_free(app);
     wr_edit_preview_free(app->trial);
     wr_marks_free(app);
+    wr_seam_meter_free(app);
     wr_recovery_free(app->recovery);
     wr_deferred_free(app);
     wr_busy_free(app);
@@ -548,8 +549,6 @@ typedef struct Store {
     WrOutlineRequest selecting;
     WrFinder finder;
     WrPreferences preferences;
-    WrSeam seam;
-    WrCertificate certificate;
     WrMeter meter;
     WrDeferred later;
     WrWaits waits;
@@ -594,8 +593,6 @@ WrApp *wr_store_new(void)
     app->selecting = &store->selecting;
     app->finder = &store->finder;
     app->preferences = &store->preferences;
-    app->seam = &store->seam;
-    app->certificate = &store->certificate;
     app->meter = &store->meter;
     app->later = &store->later;
     app->waits = &store->waits;

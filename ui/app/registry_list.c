@@ -35,6 +35,7 @@
 #include "ui/canvas/tools/tool_select.h"
 #include "ui/canvas/tools/tool_stamp.h"
 #include "ui/canvas/overlays/marks.h"
+#include "ui/canvas/overlays/panel_seam.h"
 #include "ui/app/jobs/files.h"
 #include "ui/canvas/tools/tool_rows.h"
 
@@ -94,12 +95,13 @@ static const WrTab tabs[] = {
 };
 
 /* In the order of update and drawing. */
-static const WrPart *const parts[] = {
-    &wr_part_hand,     &wr_part_tools,  &wr_part_strokes, &wr_part_select,   &wr_part_clone,
-    &wr_part_canvas,   &wr_part_marks,  &wr_part_stamp,   &wr_part_generate, &wr_part_patch,
-    &wr_part_accuracy, &wr_part_layers, &wr_part_thumbs,  &wr_part_stock,    &wr_part_font_choice,
-    &wr_part_sheet,    &wr_part_adjust, &wr_part_thrift,  &wr_part_search,   NULL
-};
+static const WrPart *const parts[] = { &wr_part_hand,        &wr_part_tools,      &wr_part_strokes,
+                                       &wr_part_select,      &wr_part_clone,      &wr_part_canvas,
+                                       &wr_part_marks,       &wr_part_seam_meter, &wr_part_stamp,
+                                       &wr_part_generate,    &wr_part_patch,      &wr_part_accuracy,
+                                       &wr_part_layers,      &wr_part_thumbs,     &wr_part_stock,
+                                       &wr_part_font_choice, &wr_part_sheet,      &wr_part_adjust,
+                                       &wr_part_thrift,      &wr_part_search,     NULL };
 
 static WrActionFamily *const families[] = { wr_adjust_dialog_of_action, wr_filter_dialog_of_action,
                                             wr_generate_tab_of_action, NULL };

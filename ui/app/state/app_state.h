@@ -17,7 +17,6 @@ typedef struct WrCanvas WrCanvas;
 typedef struct WrCanvasMap WrCanvasMap;
 typedef struct WrCanvasRange WrCanvasRange;
 typedef struct WrCanvasView WrCanvasView;
-typedef struct WrCertificate WrCertificate;
 typedef struct WrChosenLayers WrChosenLayers;
 typedef struct WrCloneState WrCloneState;
 typedef struct WrDialogState WrDialogState;
@@ -55,7 +54,7 @@ typedef struct WrReplace WrReplace;
 typedef struct WrIdleProbe WrIdleProbe;
 typedef struct WrRegistry WrRegistry;
 typedef struct WrScene WrScene;
-typedef struct WrSeam WrSeam;
+typedef struct WrSeamMeter WrSeamMeter;
 typedef struct WrSelectState WrSelectState;
 typedef struct WrSession WrSession;
 typedef struct WrSettings WrSettings;
@@ -160,10 +159,7 @@ struct WrApp {
     WrOutlineRequest *selecting; /* state of the dialogs that change the selection */
     WrFinder *finder;
     WrPreferences *preferences;
-    WrSeam *seam;
-    WrCertificate *certificate;
-    uint64_t seam_key;    /* key of the table and the scheme for which the seams were measured */
-    uint64_t seam_wanted; /* the same, of the last picture drawn */
+    WrSeamMeter *seam_meter; /* owned; NULL until it is drawn */
     WrMeter *meter;
     WrDeferred *later;
     /* command running in the background (ui/app/state/background_command.h); owned, NULL: none */

@@ -2,13 +2,16 @@
    orange where it jumps. */
 #include "ui/canvas/overlays/panel_seam.h"
 #include "ui/toolkit/words.h"
+#include "ui/app/jobs/job.h"
 #include "ui/app/state/app_state.h"
 #include "ui/app/state/layout.h"
+#include "ui/app/state/registry.h"
 #include "ui/app/state/settings.h"
 #include "ui/app/state/session_view.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 
+#include "base/memory.h"
 #include "base/text.h"
 #include "command/session.h"
 #include "field/field.h"
@@ -49,39 +52,118 @@ static void add_numbers(WrText *tip, const WrSeamEdge *edge)
     wr_text_add(tip, numbers);
 }
 
-/* Measure with the canvas's tiling; not during strokes, which wrap and make no seams. The first picture of a change does not
-   wait for it: a large table needs some milliseconds. */
-static void measure(WrApp *app)
+/* ---- measurement ---- */
+
+typedef struct Look {
+    uint64_t key;   /* of the table, the scheme and the tiling */
+    WrField *field; /* owned */
+    WrScheme scheme;
+    WrSeamOptions options;
+    WrCertificate certificate; /* result */
+} Look;
+
+struct WrSeamMeter {
+    WrJob *job;      /* owned; its work is a Look */
+    bool drawn;      /* in this frame */
+    uint64_t wanted; /* key of the newest measurement started */
+    uint64_t key;    /* key of the certificate; 0: none yet */
+    WrCertificate certificate;
+};
+
+static void run(void *work, WrPool *pool, const WrProgress *progress)
 {
+    Look *look = work;
+    (void)pool;
+    (void)progress;
+    look->certificate = wr_certificate_table(look->field, look->scheme, &look->options);
+}
+
+static void drop(void *work)
+{
+    Look *look = work;
+    wr_field_free(look->field);
+    wr_free(look);
+}
+
+static WrSeamMeter *meter_of(WrApp *app)
+{
+    static const WrJobKind kind = { run, drop };
+    if (app->seam_meter) return app->seam_meter;
+    app->seam_meter = wr_alloc(1, sizeof *app->seam_meter);
+    app->seam_meter->job = wr_job_new(&kind, 1, app->job_event);
+    return app->seam_meter;
+}
+
+void wr_seam_meter_free(WrApp *app)
+{
+    if (!app->seam_meter) return;
+    wr_job_free(app->seam_meter->job);
+    wr_free(app->seam_meter);
+    app->seam_meter = NULL;
+}
+
+const WrCertificate *wr_seam_meter_certificate(const WrApp *app)
+{
+    return app->seam_meter && app->seam_meter->key ? &app->seam_meter->certificate : NULL;
+}
+
+static uint64_t key_of(WrApp *app)
+{
+    const uint64_t table = wr_field_key(wr_app_field(app)) * 31 + wr_session_revision(app->session);
+    return (table * 8 + (uint64_t)wr_app_scene(app)->scheme) * 4 + (uint64_t)app->settings->tiling;
+}
+
+/* Measure with the canvas's tiling; not during strokes, which wrap and make no seams. A large table needs tens of
+   milliseconds, so a thread of its own measures it; until then the meter shows the table before. */
+static void after(WrApp *app)
+{
+    WrSeamMeter *meter = app->seam_meter;
+    if (!meter || !meter->drawn) return;
+    meter->drawn = false;
+    const uint64_t key = key_of(app);
+    if (key == meter->wanted || wr_session_in_stroke(app->session)) return;
+    meter->wanted = key;
     const WrField *field = wr_app_field(app);
     const WrScene *scene = wr_app_scene(app);
     const WrTiling tiling = app->settings->tiling;
-    const WrSeamOptions lay = { .shift = {
-                                    tiling == WR_TILING_HALF_DROP ? wr_field_height(field) / 2 : 0,
-                                    tiling == WR_TILING_BRICK ? wr_field_width(field) / 2 : 0 } };
-    const uint64_t key = ((wr_field_key(field) * 31 + wr_session_revision(app->session)) * 8 +
-                          (uint64_t)scene->scheme) *
-                             4 +
-                         (uint64_t)tiling;
-    if (key == app->seam_key || wr_session_in_stroke(app->session)) return;
-    const bool fresh = app->seam_key != 0 && key != app->seam_wanted;
-    app->seam_wanted = key;
-    if (fresh) {
+    if (scene->analytic.kind != WR_ANALYTIC_OFF) {
+        wr_job_cancel(meter->job);
+        meter->certificate = wr_certificate_formula(&scene->analytic);
+        meter->key = key;
         wr_app_redraw(app);
         return;
     }
-    *app->certificate = scene->analytic.kind != WR_ANALYTIC_OFF
-                            ? wr_certificate_formula(&scene->analytic)
-                            : wr_certificate_table(field, scene->scheme, &lay);
-    *app->seam = app->certificate->pattern;
-    app->seam_key = key;
+    Look *look = wr_alloc(1, sizeof *look);
+    look->key = key;
+    look->field = wr_field_share(field);
+    look->scheme = scene->scheme;
+    if (tiling == WR_TILING_HALF_DROP) look->options.shift[0] = wr_field_height(field) / 2;
+    if (tiling == WR_TILING_BRICK) look->options.shift[1] = wr_field_width(field) / 2;
+    wr_job_start(meter->job, look);
 }
+
+static void update(WrApp *app)
+{
+    WrSeamMeter *meter = app->seam_meter;
+    Look *look = meter ? wr_job_take(meter->job) : NULL;
+    if (!look) return;
+    meter->certificate = look->certificate;
+    meter->key = look->key;
+    drop(look);
+    wr_app_redraw(app);
+}
+
+const WrPart wr_part_seam_meter = { .update = update, .after = after };
+
+/* ---- the square ---- */
 
 void wr_panel_seam_meter(WrApp *app)
 {
     const SDL_Rect *room = &app->layout->canvas;
-    measure(app);
-    const WrSeam *seam = app->seam;
+    meter_of(app)->drawn = true;
+    const WrCertificate *certificate = wr_seam_meter_certificate(app);
+    if (!certificate) return;
+    const WrSeam *seam = &certificate->pattern;
     WrColour u = colour_of(&seam->u), v = colour_of(&seam->v), sides[4] = { u, u, v, v };
     WrText tip = { 0 };
     wr_gui_overlay_begin("##seam", room->x + room->w - wr_gui_px(12), room->y + wr_gui_px(12), 1,
@@ -95,7 +177,7 @@ void wr_panel_seam_meter(WrApp *app)
                  wr_app_scene(app)->analytic.kind != WR_ANALYTIC_OFF
                      ? wr_words("a formula")
                      : wr_words(wr_schemes[wr_app_scene(app)->scheme].title));
-    wr_certificate_text(app->certificate, &tip);
+    wr_certificate_text(certificate, &tip);
     wr_gui_tip(wr_text_get(&tip));
     wr_gui_overlay_end();
     wr_text_fini(&tip);
