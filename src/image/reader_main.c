@@ -1,7 +1,11 @@
 /* The reader process: reads untrusted image, mesh, font and SVG files, so that a hostile one harms nothing
    else. Its protocol is reader_protocol.h. It forks for each file, so that no file is affected by
    another one. The process itself reads only the first bytes of a file, to determine whether the image
-   library is needed. The library is loaded once: when a file needs it, or when no file comes at first. */
+   library is needed.
+
+   Libraries of images, meshes and drawings are loaded once, in a second process that forks for the files
+   which need them: a fork copies the tables of all mapped memory, and costs ten times as much with them.
+   It is started by the first such file, or when no file comes at first. */
 #include "base/array.h"
 #include "base/error.h"
 #include "base/memory.h"
@@ -277,9 +281,13 @@ typedef struct Child {
 typedef struct Process {
     int signals; /* reports ended children */
     WR_ARRAY(Child) children;
-    bool warm;   /* loading the image library was tried */
-    bool loaded; /* with success */
-    bool used;   /* an order came */
+    bool used;  /* an order came */
+    int second; /* control socket of the second process; -1: not started */
+    WrPid second_id;
+    /* of the second process: */
+    bool has_libraries; /* it is the second one */
+    bool warm;          /* loading the image library was tried */
+    bool loaded;        /* with success */
 } Process;
 
 /* Silences output, starts a new session, leaves the current folder. */
@@ -311,24 +319,78 @@ static void warm(Process *process)
     process->loaded = library != NULL;
 }
 
+/* ---- the second process ---- */
+
+static void refuse(int channel, const char *reason)
+{
+    wr_wire_send(channel, WR_WIRE_FAILED, reason, strlen(reason), -1);
+    wr_fd_close(channel);
+}
+
+static void run(Process *process);
+
+/* The copy has the same loop; the first process's files and children are not its own. */
+static bool start_second(Process *process, bool warm_at_once)
+{
+    int ends[2];
+    WrPid self = wr_process_id();
+    if (!wr_channel_pair(ends, true)) return false;
+    WrPid pid = wr_child_fork();
+    if (pid == 0) {
+        Process second = { .signals = -1, .second = -1, .has_libraries = true };
+        if (!wr_process_die_with(self)) wr_process_leave(1);
+        wr_fd_place(ends[1], CONTROL);
+        wr_fd_close_range(WR_FD_ERR + 1, -1);
+        if (warm_at_once) warm(&second);
+        run(&second);
+    }
+    wr_fd_close(ends[1]);
+    if (pid < 0) wr_fd_close(ends[0]);
+    else process->second = ends[0], process->second_id = pid;
+    return pid > 0;
+}
+
+static void pass_on(Process *process, const WrWireOrder *order, int file, int channel)
+{
+    const int files[2] = { file, channel };
+    bool sent = false;
+    for (int tries = 0; tries < 2 && !sent; tries++) { /* it may just have been killed */
+        if (process->second < 0 && !start_second(process, false)) break;
+        sent = wr_channel_send(process->second, order, sizeof *order, NULL, 0, files, 2);
+        if (sent) continue;
+        wr_fd_close(process->second);
+        process->second = -1;
+    }
+    if (sent) wr_fd_close(channel);
+    else refuse(channel, "the process for this type of file cannot be started");
+}
+
 /* ---- children ---- */
+
+static bool needs_library(const Process *process, const WrWireOrder *order, int file)
+{
+    if (order->task == WR_WIRE_PICTURE)
+        return !process->loaded && (order->library || wr_decoder_takes_module(file, order->ending));
+    return order->task == WR_WIRE_MESH || order->task == WR_WIRE_SVG;
+}
 
 static void start_child(Process *process, const WrWireOrder *order, int file, int channel)
 {
     WrPid self = wr_process_id();
     process->used = true;
     if (process->children.count >= CHILDREN_MAX) {
-        static const char full[] = "too many files are being read at once";
-        wr_wire_send(channel, WR_WIRE_FAILED, full, sizeof full - 1, -1);
-        wr_fd_close(channel);
+        refuse(channel, "too many files are being read at once");
         return;
     }
-    if (!process->loaded && order->task == WR_WIRE_PICTURE &&
-        (order->library || wr_decoder_takes_module(file, order->ending)))
-        warm(process);
-    /* loaded in the parent, so that it is loaded only once */
-    if (order->task == WR_WIRE_MESH) wr_mesh_load(NULL);
-    if (order->task == WR_WIRE_SVG) wr_svg_load(NULL);
+    if (needs_library(process, order, file)) {
+        if (!process->has_libraries) {
+            pass_on(process, order, file, channel);
+            return;
+        }
+        if (order->task == WR_WIRE_PICTURE) warm(process);
+        if (order->task == WR_WIRE_MESH) wr_mesh_load(NULL);
+        if (order->task == WR_WIRE_SVG) wr_svg_load(NULL);
+    }
     WrPid pid = wr_child_fork();
     if (pid == 0) {
         if (!wr_process_die_with(self)) wr_process_leave(1);
@@ -336,9 +398,7 @@ static void start_child(Process *process, const WrWireOrder *order, int file, in
         wr_process_leave(0);
     }
     if (pid < 0) {
-        const char *reason = strerror(errno);
-        wr_wire_send(channel, WR_WIRE_FAILED, reason, strlen(reason), -1);
-        wr_fd_close(channel);
+        refuse(channel, strerror(errno));
         return;
     }
     wr_array_push(&process->children, ((Child){ pid, channel }));
@@ -355,6 +415,10 @@ static void reap(Process *process)
     WrChildEnd end;
     for (WrPid pid; (pid = wr_children_next(process->signals, &end)) > 0;) {
         int i = 0;
+        if (process->second >= 0 && pid == process->second_id) {
+            wr_fd_close(process->second);
+            process->second = -1; /* the next file that needs libraries starts another one */
+        }
         while (i < process->children.count && process->children.data[i].pid != pid) i++;
         if (i == process->children.count) continue;
         Child *child = &process->children.data[i];
@@ -382,10 +446,7 @@ static bool take_order(Process *process)
     static const char other[] = "the reader process is of another version of the program";
     if (n == (int64_t)sizeof order && order.version == WR_WIRE_VERSION && fds[1] >= 0)
         start_child(process, &order, fds[0], fds[1]);
-    else if (fds[1] >= 0) {
-        wr_wire_send(fds[1], WR_WIRE_FAILED, other, sizeof other - 1, -1);
-        wr_fd_close(fds[1]);
-    }
+    else if (fds[1] >= 0) refuse(fds[1], other);
     if (fds[0] >= 0) wr_fd_close(fds[0]);
     return true;
 }
@@ -402,10 +463,10 @@ static void work(Process *process)
             wr_array_push(&waited, ((WrWaited){ .fd = process->children.data[i].channel }));
         bool news;
         /* started ahead of need, by the window; documents need no library */
-        const bool idle = !process->warm && !process->used;
+        const bool idle = !process->has_libraries && process->second < 0 && !process->used;
         if (!wr_channel_wait_for_any(waited.data, waited.count, idle ? IDLE_MS : -1, &news))
             continue;
-        if (!news) warm(process);
+        if (!news && !start_second(process, true)) process->used = true;
         for (int i = 0; i < process->children.count; i++) {
             if (!waited.data[2 + i].gone) continue;
             wr_child_kill(process->children.data[i].pid);
@@ -414,6 +475,16 @@ static void work(Process *process)
         if (waited.data[1].news) reap(process);
         if (waited.data[0].news) going = take_order(process);
     }
+}
+
+static void run(Process *process)
+{
+    process->signals = wr_children_watch();
+    if (process->signals >= 0) work(process);
+    if (process->second >= 0) wr_fd_close(process->second); /* it ends */
+    for (int i = 0; i < process->children.count; i++) wr_child_kill(process->children.data[i].pid);
+    wr_children_wait_for_all();
+    wr_process_leave(0);
 }
 
 #if defined(__SANITIZE_THREAD__)
@@ -431,12 +502,8 @@ int main(void)
         fputs("wrinkle-reader: is started by wrinkle itself, to read picture files\n", stderr);
         return 2;
     }
-    Process process = { .signals = -1 };
+    Process process = { .signals = -1, .second = -1 };
     settle();
     wr_children_hold(); /* before the libraries start threads */
-    process.signals = wr_children_watch();
-    if (process.signals >= 0) work(&process);
-    for (int i = 0; i < process.children.count; i++) wr_child_kill(process.children.data[i].pid);
-    wr_children_wait_for_all();
-    wr_process_leave(0);
+    run(&process);
 }

@@ -220,6 +220,28 @@ static void a_format_that_insists_on_a_path_reads_too(void **state)
     wr_image_free(image);
 }
 
+/* A picture of its own code is read by a fork without the library, which is large; the library's process may die. */
+static void libraries_are_loaded_in_a_process_of_their_own(void **state)
+{
+    (void)state;
+    pid_t found[64], second = 0;
+    write_picture("a.png");
+    write_picture("a.tif");
+    for (int round = 0; round < 3; round++) {
+        expect_good("a.tif");
+        expect_no_children();
+        assert_int_equal(readers_of(the_process(), found), 1);
+        assert_int_not_equal(found[0], second); /* a new one */
+        second = found[0];
+        WrImageFile *file = open_good("a.png");
+        assert_int_equal(readers_of(second, found), 0);
+        assert_int_equal(readers_of(the_process(), found), 2);
+        wr_image_file_close(file);
+        kill(second, SIGKILL);
+        expect_gone(second);
+    }
+}
+
 static void a_forked_copy_of_the_program_reads_too_and_leaves_the_process_alone(void **state)
 {
     (void)state;
@@ -293,6 +315,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_picture_in_memory_reads_like_its_file),
         cmocka_unit_test(a_reader_holds_its_file_its_channel_and_no_rights),
         cmocka_unit_test(a_format_that_insists_on_a_path_reads_too),
+        cmocka_unit_test(libraries_are_loaded_in_a_process_of_their_own),
         cmocka_unit_test(a_forked_copy_of_the_program_reads_too_and_leaves_the_process_alone),
         cmocka_unit_test(the_process_ends_with_the_program),
     };
