@@ -1,5 +1,9 @@
 # Fuzzers: built and run for some seconds where clang and its libFuzzer are installed (package clang and
 # libclang-rt-*-dev). For a longer run: BUILD-FOLDER/fuzz_NAME -max_total_time=600.
+# They have sanitizers of their own, so sanitized builds do without, whose rooms cannot be linked with clang's.
+if(WR_SANITIZE)
+    return()
+endif()
 find_program(WR_CLANG NAMES clang clang-14 clang-15 clang-16)
 set(fuzz_flags -std=c17 -g -O1 -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all)
 if(WR_CLANG AND NOT DEFINED WR_HAVE_FUZZER)
@@ -60,15 +64,12 @@ wr_fuzz(exr image/exr.c base/cpu.c base/error.c base/message.c base/file.c base/
 
 wr_fuzz(raw generate/terrain_raw.c base/error.c base/message.c base/memory.c base/progress.c base/text.c)
 
-# Under sanitizers of gcc the rooms cannot be linked with clang's.
-if(NOT WR_SANITIZE)
-    set(image_libraries -lOpenEXRCore -ldeflate -lfreetype -lharfbuzz -lfribidi -lfontconfig -lpng16 -lz -lsleef)
-    # Through the reader process, whose library may crash where the program must not.
-    wr_fuzz(mesh ROOMS image base LIBRARIES ${image_libraries} -ljson-c -ldl -lpthread)
-    wr_fuzz(commands command/parse.c command/value.c command/scene_args.c
-            ROOMS command export accuracy render document generate brush scene shade surface noise image field
-                  base
-            LIBRARIES -lmypaint ${image_libraries} -ljson-c -lzip -lexpat -ldl -lpthread)
-    wr_fuzz(myb brush/mypaint_engine.c brush/preset.c
-            ROOMS brush surface image field base LIBRARIES -lmypaint ${image_libraries} -ljson-c -ldl -lpthread)
-endif()
+set(image_libraries -lOpenEXRCore -ldeflate -lfreetype -lharfbuzz -lfribidi -lfontconfig -lpng16 -lz -lsleef)
+# Through the reader process, whose library may crash where the program must not.
+wr_fuzz(mesh ROOMS image base LIBRARIES ${image_libraries} -ljson-c -ldl -lpthread)
+wr_fuzz(commands command/parse.c command/value.c command/scene_args.c
+        ROOMS command export accuracy render document generate brush scene shade surface noise image field
+              base
+        LIBRARIES -lmypaint ${image_libraries} -ljson-c -lzip -lexpat -ldl -lpthread)
+wr_fuzz(myb brush/mypaint_engine.c brush/preset.c
+        ROOMS brush surface image field base LIBRARIES -lmypaint ${image_libraries} -ljson-c -ldl -lpthread)

@@ -29,7 +29,7 @@
 #include <math.h>
 #include <string.h>
 
-#define GROUND 0.02f /* background of scenes, linear */
+#define GROUND 0.02  /* background of scenes, linear */
 #define BATCH 6      /* pictures per job */
 #define SIDE_MAX 256 /* pixels; larger thumbnails are drawn enlarged */
 
@@ -246,21 +246,8 @@ static bool generate(const Item *item, int side, WrPool *pool, const WrProgress 
     return true;
 }
 
-/* The frame over the background of fields. */
-static void take_frame(const WrTone *tone, const WrFrame *frame, int side, uint32_t *argb)
-{
-    for (int i = 0; i < side * side; i++) {
-        const float *from = frame->rgba + 4 * (size_t)i;
-        float rgb[3];
-        for (int c = 0; c < 3; c++) rgb[c] = from[c] + (1.0f - from[3]) * GROUND;
-        wr_tone_colour(tone, rgb);
-        argb[i] = 0xff000000u;
-        for (int c = 0; c < 3; c++) argb[i] |= code((double)wr_srgb_encode(rgb[c])) << (16 - 8 * c);
-    }
-}
-
 /* The lines are cut apart. */
-static bool render(char *lines, int side, uint32_t *argb)
+static bool render(char *lines, int side, WrPool *pool, uint32_t *argb)
 {
     WrSession *session = wr_session_new(NULL);
     WrFrame frame;
@@ -271,7 +258,12 @@ static bool render(char *lines, int side, uint32_t *argb)
         good = wr_session_run(session, at, NULL);
     }
     good = good && wr_session_frame(session, side, side, 0, &frame, NULL);
-    if (good) take_frame(&wr_session_document(session)->scene->tone, &frame, side, argb);
+    if (good) {
+        /* over the background of fields */
+        WrFrameCodes codes = wr_frame_codes_of(wr_session_document(session)->scene, true);
+        codes.background = (WrBackground){ WR_BACKGROUND_PLAIN, { GROUND, GROUND, GROUND }, { 0 } };
+        wr_frame_to_srgb8(&frame, &codes, true, (uint8_t *)argb, pool);
+    }
     wr_session_free(session);
     return good;
 }
@@ -284,7 +276,7 @@ static void make(Item *item, int side, WrPool *pool, const WrProgress *progress)
     bool ok = image != NULL;
     if (image) shrink(image, side, argb);
     else if (item->stamp) ok = print_stamp(item, side, argb);
-    else if (item->scene) ok = render(item->scene, side, argb);
+    else if (item->scene) ok = render(item->scene, side, pool, argb);
     else if (item->line) ok = generate(item, side, pool, progress, argb);
     else ok = paint(item, side, pool, argb);
     wr_image_free(image);
