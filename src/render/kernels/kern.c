@@ -8,7 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* WR_NATIVE_LEVEL (CMakeLists.txt): 0 compiles every set; 1 to 4 the plain set and that level's only.
+/* WR_NATIVE_LEVEL (CMakeLists.txt): 0 compiles every set; 1 to 4 the plain set and that level's only. It is 1 on other
+   processors than x86-64.
    ref: one sample at a time, plain C, the standard for tests. exact sets have equal bits at every level; fast
    sets use reciprocal estimates and fused multiply-add, and wide sets need AVX2. */
 #define COMPILED(level) (WR_NATIVE_LEVEL == 0 || WR_NATIVE_LEVEL == (level))
@@ -36,18 +37,20 @@ static const struct {
 };
 #define LEVEL_COUNT ((int)(sizeof levels / sizeof *levels))
 
+/* Index - 1: the level that a name needs. */
 static const char *const level_names[] = { "auto", "ref", "v1", "v2", "v3", "v4", NULL };
-
-static bool is_level_name(const char *isa)
-{
-    for (int i = 0; level_names[i]; i++)
-        if (strcmp(isa, level_names[i]) == 0) return true;
-    return false;
-}
 
 static bool fail_level(const char *isa, WrError *err)
 {
     char what[80];
+    for (int i = 0; level_names[i]; i++) {
+        if (strcmp(isa, level_names[i]) != 0) continue;
+        if (i - 1 > wr_cpu_level())
+            return wr_fail(
+                err, "isa %s: this processor does not have it; auto picks the best that it has",
+                isa);
+        return wr_fail(err, "isa %s: not in this build; configure it with -DWR_KERNELS=all", isa);
+    }
     snprintf(what, sizeof what, "isa %.60s", isa);
     return wr_fail_word(err, what, isa, wr_word_of_array, level_names);
 }
@@ -57,17 +60,10 @@ static bool fail_level(const char *isa, WrError *err)
 static int find_level(const char *isa, WrError *err)
 {
     const bool best = !isa || strcmp(isa, "auto") == 0;
-    for (int i = LEVEL_COUNT - 1; i >= 0; i--) {
-        if (!best && strcmp(isa, levels[i].name) != 0) continue;
-        if (levels[i].level <= wr_cpu_level()) return i;
-        if (best) continue;
-        wr_fail(err, "isa %s: this processor does not have it; auto picks the best that it has",
-                isa);
-        return -1;
-    }
-    if (is_level_name(isa))
-        wr_fail(err, "isa %s: not in this build; configure it with -DWR_KERNELS=all", isa);
-    else fail_level(isa, err);
+    for (int i = LEVEL_COUNT - 1; i >= 0; i--)
+        if ((best || strcmp(isa, levels[i].name) == 0) && levels[i].level <= wr_cpu_level())
+            return i;
+    fail_level(isa, err);
     return -1;
 }
 
