@@ -55,6 +55,31 @@ double wr_pow(double x, double y)
     return Sleef_cinz_powd1_u10purec(x, y);
 }
 
+double wr_hypot(double x, double y)
+{
+    return Sleef_cinz_hypotd1_u05purec(x, y);
+}
+
+double wr_sin(double x)
+{
+    return Sleef_cinz_sind1_u10purec(x);
+}
+
+double wr_cos(double x)
+{
+    return Sleef_cinz_cosd1_u10purec(x);
+}
+
+double wr_tan(double x)
+{
+    return Sleef_cinz_tand1_u10purec(x);
+}
+
+double wr_atan(double x)
+{
+    return Sleef_cinz_atand1_u10purec(x);
+}
+
 double wr_atan2(double y, double x)
 {
     return Sleef_cinz_atan2d1_u10purec(y, x);
@@ -63,4 +88,9 @@ double wr_atan2(double y, double x)
 double wr_asin(double x)
 {
     return Sleef_cinz_asind1_u10purec(x);
+}
+
+double wr_acos(double x)
+{
+    return Sleef_cinz_acosd1_u10purec(x);
 }

@@ -13,8 +13,14 @@ void wr_sincos_turns(double u, double *sine, double *cosine);
 double wr_exp2(double x);            /* 1 ulp */
 double wr_log2(double x);            /* 1 ulp; x > 0 */
 double wr_pow(double x, double y);   /* 1 ulp; pow(0,0) = 1 */
+double wr_hypot(double x, double y); /* 1 ulp */
+double wr_sin(double x);             /* 1 ulp, radians */
+double wr_cos(double x);             /* 1 ulp, radians */
+double wr_tan(double x);             /* 1 ulp, radians */
+double wr_atan(double x);            /* 1 ulp, radians */
 double wr_atan2(double y, double x); /* 1 ulp, radians */
 double wr_asin(double x);            /* 1 ulp, radians */
+double wr_acos(double x);            /* 1 ulp, radians */
 
 #define WR_PI 3.14159265358979323846
 #define WR_RAD_PER_DEG (WR_PI / 180.0)

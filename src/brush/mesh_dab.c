@@ -1,5 +1,6 @@
 #include "brush/mesh_dab.h"
 
+#include "base/exactmath.h"
 #include "base/memory.h"
 #include "brush/paint.h"
 #include "field/field.h"
@@ -385,7 +386,7 @@ void wr_mesh_dab(WrDraw *draw, const WrDab *dab)
     local.radius = fmax(dab->radius, 1); /* single texels have no size on a surface */
     if (!wr_shape_of_dab(maker->ground.field, maker->brush.tip, &local, &same, &shape)) return;
     const double reach =
-        shape.kind == WR_SHAPE_TIP ? hypot(shape.reach_x, shape.reach_y) : local.radius;
+        shape.kind == WR_SHAPE_TIP ? wr_hypot(shape.reach_x, shape.reach_y) : local.radius;
     const WrMoveMargin margin = draw->moves ? maker->work->margin : NULL;
     const double beside = margin        ? margin(local.radius, dab->dx, dab->dy)
                           : draw->moves ? 1

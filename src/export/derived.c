@@ -34,7 +34,7 @@ static int64_t steepness(const WrExportJob *job, const WrDerivativesRow *row, do
 {
     int64_t replaced = 0;
     for (int i = 0; i < job->width; i++) {
-        out[i] = atan(hypot(row->p[i], row->q[i])) * 180 / WR_PI;
+        out[i] = wr_atan(wr_hypot(row->p[i], row->q[i])) * 180 / WR_PI;
         replaced += settle(&out[i]);
     }
     return replaced;

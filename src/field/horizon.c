@@ -2,6 +2,7 @@
 
 #include "base/array.h"
 #include "base/error.h"
+#include "base/exactmath.h"
 #include "base/memory.h"
 #include "base/pool.h"
 #include "field/field.h"
@@ -81,7 +82,7 @@ static Course course_of(const WrHorizon *h, int direction)
     c.turns = (FINEST + c.along - 1) / c.along;
     const double round = (double)c.turns * c.along;
     c.drift = (int)lrint(round * other);
-    c.step = hypot(1, c.drift / round);
+    c.step = wr_hypot(1, c.drift / round);
     return c;
 }
 
@@ -364,10 +365,10 @@ double wr_horizon_sky(const double *slope, int directions, const double n[3])
 {
     double sum = 0;
     for (int k = 0; k < directions; k++) {
-        const double phi = 2 * PI * k / directions, out = n[0] * cos(phi) + n[1] * sin(phi);
-        const double h = fmax(atan(slope[k]), atan2(-out, n[2]));
-        const double up = cos(h);
-        sum += n[2] * up * up / 2 + out * ((PI / 2 - h) / 2 - sin(2 * h) / 4);
+        const double phi = 2 * PI * k / directions, out = n[0] * wr_cos(phi) + n[1] * wr_sin(phi);
+        const double h = fmax(wr_atan(slope[k]), wr_atan2(-out, n[2]));
+        const double up = wr_cos(h);
+        sum += n[2] * up * up / 2 + out * ((PI / 2 - h) / 2 - wr_sin(2 * h) / 4);
     }
     return 2 * sum / directions;
 }
@@ -382,7 +383,7 @@ void wr_occlusion_map_make(WrOcclusionMap *opening, int directions, double acros
     for (int k = 0; k < directions; k++) {
         double x, y;
         wr_horizon_direction(k, directions, &x, &y);
-        const double length = hypot(x, y), far = hypot(x * across, y * down);
+        const double length = wr_hypot(x, y), far = wr_hypot(x * across, y * down);
         opening->cosine[k] = x * across / far, opening->sine[k] = y * down / far;
         opening->steep[k] = length / far;
         angle[k] = wr_atan2(opening->sine[k], opening->cosine[k]);

@@ -1,5 +1,6 @@
 #include "generate/svg_path.h"
 
+#include "base/exactmath.h"
 #include "base/text.h"
 
 #include <math.h>
@@ -164,7 +165,8 @@ void wr_svg_path_fini(WrSvgPath *path)
 
 static double rounded(double x, int digits)
 {
-    const double power = pow(10.0, digits);
+    double power = 1;
+    for (int k = 0; k < digits; k++) power *= 10;
     return rint(x * power) / power + 0.0;
 }
 
@@ -277,8 +279,8 @@ static Arc arc_of(const double a[2], const double *n)
 {
     Arc arc = { .rx = fabs(n[0]), .ry = fabs(n[1]) };
     const double turn = n[2] * 0.017453292519943295;
-    arc.cosine = cos(turn);
-    arc.sine = sin(turn);
+    arc.cosine = wr_cos(turn);
+    arc.sine = wr_sin(turn);
     const double hx = 0.5 * (a[0] - n[5]), hy = 0.5 * (a[1] - n[6]);
     const double px = arc.cosine * hx + arc.sine * hy, py = arc.cosine * hy - arc.sine * hx;
     arc.line = !(arc.rx > 0.0 && arc.ry > 0.0) || (hx == 0.0 && hy == 0.0);
@@ -294,8 +296,8 @@ static Arc arc_of(const double a[2], const double *n)
     const double cx = root * arc.rx * py / arc.ry, cy = -root * arc.ry * px / arc.rx;
     arc.x = arc.cosine * cx - arc.sine * cy + 0.5 * (a[0] + n[5]);
     arc.y = arc.sine * cx + arc.cosine * cy + 0.5 * (a[1] + n[6]);
-    arc.from = atan2((py - cy) / arc.ry, (px - cx) / arc.rx);
-    const double to = atan2((-py - cy) / arc.ry, (-px - cx) / arc.rx), whole = 6.283185307179586;
+    arc.from = wr_atan2((py - cy) / arc.ry, (px - cx) / arc.rx);
+    const double to = wr_atan2((-py - cy) / arc.ry, (-px - cx) / arc.rx), whole = 6.283185307179586;
     arc.sweep = to - arc.from;
     if (n[4] != 0.0 && arc.sweep < 0.0) arc.sweep += whole;
     if (n[4] == 0.0 && arc.sweep > 0.0) arc.sweep -= whole;
@@ -314,7 +316,7 @@ static void piece_at(const double a[2], const WrSvgPiece *p, double t, double ou
     }
     const Arc arc = p->letter == 'A' ? arc_of(a, p->n) : (Arc){ .line = true };
     const double angle = arc.from + t * arc.sweep;
-    const double x = arc.rx * cos(angle), y = arc.ry * sin(angle);
+    const double x = arc.rx * wr_cos(angle), y = arc.ry * wr_sin(angle);
     for (int k = 0; k < 2; k++) out[k] = a[k] + t * (p->n[end + k] - a[k]);
     if (arc.line) return;
     out[0] = arc.x + arc.cosine * x - arc.sine * y;
@@ -435,7 +437,7 @@ bool wr_svg_path_divide(WrSvgPath *path, double x, double y)
         for (int k = 1; k < STEPS; k++) {
             const double t = (double)k / STEPS;
             piece_at(a, p->letter == 'Z' ? &line : p, t, b);
-            const double way = hypot(b[0] - x, b[1] - y);
+            const double way = wr_hypot(b[0] - x, b[1] - y);
             if (way >= best) continue;
             best = way;
             best_t = t;

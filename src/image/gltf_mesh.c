@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "base/exactmath.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "image/gltf_internal.h"
@@ -122,7 +123,7 @@ static void gltf_transform(json_object *reference, double m[6])
 {
     json_object *all = wr_gltf_member(reference, "extensions", json_type_object);
     json_object *moved = wr_gltf_member(all, "KHR_texture_transform", json_type_object);
-    const double angle = number_in(moved, "rotation", -1, 0), c = cos(angle), s = sin(angle);
+    const double angle = number_in(moved, "rotation", -1, 0), c = wr_cos(angle), s = wr_sin(angle);
     const double x = number_in(moved, "scale", 0, 1), y = number_in(moved, "scale", 1, 1);
     m[0] = c * x, m[1] = s * y, m[2] = number_in(moved, "offset", 0, 0);
     m[3] = -s * x, m[4] = c * y, m[5] = number_in(moved, "offset", 1, 0);

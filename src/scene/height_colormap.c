@@ -112,7 +112,8 @@ static bool form_rows(const WrHeightColormap *colouring, const WrPatches *set, d
         WrSurfacePoint at;
         wr_terrain_at(set, (k % w + 0.5) / w, 1 - (k / w + 0.5) / h, &at);
         const double own = height != 0 ? at.p.z / height : 0;
-        put(colouring, own, acos(fmin(fabs(at.n_unit.z), 1)), NULL, (*image)->data + 3 * (size_t)k);
+        put(colouring, own, wr_acos(fmin(fabs(at.n_unit.z), 1)), NULL,
+            (*image)->data + 3 * (size_t)k);
         if (heights) wr_field_set(heights, k % w, k / w, (float)own);
     }
     return true;
@@ -166,7 +167,7 @@ static void table_row(const WrHeightColormap *colouring, double height, int j, c
         const float *at = rows + pitch + 1 + i;
         const double fu = ((double)at[1] - (double)at[-1]) * 0.5 * w * height;
         const double fv = ((double)at[-pitch] - (double)at[pitch]) * 0.5 * h * height;
-        put(colouring, (double)*at, atan(hypot(fu, fv)), means ? means + i : NULL,
+        put(colouring, (double)*at, wr_atan(wr_hypot(fu, fv)), means ? means + i : NULL,
             image->data + 3 * ((size_t)j * (size_t)w + (size_t)i));
     }
 }

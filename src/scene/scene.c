@@ -1,6 +1,7 @@
 #include "scene/scene.h"
 
 #include "base/enum_rows.h"
+#include "base/exactmath.h"
 #include "base/memory.h"
 #include "field/field.h"
 #include "field/scheme_list.h"
@@ -212,7 +213,7 @@ WR_ROWS_END(wr_tone_names, WR_TONE_KINDS);
 WrToneCurve wr_tone_curve_params(const WrTone *tone)
 {
     const WrDisplayView *view = tone->view && tone->view->ready ? tone->view : NULL;
-    return (WrToneCurve){ .gain = (float)exp2(tone->exposure),
+    return (WrToneCurve){ .gain = (float)wr_exp2(tone->exposure),
                           .knee = tone->kind == WR_TONE_SOFT ? 0.5f : NO_KNEE,
                           .plain = !view && tone->kind == WR_TONE_CLIP && tone->exposure == 0,
                           .view = view };

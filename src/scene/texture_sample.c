@@ -1,5 +1,6 @@
 #include "scene/texture_sample.h"
 
+#include "base/exactmath.h"
 #include "field/field.h"
 #include "image/image.h"
 #include "scene/normal_map.h"
@@ -94,7 +95,7 @@ static void add_gradient(WrBumpMode mode, const WrSurfacePoint *at, WrVec3 g, do
     const double along = v3_dot(at->n_unit, v3_cross(at->pu, at->pv));
     const double length = v3_len(at->n);
     double k = fabs(along) > 1e-12 * v3_len(at->pu) * v3_len(at->pv) ? length / along : 0;
-    const double gu = v3_dot(g, at->pu), gv = v3_dot(g, at->pv), size = hypot(gu, gv);
+    const double gu = v3_dot(g, at->pu), gv = v3_dot(g, at->pv), size = wr_hypot(gu, gv);
     if (mode == WR_BUMP_INVARIANT) k = size > 0 ? copysign(v3_len(g) / size, k) : 0;
     *fu += k * gu;
     *fv += k * gv;
@@ -105,7 +106,7 @@ static WrVec3 gradient_by(WrBumpMode mode, const WrSurfacePoint *at, double fu, 
 {
     const WrVec3 none = { 0, 0, 0 }, d = wr_bump_d(at->n_unit, at->pu, at->pv, fu, fv);
     const double length = v3_len(at->n);
-    if (mode == WR_BUMP_INVARIANT) return v3_scale(v3_unit(d, none), -hypot(fu, fv));
+    if (mode == WR_BUMP_INVARIANT) return v3_scale(v3_unit(d, none), -wr_hypot(fu, fv));
     return length > 0 ? v3_scale(d, -1 / length) : none;
 }
 

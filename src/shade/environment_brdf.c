@@ -18,7 +18,7 @@ typedef double Lamp(const WrReflectance *of, const WrMatter *m, Place at);
 
 static double power(double c, double s)
 {
-    return s > 0 ? pow(fmax(c, 0), s) : 1;
+    return s > 0 ? wr_pow(fmax(c, 0), s) : 1;
 }
 
 static double blinn(const WrReflectance *of, const WrMatter *m, Place at)
@@ -67,7 +67,7 @@ static double integral(Lamp *lamp, const WrReflectance *of, const WrMatter *m, d
         for (int j = 0; j < SPOKES; j++) {
             const double t = (i + 0.5) / RINGS, f = t * t * (3 - 2 * t); /* of the facets */
             const double c = sqrt((1 - f) / (1 + f * (a2 - 1))), s = sqrt(fmax(0, 1 - c * c));
-            const double vh = sv * s * cos(WR_PI * (j + 0.5) / SPOKES) + nv * c;
+            const double vh = sv * s * wr_cos(WR_PI * (j + 0.5) / SPOKES) + nv * c;
             const double nl = 2 * vh * c - nv, w = c * c * (a2 - 1) + 1;
             if (vh <= 0 || (gated && nl <= 0)) continue;
             const Place at = { nl, nv, c, vh, 2 * nl * nv - (2 * vh * vh - 1) };
@@ -85,7 +85,7 @@ static double matt_integral(double nv, bool fresnels)
     for (int i = 0; i < RINGS; i++)
         for (int j = 0; j < SPOKES; j++) {
             const double nl = sqrt((i + 0.5) / RINGS), sl = sqrt(1 - nl * nl);
-            const double lv = sv * sl * cos(WR_PI * (j + 0.5) / SPOKES) + nl * nv;
+            const double lv = sv * sl * wr_cos(WR_PI * (j + 0.5) / SPOKES) + nl * nv;
             const double off = fmax(0, 1 - sqrt(fmax(0, (1 + lv) / 2)));
             const double q = fmax(0, lv - nl * nv) / fmax(nl, nv);
             sum += fresnels ? off * off * off * off * off : q;
@@ -105,7 +105,7 @@ static double matt_albedo(const WrMatter *m, double mu)
 {
     const double s = sqrt(fmax(0, 1 - mu * mu));
     const double rest = s * mu * (1 + s + s * s) / (1 + s) - s;
-    return m->a + m->b / WR_PI * (s * (acos(mu) - s * mu) + 2.0 / 3 * rest);
+    return m->a + m->b / WR_PI * (s * (wr_acos(mu) - s * mu) + 2.0 / 3 * rest);
 }
 
 /* Kept GGX's. x = sqrt(n.v) */

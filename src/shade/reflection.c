@@ -1,6 +1,7 @@
 #include "shade/reflection.h"
 
 #include "base/enum_rows.h"
+#include "base/exactmath.h"
 #include "shade/reflection_models.h"
 
 #include <math.h>
@@ -30,8 +31,8 @@ static void seen_facet(double alpha, double mu, double radius, double turn, doub
 {
     const double across = alpha * sqrt(1 - mu * mu), len = sqrt(across * across + mu * mu);
     const double x = across / len, z = mu / len, s = 0.5 * (1 + z);
-    const double t1 = radius * cos(turn), up = sqrt(1 - t1 * t1);
-    const double t2 = (1 - s) * up + s * radius * sin(turn);
+    const double t1 = radius * wr_cos(turn), up = sqrt(1 - t1 * t1);
+    const double t2 = (1 - s) * up + s * radius * wr_sin(turn);
     const double t3 = sqrt(fmax(0, 1 - t1 * t1 - t2 * t2));
     /* axes: (0,1,0), (-z,0,x), (x,0,z) */
     const double a = alpha * (x * t3 - z * t2), b = alpha * t1, c = fmax(1e-12, z * t3 + x * t2);
@@ -90,7 +91,7 @@ static void fit(const double x[WR_ALBEDO_TERMS], double y[WR_ALBEDO_TERMS],
 void wr_albedo_places(double x[WR_ALBEDO_TERMS])
 {
     for (int i = 0; i < WR_ALBEDO_TERMS; i++)
-        x[i] = 0.5 - 0.5 * cos(pi * (i + 0.5) / WR_ALBEDO_TERMS);
+        x[i] = 0.5 - 0.5 * wr_cos(pi * (i + 0.5) / WR_ALBEDO_TERMS);
 }
 
 void wr_albedo_fit(double y[WR_ALBEDO_TERMS], double out[WR_ALBEDO_TERMS])

@@ -1,6 +1,7 @@
 #include "surface/patches.h"
 
 #include "base/error.h"
+#include "base/exactmath.h"
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/text.h"
@@ -669,7 +670,7 @@ static double extent(const Build *b)
             low[k % 3] = fmin(low[k % 3], (double)b->points[i][k]);
             high[k % 3] = fmax(high[k % 3], (double)b->points[i][k]);
         }
-    return 0.5 * hypot(hypot(high[0] - low[0], high[1] - low[1]), high[2] - low[2]);
+    return 0.5 * wr_hypot(wr_hypot(high[0] - low[0], high[1] - low[1]), high[2] - low[2]);
 }
 
 /* Chooses counts by |P - its triangle| <= (|Puu| du^2 + 2 |Puv| du dv + |Pvv| dv^2) / 8, half of the

@@ -1,6 +1,7 @@
 #include "surface/profile.h"
 
 #include "base/error.h"
+#include "base/exactmath.h"
 #include "base/text.h"
 #include "surface/surface.h"
 
@@ -66,7 +67,7 @@ static bool measure(Points *p, WrError *err)
     double most = 0;
     p->s[0] = 0;
     for (int i = 1; i < p->count; i++)
-        p->s[i] = p->s[i - 1] + hypot(p->r[i] - p->r[i - 1], p->z[i] - p->z[i - 1]);
+        p->s[i] = p->s[i - 1] + wr_hypot(p->r[i] - p->r[i - 1], p->z[i] - p->z[i - 1]);
     const double length = p->s[p->count - 1];
     for (int i = 0; i < p->count; i++) most = fmax(most, p->r[i]);
     if (!(length >= WR_LENGTH_MIN) || !(most >= WR_LENGTH_MIN))
@@ -269,7 +270,8 @@ int wr_profile_corners(const WrProfiled *profile, double *v, int most)
         const double a = (r[-1] - r[-2]) * profile->inv[k - 1],
                      b = (z[-1] - z[-2]) * profile->inv[k - 1];
         const double c = (r[1] - r[0]) * profile->inv[k], d = (z[1] - z[0]) * profile->inv[k];
-        if (hypot(a - c, b - d) > 1e-9 * (hypot(a, b) + hypot(c, d))) v[count++] = profile->from[k];
+        if (wr_hypot(a - c, b - d) > 1e-9 * (wr_hypot(a, b) + wr_hypot(c, d)))
+            v[count++] = profile->from[k];
     }
     return count;
 }
@@ -289,7 +291,7 @@ void wr_profile_extent(const WrProfiled *profile, double *middle, double *radius
     for (int k = 0; k < steps; k++) {
         const size_t at = 4 * (size_t)(k / (STEPS + 1));
         const double t = k % (STEPS + 1) / (double)STEPS;
-        most = fmax(most, hypot(cubic(profile->r + at, t), cubic(profile->z + at, t) - *middle));
+        most = fmax(most, wr_hypot(cubic(profile->r + at, t), cubic(profile->z + at, t) - *middle));
     }
     *radius = 1.001 * most; /* margin for points between the samples */
 }

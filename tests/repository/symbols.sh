@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Every global C symbol of ours starts with wr_. C++ names are mangled and so can clash with nobody's. Each global function of the
-# window is used by another file: a panel without its row in the registry is not.
+# window is used by another file: a panel without its row in the registry is not. No height or exact picture depends on libm, whose
+# results differ between processors (base/exactmath.h).
 # symbols.sh BUILD-FOLDER
 set -uo pipefail
 cd "$1" || exit 1
@@ -9,7 +10,15 @@ sed -nE 's/^ *"command": .* -o ((src|ui|tests)\/[^ ]*\.o) .*/\1/p' compile_comma
     while IFS= read -r object; do [[ -f $object ]] && printf '%s\n' "$object"; done |
     xargs nm --print-file-name --extern-only --format=bsd |
     awk '
-    $(NF - 1) ~ /^[Uvw]$/ { used[$NF] = 1; next }
+    $(NF - 1) ~ /^[Uvw]$/ {
+        used[$NF] = 1
+        if ($1 ~ /^src\/(base|noise|field|surface|shade|scene|generate|brush|render)\// && $1 !~ /\/reference\// &&
+            $NF ~ /^(a?(sin|cos|tan)h?|atan2|sincos|hypot|cbrt|pow|exp|exp2|expm1|log|log2|log10|log1p|erfc?|[lt]gamma)f?$/) {
+            printf "%s calls %s of libm: base/exactmath.h has the same bits on every processor\n", $1, $NF
+            bad = 1
+        }
+        next
+    }
     /^tests/ { next }
     # src/base/CMakeFiles/wr_base.dir/text.c.o:0000000000000120 T wr_text_add
     {

@@ -1,6 +1,7 @@
 #include "render/environment/env_setup.h"
 
 #include "base/error.h"
+#include "base/exactmath.h"
 #include "base/memory.h"
 #include "image/image.h"
 #include "render/frame/tile.h"
@@ -138,7 +139,7 @@ static void update_shares(WrEnvPrefilter *grades, const WrMaterial *m)
    by slopes moves towards rung 0. */
 static void rungs_of(const WrEnvironmentBrdf *gloss, const WrPlan *plan, int *first, int *last)
 {
-    const double rung = -log2(gloss->alpha), most = WR_SVBRDF_RUNGS - 1;
+    const double rung = -wr_log2(gloss->alpha), most = WR_SVBRDF_RUNGS - 1;
     *first = 0, *last = (int)most;
     if (wr_plan_runs(plan, WR_EFFECT_VARIED)) return;
     *last = (int)fmin(ceil(rung) + 1, most);

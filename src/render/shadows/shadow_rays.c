@@ -416,7 +416,7 @@ static double gap(WrVec3 from, WrVec3 way, double ball, bool shrinks, WrVec3 to,
    that region. */
 static bool may_hide(const Standing *a, const Standing *b, const WrLight *light)
 {
-    const double spread = tan(fmin(light->size_deg, 45) * WR_PI / 180);
+    const double spread = wr_tan(fmin(light->size_deg, 45) * WR_PI / 180);
     const bool point = wr_light_kinds[light->kind].placed;
     const WrVec3 from = a->place.position, to = b->place.position, ahead = { 0, 0, 1 };
     if (!(a->ball < INFINITY) || !(b->ball < INFINITY)) return true;

@@ -2,6 +2,7 @@
 #include "render/tessellation/mesh_relief.h"
 
 #include "base/error.h"
+#include "base/exactmath.h"
 #include "base/memory.h"
 #include "base/pool.h"
 #include "field/field.h"
@@ -375,7 +376,7 @@ static double pixels_per_unit(const WrView *view)
 static double even_pixels(const WrView *view)
 {
     const double away = fmax(v3_len(view->eye) - view->radius, 0.5 * view->radius);
-    return exp2(ceil(log2(pixels_per_unit(view) / (view->perspective ? away : 1.0))));
+    return wr_exp2(ceil(wr_log2(pixels_per_unit(view) / (view->perspective ? away : 1.0))));
 }
 
 /* Pixels per object unit at the nearest point of a sphere around p; 0: it is outside the picture.
