@@ -140,6 +140,7 @@ static const char *read_message(const char *at, const char *end, Span *format, S
 {
     const char *from = ++at;
     int depth = 0;
+    *format = (Span){ from, 0 };
     *count = -1; /* the format comes first */
     for (;; at++) {
         const bool over = at == end || (depth == 0 && *at == END);

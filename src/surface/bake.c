@@ -244,7 +244,7 @@ static void bake_texel(const Bake *bake, int x, int y)
         at.sign = frame[0].sign;
     }
     const WrVec3 o = v3_mad(mixed(l, p[0], p[1], p[2]), n, cage), d = v3_neg(n);
-    WrRayHit hit;
+    WrRayHit hit = { 0 };
     bool back;
     texel->seen |= COVERED;
     if (!cast(bake, triangle, o, d, 2 * cage, &hit, &at.tree, &back)) {

@@ -170,7 +170,7 @@ static bool read_device(Reader *reader, const char *at, const char *end, WrError
 {
     Field f[6];
     int index, pressure, tilt;
-    double low, high;
+    double low = 0, high = 0;
     for (int i = 0; i < 6; i++)
         if (!next_field(&at, end, &f[i]))
             return wr_fail(err, "a device is: device INDEX KIND PRESSURE TILT LOW HIGH NAME");

@@ -197,7 +197,8 @@ static void displace(WrMeshRelief *r, const Location *locations, int count,
 {
     WrVec3 sum = { 0, 0, 0 };
     double mean = 0.0;
-    WrVec3 few_n[FEW], *n = count <= FEW ? few_n : wr_alloc((size_t)count, sizeof *n);
+    WrVec3 few_n[FEW] = { { 0, 0, 0 } },
+           *n = count <= FEW ? few_n : wr_alloc((size_t)count, sizeof *n);
     double few_f[FEW], *f = count <= FEW ? few_f : wr_alloc((size_t)count, sizeof *f);
     bool few_outside[FEW],
         *outside = count <= FEW ? few_outside : wr_alloc((size_t)count, sizeof *outside);
