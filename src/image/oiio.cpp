@@ -137,12 +137,18 @@ static void forget_tiff_error()
     tiff_errno = errno = 0;
 }
 
+/* Keeps the first errno of a disk that is full or broken. */
+static void note_disk_error()
+{
+    bool disk = errno == EFBIG || errno == ENOSPC || errno == EDQUOT || errno == EIO;
+    if (!tiff_errno && disk) tiff_errno = errno;
+}
+
 /* An unsupported tag was omitted intentionally (forbid_date), or is irrelevant. */
 static void on_tiff_error(void *, const char *from, const char *format, va_list list)
 {
     if (from && std::strstr(from, "SetField")) return;
-    bool disk = errno == EFBIG || errno == ENOSPC || errno == EDQUOT || errno == EIO;
-    if (!tiff_errno && disk) tiff_errno = errno;
+    note_disk_error();
     if (!tiff_error[0]) vsnprintf(tiff_error, sizeof tiff_error, format, list);
 }
 
@@ -459,15 +465,6 @@ class Disk : public OIIO::Filesystem::IOProxy
     const char *proxytype() const override
     {
         return "disk";
-    }
-    bool seek(int64_t offset) override
-    {
-        m_pos = offset;
-        return true;
-    }
-    int64_t tell() override
-    {
-        return m_pos;
     }
     size_t read(void *, size_t) override
     {
@@ -1008,6 +1005,8 @@ static void set_levels(ImageSpec &spec, const WrImageOut &part)
 
 static bool check_write(WrCodecWriter &writer, bool ok, char *reason)
 {
+    /* The error handler of OpenImageIO 2.5 forgets failures at the end. */
+    if (!writer.disk && errno != EIO) note_disk_error();
     std::string message = writer.out->geterror();
     if (writer.disk && writer.disk->error) return fail(reason, std::strerror(writer.disk->error));
     if (tiff_errno) return fail(reason, std::strerror(tiff_errno));
