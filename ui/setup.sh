@@ -6,7 +6,7 @@ wr_program_packages=(
     build-essential cmake ninja-build pkg-config
     libassimp-dev libexpat1-dev libfontconfig-dev libfreetype-dev libfribidi-dev libharfbuzz-dev libimgui-dev libjson-c-dev
     libdbus-1-dev libdeflate-dev libmd-dev libmd4c-dev libmypaint-dev libopenexr-dev libopenimageio-dev libpng-dev librsvg2-dev
-    libsdl2-dev libseccomp-dev libsleef-dev libstb-dev libwayland-dev libx11-dev libxi-dev libxxhash-dev libzip-dev mypaint-brushes
+    libsdl2-dev libseccomp-dev libsleef-dev libwayland-dev libx11-dev libxi-dev libxxhash-dev libzip-dev mypaint-brushes
     wayland-protocols zlib1g-dev
     gettext fonts-dejavu-core fonts-inter fonts-materialdesignicons-webfont xfonts-terminus
 )
@@ -14,7 +14,7 @@ wr_program_packages=(
 # the program writes.
 # shellcheck disable=SC2034  # used by tests/run.sh
 wr_test_packages=(
-    libcmocka-dev clang clang-format libclang-rt-14-dev
+    libcmocka-dev clang clang-format libclang-rt-dev
     fonts-inter-variable fonts-lohit-deva
     dbus-daemon xvfb xauth xdotool xclip x11-utils openbox valgrind
     weston xserver-xorg-core xserver-xorg-dev xserver-xorg-video-dummy xinput
