@@ -3,6 +3,7 @@
    The generic names v_add, v_cross, ... select by the type of the first vector, so that a formula is
    written once and compiled in both precisions. */
 #pragma once
+#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 
@@ -75,18 +76,19 @@ static inline double v3_len(WrVec3 a)
     return scalbn(sqrt(v3_dot(b, b)), e);
 }
 
-/* a / |a|, or `fallback` where a is zero or not finite. Safe at any scale, denormals included. */
 static inline WrVec3 v3_load(const float p[3])
 {
     return (WrVec3){ (double)p[0], (double)p[1], (double)p[2] };
 }
 
+/* a / |a|, or `fallback` where a is zero or not finite. Safe at any scale, denormals included. */
 static inline WrVec3 v3_unit(WrVec3 a, WrVec3 fallback)
 {
     double m = fabs(a.x);
     if (fabs(a.y) > m) m = fabs(a.y);
     if (fabs(a.z) > m) m = fabs(a.z);
-    if (!(m > 0.0) || !isfinite(a.x) || !isfinite(a.y) || !isfinite(a.z)) return fallback;
+    if (!(m > 0.0)) return fallback;
+    if (!(fabs(a.x) <= DBL_MAX && fabs(a.y) <= DBL_MAX && fabs(a.z) <= DBL_MAX)) return fallback;
     WrVec3 b = a;
     if (!v3_is_tame(m)) {
         int e = ilogb(m);

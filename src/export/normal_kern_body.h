@@ -359,7 +359,7 @@ static bool moments(const float *restrict f, const double *restrict s, const dou
         pair[0][i] = pair_of(f[i], right);
         pair[1][i] = pair_of(down, (float)(x * x));
         pair[2][i] = pair_of((float)(y * y), (float)(x * y));
-        wild += (fabsf(f[i]) <= most) & (fabs(x) <= steepest) & (fabs(y) <= steepest) ? 0 : 1;
+        wild += ((fabsf(f[i]) <= most) & (fabs(x) <= steepest) & (fabs(y) <= steepest)) ? 0 : 1;
     }
     for (int i = 0; i < count; i++)
         for (int c = 0; c < 3; c++) memcpy(out + 6 * i + 2 * c, &pair[c][i], sizeof pair[c][i]);

@@ -383,12 +383,12 @@ static bool lay_lattice(WrSolid *solid, int face, int64_t *samples, WrError *err
     const WrSurfaceCell cell = wr_surface_cell(&scene->shape, face);
     WrSolidLattice *l = &solid->lattice[face];
     const double fine = fmin(fmax(CLOSE * sqrt(solid->size / solid->error), COARSEST), FINEST);
-    const bool fits = lay_direction(wr_field_width(solid->field) * fabs(scene->replicate_u), fine,
-                                    cell.u0, cell.u1, &l->first_u, &l->step_u, &l->count_u) &
-                      lay_direction(wr_field_height(solid->field) * fabs(scene->replicate_v), fine,
-                                    cell.v0, cell.v1, &l->first_v, &l->step_v, &l->count_v);
+    const bool fits_u = lay_direction(wr_field_width(solid->field) * fabs(scene->replicate_u), fine,
+                                      cell.u0, cell.u1, &l->first_u, &l->step_u, &l->count_u);
+    const bool fits_v = lay_direction(wr_field_height(solid->field) * fabs(scene->replicate_v),
+                                      fine, cell.v0, cell.v1, &l->first_v, &l->step_v, &l->count_v);
     *samples += (int64_t)l->count_u * l->count_v;
-    if (fits && *samples <= WR_SOLID_SAMPLES) return true;
+    if (fits_u && fits_v && *samples <= WR_SOLID_SAMPLES) return true;
     return wr_fail(
         err, "the surface has more than %lld texels: fewer repeats (replicate), or a smaller table",
         (long long)WR_SOLID_SAMPLES);

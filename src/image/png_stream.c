@@ -55,7 +55,7 @@ static void filter_paeth(const uint8_t *restrict a, const uint8_t *restrict up, 
         const int16_t to_l = x < 0 ? (int16_t)-x : x, to_u = y < 0 ? (int16_t)-y : y,
                       to_c = z < 0 ? (int16_t)-z : z;
         const int16_t rest = to_u <= to_c ? u : c;
-        const int16_t guess = (to_l <= to_u) & (to_l <= to_c) ? l : rest;
+        const int16_t guess = ((to_l <= to_u) & (to_l <= to_c)) ? l : rest;
         out[i] = (uint8_t)(a[i] - guess);
     }
 }

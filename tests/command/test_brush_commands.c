@@ -72,8 +72,8 @@ static const char *const strokes[] = {
     "stroke points=0.9,0.2;0.2,0.6 tip=sub/tip.png radius=14 angle=30 follow=on spacing=0.6",
     "stroke points=0.9,0.2;0.2,0.6 tip=sub/tip.png jitter=0.5,180,0.4 seed=11 flow=0.6",
     "stroke points=0.1,0.1;0.4,0.3 radius=6 mirror=uv radial=3 repeat=2x2 stagger=0.5",
-    "stroke points=0.1,0.1;0.4,0.3,0.2 radius=9 pressure=both aspect=3 angle=20 buildup=on "
-    "flow=0.2",
+    ("stroke points=0.1,0.1;0.4,0.3,0.2 radius=9 pressure=both aspect=3 angle=20 buildup=on "
+     "flow=0.2"),
     "stroke points=0.3,0.3;0.6,0.35 mode=clone source=0.21,-0.17 radius=12",
     "dab 0.7,0.7 tip=sub/tip.png radius=30 strength=0.5",
     "dab 0.2,0.8 preset=sub/soft.myb strength=0.5 radius=25",

@@ -268,8 +268,8 @@ static void one_layer_that_is_f_is_a_file_of_one_part(void **state)
     const char *const lines[] = { "table 100x70 wrap=clamp-v",
                                   "grid cells=4x3",
                                   "dab 0.3,0.3 radius=30",
-                                  "layer rename 1 \"B\xc3\xb6"
-                                  "den \\\"1\\\"\"",
+                                  ("layer rename 1 \"B\xc3\xb6"
+                                   "den \\\"1\\\"\""),
                                   "layer set 1 radius=0.25 lock=on",
                                   "surface torus" };
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) must_run(s, lines[i]);

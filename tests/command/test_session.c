@@ -331,8 +331,8 @@ static void a_command_that_fails_changes_nothing(void **state)
         "image nosuchfile.png",
         "image /",
         "colour nosuchfile.png",
-        "colour off sha256="
-        "0000000000000000000000000000000000000000000000000000000000000000",
+        ("colour off sha256="
+         "0000000000000000000000000000000000000000000000000000000000000000"),
         "light directional to=0,0,0",
         "light point at=1,1,1 index=5",
         "camera perspective eye=1,1,1 target=1,1,1",

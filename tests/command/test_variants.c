@@ -269,8 +269,8 @@ static void plain_layers_keep_their_heights(void **state)
 
 static void assert_same_file(const char *a, const char *b)
 {
-    char *x, *y;
-    size_t m, n;
+    char *x = NULL, *y = NULL;
+    size_t m = 0, n = 0;
     WrError err;
     if (!wr_file_read(a, 1 << 24, &x, &m, &err) || !wr_file_read(b, 1 << 24, &y, &n, &err))
         fail_msg("%s", err.text);

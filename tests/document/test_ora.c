@@ -309,8 +309,8 @@ static void write_archive(const char *path, const Part *parts, int count)
 static Part png(const char *name, int width, int height, int channels, const uint8_t *codes)
 {
     WrError err = { "" };
-    char *bytes;
-    size_t length;
+    char *bytes = NULL;
+    size_t length = 0;
     if (!wr_image_write_pixels("part.png", width, height, channels, WR_PIXEL_U8, false, codes,
                                &err) ||
         !wr_file_read("part.png", 1 << 24, &bytes, &length, &err))

@@ -21,7 +21,7 @@ static inline float (*teapot_points(int32_t *count))[48]
     WrError err = { "" };
     char *text;
     size_t length;
-    float(*points)[48];
+    float(*points)[48] = NULL;
     if (!wr_file_read(WR_SOURCE_DIR "/samples/teapot.bpt", 1 << 20, &text, &length, &err) ||
         !wr_patches_parse(text, length, &points, count, &err))
         fail_msg("%s", err.text);

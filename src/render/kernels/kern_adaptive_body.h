@@ -45,7 +45,7 @@ FLAT static void kern_smooth(const float *const row[5], int count, float weight,
     {
         const float r = of[4 * x], g = of[4 * x + 1], b = of[4 * x + 2], a = of[4 * x + 3];
         const float sum = (r + g) + (b + a);
-        off[x] = sum - sum == 0.0f ? larger(larger(r, g), larger(b, a)) : INFINITY;
+        off[x] = wr_is_finite_f(sum) ? larger(larger(r, g), larger(b, a)) : FLT_MAX;
     }
 }
 

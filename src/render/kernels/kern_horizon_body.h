@@ -70,7 +70,7 @@ ALWAYS void find_lamp(const SKYLINE *h, const LIGHT *light, const bool point, co
     to->up[i] = up;
     to->far[i] = far;
     to->asks[i] = (faces & !above & !under) ? 1 : 0;
-    share[i] = faces & under ? K_(0) : K_(1);
+    share[i] = (faces & under) ? K_(0) : K_(1);
 }
 
 /* Two neighbouring texels of the upper and of the lower row. */

@@ -7,10 +7,10 @@
        |n' - n0'| <= |n - n0| + |g - g0|        (both vectors have length 1 or more: the projection to the
                                                  unit ball increases no distance)
    and of each light's share, since max(0, n'.l) changes by at most |n' - n0'| + |l - l0| and c^s increases with
-   c. Infinite where a step has no bound. A margin for rounding is added. */
+   c. NO_BOUND where a step has no bound. A margin for rounding is added. */
 
-#define NO_BOUND ((REAL)INFINITY)
-#define LOOSE K_(1.0001) /* margin: bounds are computed in rounded arithmetic */
+#define NO_BOUND ((REAL)FLT_MAX) /* not INFINITY: the fast sets assume finite numbers */
+#define LOOSE K_(1.0001)         /* margin: bounds are computed in rounded arithmetic */
 
 /* A corner of the pixel on the quad's plane. */
 typedef struct Corner {
@@ -101,7 +101,7 @@ FLAT static void kern_bound_sphere(const RAYS *rays, const SHAPE *shape, REAL pi
         strip->v_low[i] = strip->v[i] - dv, strip->v_high[i] = strip->v[i] + dv;
         strip->reach[i] = turn * R;
         strip->turn[i] = turn;
-        strip->bound[i] = far & (cosine2 > K_(1e-4)) & (lat > K_(0.05)) ? K_(0) : NO_BOUND;
+        strip->bound[i] = (far & (cosine2 > K_(1e-4)) & (lat > K_(0.05))) ? K_(0) : NO_BOUND;
     }
 }
 

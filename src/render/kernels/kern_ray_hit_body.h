@@ -238,7 +238,7 @@ ALWAYS int hit_quad(const RAYS *rays, const QUAD *quad, REAL gx, REAL gy, int co
         bool met = (s > s_min) & (s < MISS) & (dn != 0.0f);
         strip->u[i] = u > least ? (u < most ? u : most) : least;
         strip->v[i] = v > least ? (v < most ? v : most) : least;
-        strip->s[i] = in & met ? s : MISS;
+        strip->s[i] = (in & met) ? s : MISS;
     }
     REAL *const move[] = { strip->u, strip->v, strip->x, strip->y };
     return compact(count, strip, move, spread ? 4 : 2);

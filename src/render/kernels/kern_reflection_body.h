@@ -118,8 +118,9 @@ FLAT static bool kern_gathered(const STRIP *strip)
     int wide = 0;
     SIMD_SUM(wide) for (int i = 0; i < count; i++)
     {
-        wide +=
-            (strip->suu[i] == K_(0)) & (strip->suv[i] == K_(0)) & (strip->svv[i] == K_(0)) ? 0 : 1;
+        wide += ((strip->suu[i] == K_(0)) & (strip->suv[i] == K_(0)) & (strip->svv[i] == K_(0)))
+                    ? 0
+                    : 1;
     }
     return wide == 0;
 }

@@ -304,7 +304,7 @@ ALWAYS REAL grain_rise(const GRAIN *g, const WrSolidTextureKind kind, GrainPlace
         r_sincos_turns(at.t - r_floor(at.t), &sine, &cosine);
         return K_(3.14159265358979323846) * cosine * grain_fading(at.w);
     }
-    const REAL inside = (at.t > K_(0)) & (at.t < K_(1)) ? K_(1) : K_(0);
+    const REAL inside = ((at.t > K_(0)) & (at.t < K_(1))) ? K_(1) : K_(0);
     const REAL mean = (grain_clamp(at.t + half) - grain_clamp(at.t - half)) / wide;
     return at.w > K_(1e-3) ? mean : inside;
 }

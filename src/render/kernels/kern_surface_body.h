@@ -144,7 +144,8 @@ ALWAYS bool turns_nothing(VEC pu, VEC pv, Enough enough, REAL du, REAL dv)
 {
     REAL a = enough.uu * r_abs(du) + enough.uv * r_abs(dv);
     REAL b = enough.uv * r_abs(du) + enough.vv * r_abs(dv);
-    return (a < enough.last * longest(pu)) & (b < enough.last * longest(pv));
+    REAL most_a = enough.last * longest(pu), most_b = enough.last * longest(pv);
+    return (a < most_a) & (b < most_b);
 }
 
 /* The step of sample i from the P, Pu, Pv in the strip: its end in tu, tv, its length in ta, tb, and the start's
@@ -205,7 +206,7 @@ ALWAYS void arrive(Ray ray, Enough enough, STRIP *strip, int i)
     strip->n_len[i] = taken ? strip->n_dot_l[i] : strip->n_len[i];
     strip->rx[i] = taken ? strip->u[i] : strip->rx[i];
     strip->ry[i] = taken ? strip->v[i] : strip->ry[i];
-    strip->s[i] = taken & !short_one ? K_(1) : K_(0);
+    strip->s[i] = (taken & !short_one) ? K_(1) : K_(0);
 }
 
 /* True if some sample is to take a step of that kind. */
