@@ -560,7 +560,9 @@ WrField *wr_op_run_unit(const WrOpInfo *op, const WrField *in, const double *par
     quiet.progress.report = NULL;
     const WrOpOptions rest = { .pool = options ? options->pool : NULL,
                                .progress = &quiet.progress };
-    WrField *kept = wr_op_run(wr_op_find("clamp"), made, unit, &rest, err);
+    const WrOpInfo *clamp = wr_op_find("clamp");
+    WR_ASSERT(clamp);
+    WrField *kept = wr_op_run(clamp, made, unit, &rest, err);
     wr_field_free(made);
     return kept;
 }

@@ -792,7 +792,7 @@ static bool limit_plane(const WrOpJob *job, WrOpPlane *plane, double limit, bool
 }
 
 typedef struct Sides {
-    const WrOpPlane *below, *above; /* `above` contains -F's; either may be NULL */
+    const WrOpPlane *below, *above; /* `above` contains -F's; one of them may be NULL */
 } Sides;
 
 static void make_limited(const WrOpJob *job, const void *ctx, WrOpBlock b, float *out, size_t pitch,
@@ -804,6 +804,7 @@ static void make_limited(const WrOpJob *job, const void *ctx, WrOpBlock b, float
         const float *low = sides->below ? row_at(sides->below, b.j + y) + b.i : NULL;
         const float *high = sides->above ? row_at(sides->above, b.j + y) + b.i : NULL;
         float *row = out + (size_t)y * pitch;
+        WR_ASSERT(low || high);
         for (int x = 0; x < b.count_i; x++)
             row[x] = !high  ? low[x]
                      : !low ? -high[x]

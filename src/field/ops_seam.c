@@ -324,7 +324,7 @@ static bool mean_height(const WrOpJob *job, double *mean)
         for (int i = 0; i < width; i += WR_OP_SIDE) {
             const int count = width - i < WR_OP_SIDE ? width - i : WR_OP_SIDE;
             wr_field_read(job->in, i, j, count, 1, row, WR_OP_SIDE);
-            for (int x = 0; x < count; x++) sum += llrint(scalbn(row[x], 30 - exponent));
+            for (int x = 0; x < count; x++) sum += llrint(scalbn((double)row[x], 30 - exponent));
         }
     }
     *mean = scalbn((double)sum / ((double)width * height), exponent - 30);

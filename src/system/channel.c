@@ -24,7 +24,7 @@
 #endif
 
 typedef union Control {
-    struct cmsghdr align;
+    struct cmsghdr first;
     char bytes[CMSG_SPACE(WR_CHANNEL_FILES * sizeof(int))];
 } Control;
 
@@ -48,7 +48,7 @@ bool wr_channel_pair(int ends[2], bool packets)
 
 bool wr_channel_is_one(int fd)
 {
-    struct sockaddr_storage name;
+    struct sockaddr_storage name = { 0 };
     socklen_t length = sizeof name;
     return getsockname(fd, (struct sockaddr *)&name, &length) == 0 && name.ss_family == AF_UNIX;
 }
@@ -71,7 +71,7 @@ static void add_files(struct msghdr *message, Control *control, const int *files
     memset(control, 0, sizeof *control);
     message->msg_control = control->bytes;
     message->msg_controllen = (socklen_t)CMSG_SPACE(bytes);
-    struct cmsghdr *rights = CMSG_FIRSTHDR(message);
+    struct cmsghdr *rights = &control->first;
     rights->cmsg_level = SOL_SOCKET;
     rights->cmsg_type = SCM_RIGHTS;
     rights->cmsg_len = (socklen_t)CMSG_LEN(bytes);

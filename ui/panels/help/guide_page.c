@@ -96,7 +96,7 @@ static int enter_block(MD_BLOCKTYPE type, void *detail, void *user)
         break;
     case MD_BLOCK_UL: wr_array_push(&r->numbers, 0); break;
     case MD_BLOCK_OL: wr_array_push(&r->numbers, (int)((MD_BLOCK_OL_DETAIL *)detail)->start); break;
-    case MD_BLOCK_LI: begin(r, WR_GUIDE_ITEM, *number ? (*number)++ : 0); break;
+    case MD_BLOCK_LI: begin(r, WR_GUIDE_ITEM, number && *number ? (*number)++ : 0); break;
     case MD_BLOCK_CODE: begin(r, WR_GUIDE_CODE, 0); break;
     case MD_BLOCK_THEAD: begin(r, WR_GUIDE_ROW, 1); break;
     case MD_BLOCK_TBODY:
