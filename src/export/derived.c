@@ -148,7 +148,7 @@ static void derived_piece(WrExportJob *job, int y, int rows, void *ctx)
     const Strip *strip = ctx;
     const int channels = job->channels, width = job->width;
     int64_t replaced = 0;
-    double *row = wr_alloc((size_t)(channels * width), sizeof *row);
+    double *row = wr_alloc((size_t)channels * (size_t)width, sizeof *row);
     Rows stretch = open_rows(job, y, rows);
     for (int j = 0; j < rows; j++) {
         const size_t first = (size_t)(y - strip->y + j) * (size_t)width;

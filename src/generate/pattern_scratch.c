@@ -180,7 +180,7 @@ bool wr_pattern_scratches(const WrParamValue *values, const WrGenerateJob *job, 
     s.across = bucket_count(s.width);
     s.rows = bucket_count(s.height);
     s.pieces = wr_alloc((size_t)count * PIECES, sizeof *s.pieces);
-    s.buckets = wr_alloc((size_t)(s.across * s.rows), sizeof *s.buckets);
+    s.buckets = wr_alloc((size_t)s.across * (size_t)s.rows, sizeof *s.buckets);
     for (int i = 0; i < count; i++) draw_scratch(&s, &given, i);
     for (int k = 0; k < s.count; k++) put_into_buckets(&s, k);
     bool good = wr_pattern_make(&given, job, scratch_at, &s, 2, out, err);

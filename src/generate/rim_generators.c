@@ -277,7 +277,7 @@ static bool clear_same(const Rim *rim, const WrField *was, const WrGenerateJob *
     const bool good = find_edge(&before, job->like, err);
     if (good) {
         Sides sides = { was, rim->shape, marked };
-        memset(marked, 0, (size_t)(wr_field_tiles_u(was) * wr_field_tiles_v(was)));
+        memset(marked, 0, (size_t)wr_field_tiles_u(was) * (size_t)wr_field_tiles_v(was));
         wr_field_changes(was, rim->shape, mark_sides, &sides);
         for (int k = 0; k * WR_TILE < rim->pieces.height; k++)
             mark_pieces(rim, &before.inside.rims[k], &rim->inside.rims[k], marked);

@@ -327,7 +327,8 @@ static void clear_unchanged(const Terraces *t, WrGenerateJob *job)
     wr_field_range(before->heights, &low, &high);
     if (low != t->low || high != t->high) return;
     const WrFieldChange change = { before->heights, t->from };
-    memset(before->wanted, 0, (size_t)(wr_field_tiles_u(t->from) * wr_field_tiles_v(t->from)));
+    memset(before->wanted, 0,
+           (size_t)wr_field_tiles_u(t->from) * (size_t)wr_field_tiles_v(t->from));
     wr_mark_changes(&change, 1, 0, before->wanted);
     job->wanted = before->wanted;
 }

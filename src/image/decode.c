@@ -456,8 +456,7 @@ static const char *find_format(int fd, const char *ending, WrError *err)
         return NULL;
     }
     unsigned char bytes[WR_IMAGE_SNIFF];
-    rewind(file);
-    size_t count = fread(bytes, 1, sizeof bytes, file);
+    size_t count = fseek(file, 0, SEEK_SET) == 0 ? fread(bytes, 1, sizeof bytes, file) : 0;
     const char *format = format_of(bytes, count, ending);
     if (strcmp(format, "png") == 0 && !wr_png_check(file, err)) format = NULL;
     fclose(file);

@@ -665,6 +665,7 @@ static void name_parts(WrCodecReader &reader)
         ImageSpec &spec = reader.specs[i];
         std::vector<const char *> names;
         spec.channelnames.resize(static_cast<size_t>(spec.nchannels));
+        names.reserve(spec.channelnames.size());
         for (const std::string &name : spec.channelnames) names.push_back(name.c_str());
         reader.names.push_back(names);
         reader.parts[i].part.channel_names = nullptr;

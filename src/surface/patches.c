@@ -520,8 +520,8 @@ static bool read_blocks(Reader *r, float (*points)[48], int32_t count, WrError *
         char what[60];
         int32_t degree;
         snprintf(what, sizeof what, "a degree of patch %d", (int)i + 1);
-        if (!read_whole(r, 3, 3, what, &degree, err) || !read_whole(r, 3, 3, what, &degree, err))
-            return false;
+        for (int k = 0; k < 2; k++) /* along u, along v */
+            if (!read_whole(r, 3, 3, what, &degree, err)) return false;
         for (int k = 0; k < 16; k++)
             if (!read_point(r, points[i] + 3 * k, err)) return false;
     }

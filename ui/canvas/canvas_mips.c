@@ -175,14 +175,14 @@ static void make_from_base(const WrCanvasMips *cells, int at, float *mean)
 
 static void make_block(WrCanvasMips *cells, int tx, int ty, const float *tile, bool late)
 {
-    const int at = ty * cells->tiles_u + tx, side = WR_TILE >> cells->level;
+    const int at = ty * cells->tiles_u + tx;
+    const size_t side = WR_TILE >> cells->level;
     const int w = inside(tx, wr_field_width(cells->field));
     const int h = inside(ty, wr_field_height(cells->field));
     Block *block = &cells->blocks[at];
     if (!block->mean) {
-        block->mean = wr_alloc((size_t)(side * side), sizeof(float));
-        __atomic_fetch_add(&cells->bytes, (size_t)(side * side) * sizeof(float) + WR_ALIGN,
-                           __ATOMIC_RELAXED);
+        block->mean = wr_alloc(side * side, sizeof(float));
+        __atomic_fetch_add(&cells->bytes, side * side * sizeof(float) + WR_ALIGN, __ATOMIC_RELAXED);
     }
     block->rough = late;
     if (late) make_rough(cells, tile, block->mean);

@@ -38,8 +38,9 @@ void wr_folds_set(char *folds[WR_FOLDS_MAX], const char *name, bool open_at_firs
     if (at >= 0) drop(folds, at);
     if (open == open_at_first) return;
     if (count_of(folds) == WR_FOLDS_MAX) drop(folds, 0);
-    char *entry = wr_alloc(strlen(name) + 2, 1);
+    const size_t length = strlen(name) + 1;
+    char *entry = wr_alloc(1 + length, 1);
     entry[0] = open ? '+' : '-';
-    strcpy(entry + 1, name);
+    memcpy(entry + 1, name, length);
     folds[count_of(folds)] = entry;
 }

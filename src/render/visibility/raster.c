@@ -746,7 +746,7 @@ static void allocate(WrViewMesh *mesh, int mu, int mv)
     mesh->sy = wr_alloc(count, sizeof *mesh->sy);
     mesh->close = wr_alloc(count, sizeof *mesh->close);
     mesh->out = wr_alloc(count, sizeof *mesh->out);
-    mesh->blocks = wr_alloc((size_t)(mesh->blocks_u * mesh->blocks_v), sizeof *mesh->blocks);
+    mesh->blocks = wr_alloc((size_t)mesh->blocks_u * (size_t)mesh->blocks_v, sizeof *mesh->blocks);
 }
 
 /* Newton's method starts from the raster's (u, v), which is within one cell (reach). Its error after a step is

@@ -231,7 +231,8 @@ static int bracket_row(const WrKeyMap *map)
 static SDL_Keycode sign_by_place(const WrKeyMap *map, SDL_Scancode place)
 {
     SDL_Keycode sign = SDLK_UNKNOWN;
-    if (place >= SDL_SCANCODE_1 && place <= SDL_SCANCODE_9) sign = '1' + (place - SDL_SCANCODE_1);
+    if (place >= SDL_SCANCODE_1 && place <= SDL_SCANCODE_9)
+        sign = '1' + (SDL_Keycode)(place - SDL_SCANCODE_1);
     if (place == SDL_SCANCODE_0) sign = '0';
     for (int row = 0; row < 2; row++)
         for (int side = 0; side < 2; side++)

@@ -116,7 +116,7 @@ static void make_net(WrPatchPick *pick)
     int n = pick->cells, faces = pick->info->faces, blocks = n / BLOCK;
     size_t side = (size_t)n + 1;
     pick->knots = wr_alloc((size_t)faces * side * side, sizeof *pick->knots);
-    pick->bounds = wr_alloc((size_t)(faces * blocks * blocks), sizeof *pick->bounds);
+    pick->bounds = wr_alloc((size_t)faces * (size_t)blocks * (size_t)blocks, sizeof *pick->bounds);
     for (int face = 0; face < faces; face++) {
         Knot *knots = pick->knots + (size_t)face * side * side;
         const WrSurfaceCell cell = wr_surface_cell(&pick->shape, face);
