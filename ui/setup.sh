@@ -28,7 +28,7 @@ wr_package_packages=(debhelper dh-python dpkg-dev xz-utils)
 wr_arm_packages=(gcc-aarch64-linux-gnu g++-aarch64-linux-gnu mmdebstrap qemu-user-static)
 # Of tests/run.sh --full.
 # shellcheck disable=SC2034
-wr_full_packages=(blender krita python3-pyqt5 lintian "${wr_arm_packages[@]}" "${wr_package_packages[@]}")
+wr_full_packages=(blender clang-14 clang-19 clang-tidy-19 gcc-12 krita python3-pyqt5 lintian "${wr_arm_packages[@]}" "${wr_package_packages[@]}")
 
 wr_say() {
     printf 'wrinkle: %s\n' "$*" >&2
