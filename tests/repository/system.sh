@@ -17,7 +17,7 @@ complain() {
 # Headers of C17 and C++17 that we use or may, and how those of libraries begin (tests/repository/rooms.sh says who may have which).
 c17='assert|complex|ctype|errno|fenv|float|inttypes|iso646|limits|locale|math|setjmp|signal|stdalign|stdarg|stdatomic|stdbool|stddef|stdint|stdio|stdlib|stdnoreturn|string|tgmath|time|uchar|wchar|wctype'
 cpp='c[a-z]+|[a-z_]+'
-libraries='SDL|imgui|stb_truetype|X11/|wayland|tablet-unstable|OpenImageIO/|openexr|libdeflate|png\.h|assimp/|librsvg/|ft2build|freetype/|hb|fribidi|fontconfig/|dbus/|zlib|zip\.h|expat|sleef|xxhash|sha256|libmypaint|mypaint|json-c/|md4c|cpuid|immintrin'
+libraries='SDL|imgui|X11/|wayland|tablet-unstable|OpenImageIO/|openexr|libdeflate|png\.h|assimp/|librsvg/|ft2build|freetype/|hb|fribidi|fontconfig/|dbus/|zlib|zip\.h|expat|sleef|xxhash|sha256|libmypaint|mypaint|json-c/|md4c|cpuid|immintrin'
 
 # Lines of the files named that include another system's header.
 strangers() {

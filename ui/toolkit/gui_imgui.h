@@ -4,6 +4,7 @@
 #include "ui/toolkit/folds.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/gui_rows.h"
+#include "ui/toolkit/gui_imgui_versions.hpp"
 #include "ui/toolkit/words.h"
 
 extern "C" {
@@ -103,8 +104,9 @@ struct WrGui {
     bool pressed[3];        /* pressed since the last frame, so that no press is missed */
     /* Pressed although held in that frame: a frame with the button released must come between. */
     bool again[3];
-    ImVec2 let_go_at;                /* position of the last release */
-    bool let_go;                     /* the last frame had the pointer there */
+    ImVec2 let_go_at;                              /* position of the last release */
+    bool let_go;                                   /* the last frame had the pointer there */
+    bool down[WR_GUI_KEYS], was_down[WR_GUI_KEYS]; /* keys passed to ImGui; in the last frame */
     bool released_late[WR_GUI_KEYS]; /* keys pressed and released between two frames */
     bool pressed_now[WR_GUI_KEYS];
     int held_late; /* KMOD_ bits held during a key press since the last frame */
@@ -248,39 +250,6 @@ void wr_gui_pin_step();
 void wr_gui_pin_menu();
 /* Tip of the last item, whose identifier for the ring is `id`. */
 void wr_gui_tip_of(ImGuiID id, const char *text);
-
-/* Wrappers for names that differ between versions of ImGui; keys are in gui_imgui_keys.cpp, fonts in
-   gui_imgui_fonts.cpp. */
-inline float wr_gui_size_of(const ImFont *font)
-{
-#if IMGUI_VERSION_NUM >= 19200
-    return font->LegacySize;
-#else
-    return font->FontSize;
-#endif
-}
-
-/* A child window with the padding of windows. */
-inline bool wr_gui_begin_part(const char *name, float w, float h, ImGuiWindowFlags flags)
-{
-#if IMGUI_VERSION_NUM >= 19000
-    return ImGui::BeginChild(name, ImVec2(w, h), ImGuiChildFlags_AlwaysUseWindowPadding, flags);
-#else
-    return ImGui::BeginChild(name, ImVec2(w, h), false,
-                             flags | ImGuiWindowFlags_AlwaysUseWindowPadding);
-#endif
-}
-
-/* A pointer in some versions, a number in others: these casts fit both. */
-inline ImTextureID wr_gui_texture_id(SDL_Texture *texture)
-{
-    return (ImTextureID)(intptr_t)texture;
-}
-
-inline SDL_Texture *wr_gui_texture_of(ImTextureID id)
-{
-    return (SDL_Texture *)(intptr_t)id;
-}
 
 bool wr_gui_is_list(const ImGuiWindow *window); /* a list within a part */
 

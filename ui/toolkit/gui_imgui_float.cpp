@@ -125,6 +125,7 @@ extern "C" void wr_gui_float_end(void)
 try {
     wr_gui_current()->floating = false;
     corner(wr_gui_current());
+    wr_gui_count_space();
     ImGui::End();
 }
 WR_CAUGHT()

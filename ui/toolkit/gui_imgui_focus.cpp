@@ -235,7 +235,7 @@ void wr_gui_focus_begun(WrGui *gui)
     if (focus->close_to >= 0 && g.OpenPopupStack.Size > focus->close_to)
         ImGui::ClosePopupToLevel(focus->close_to, false);
     if (focus->shown && g.IO.MouseDelta.x == 0 && g.IO.MouseDelta.y == 0)
-        g.NavDisableMouseHover = true; /* the widget under the pointer is not the target */
+        wr_gui_ignore_hover(); /* the widget under the pointer is not the target */
 }
 
 static void draw_ring(const WrKeyStop *stop)
@@ -314,7 +314,7 @@ extern "C" void wr_gui_focus_menus(WrGui *gui, bool opened)
         focus->home = focus->shown ? focus->at : 0;
         focus->in_menus = true;
         gui_go_to(focus, &focus->stops[i]);
-        if (opened) ImGui::ActivateItem(focus->at);
+        if (opened) wr_gui_activate(focus->at);
         return;
     }
 }
@@ -342,7 +342,7 @@ extern "C" unsigned wr_gui_under_pointer(void)
 {
     const ImGuiContext &g = *ImGui::GetCurrentContext();
     ImGuiWindow *window = g.HoveredWindow;
-    if (g.HoveredIdDisabled || !window) return 0;
+    if (wr_gui_disabled_hovered() || !window) return 0;
     if (g.HoveredId == ImGui::GetWindowScrollbarID(window, ImGuiAxis_X) ||
         g.HoveredId == ImGui::GetWindowScrollbarID(window, ImGuiAxis_Y))
         return 0; /* keys scroll its content */
@@ -447,7 +447,7 @@ static const WrKeyStop *beside(const WrFocus *focus, const WrKeyStop *now, int w
 static void press(WrFocus *focus, ImGuiID id)
 {
     focus->pressed = true;
-    ImGui::ActivateItem(id);
+    wr_gui_activate(id);
 }
 
 /* Open the neighbouring menu in place of the open one. */
@@ -464,7 +464,7 @@ static bool other_menu(WrFocus *focus, int way)
     focus->close_to = 0;
     focus->beside = true;
     gui_go_to(focus, to);
-    ImGui::ActivateItem(to->id);
+    wr_gui_activate(to->id);
     return true;
 }
 

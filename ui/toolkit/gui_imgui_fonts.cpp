@@ -66,8 +66,10 @@ extern "C" {
 #include "ui/toolkit/theme.h"
 }
 
+#include <ft2build.h>
+#include FT_FREETYPE_H
+#include FT_ADVANCES_H
 #include <imgui_freetype.h>
-#include <stb_truetype.h>
 
 #include <math.h>
 /* font sizes in units: text, bold, small */
@@ -82,43 +84,41 @@ static const char *const icon_families[] = { "Material Design Icons", nullptr };
 struct Face {
     char *bytes; /* owned; NULL: ImGui's built-in font */
     size_t length;
-    stbtt_fontinfo info;
-    float em; /* pixels */
+    FT_Face info;
     /* line height, from the highest ascender to the lowest descender, in units of `scale` */
     float units;
     float scale; /* pixels per unit */
 };
 
-static bool open_face(Face *face, const char *path, float em)
+static bool open_face(FT_Library library, Face *face, const char *path, float em)
 {
-    int ascent, descent, gap;
     if (!path || !wr_file_read(path, 32u << 20, &face->bytes, &face->length, nullptr)) return false;
     const auto *data = reinterpret_cast<const unsigned char *>(face->bytes);
-    int offset = stbtt_GetFontOffsetForIndex(data, 0);
-    if (offset < 0 || !stbtt_InitFont(&face->info, data, offset)) {
+    const bool opened =
+        FT_New_Memory_Face(library, data, (FT_Long)face->length, 0, &face->info) == 0;
+    if (!opened || !FT_IS_SCALABLE(face->info)) {
+        if (opened) FT_Done_Face(face->info);
         wr_free(face->bytes);
         face->bytes = nullptr;
         return false;
     }
-    stbtt_GetFontVMetrics(&face->info, &ascent, &descent, &gap);
-    face->em = em;
-    face->scale = stbtt_ScaleForMappingEmToPixels(&face->info, em);
-    face->units = (float)(ascent - descent);
+    face->scale = em / (float)face->info->units_per_EM;
+    face->units = (float)(face->info->ascender - face->info->descender);
     return true;
 }
 
-#if IMGUI_VERSION_NUM < 19200
 /* Restore the designed advances (ImGui rounds each up, which spreads words), and give all digits the same width, so
    that changing numbers do not jitter. */
 static void space_letters(ImFont *font, const Face *face)
 {
     float digit = 0.0f;
     for (int pass = 0; pass < 2; pass++) {
-        for (ImFontGlyph &glyph : font->Glyphs) {
-            int units, bearing, index = stbtt_FindGlyphIndex(&face->info, (int)glyph.Codepoint);
+        for (ImFontGlyph &glyph : wr_gui_glyphs(font)) {
+            FT_Fixed units;
+            const FT_UInt index = FT_Get_Char_Index(face->info, glyph.Codepoint);
             bool number = glyph.Codepoint >= '0' && glyph.Codepoint <= '9';
             if (index == 0) continue; /* an icon */
-            stbtt_GetGlyphHMetrics(&face->info, index, &units, &bearing);
+            if (FT_Get_Advance(face->info, index, FT_LOAD_NO_SCALE, &units) != 0) continue;
             float advance = (float)units * face->scale;
             if (pass == 0) {
                 if (number && glyph.Codepoint != '1' && advance > digit) digit = advance;
@@ -133,14 +133,8 @@ static void space_letters(ImFont *font, const Face *face)
             glyph.AdvanceX = advance;
         }
     }
-    font->BuildLookupTable();
+    wr_gui_glyphs_changed(font);
 }
-#else
-/* In this version letters are rasterised on demand, with their own advances. */
-static void space_letters(ImFont *, const Face *)
-{
-}
-#endif
 
 /* Convert the em size to the line height, which ImGui expects. */
 static ImFont *add_face(ImFontAtlas *atlas, const Face *face)
@@ -176,7 +170,7 @@ static void add_icons(ImFontAtlas *atlas, const char *path, float size, bool mer
     atlas->AddFontFromFileTTF(path, size, &config, used);
 }
 
-static void add_fonts(WrGui *gui, ImFontAtlas *atlas, Face faces[WR_FONT_ICON])
+static void add_fonts(WrGui *gui, ImFontAtlas *atlas, FT_Library library, Face faces[WR_FONT_ICON])
 {
     char *text = wr_font_file(text_families, 400);
     char *bold = wr_font_file(text_families, 600);
@@ -185,7 +179,7 @@ static void add_fonts(WrGui *gui, ImFontAtlas *atlas, Face faces[WR_FONT_ICON])
     gui->no_icons = !icons;
     for (int i = 0; i < WR_FONT_ICON; i++) {
         float em = roundf(face_ems[i] * (float)gui->scale);
-        bool found = open_face(&faces[i], i == WR_FONT_BOLD && bold ? bold : text, em);
+        bool found = open_face(library, &faces[i], i == WR_FONT_BOLD && bold ? bold : text, em);
         gui->fonts[i] = found ? add_face(atlas, &faces[i]) : atlas->AddFontDefault();
         if (found && icons) add_icons(atlas, icons, roundf(em * 1.35f), true);
     }
@@ -213,32 +207,22 @@ extern "C" const char *wr_gui_missing_fonts(const WrGui *gui)
     return gui->no_text ? "no font for text was found: install fonts-inter" : nullptr;
 }
 
-/* Snap stems to whole pixels only vertically, so that letter spacing is unchanged. */
-static void choose_rasterizer(ImFontAtlas *atlas)
-{
-#if IMGUI_VERSION_NUM >= 19200
-    atlas->SetFontLoader(ImGuiFreeType::GetFontLoader());
-    atlas->FontLoaderFlags = ImGuiFreeTypeLoaderFlags_LightHinting;
-#else
-    atlas->FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
-    atlas->FontBuilderFlags = ImGuiFreeTypeBuilderFlags_LightHinting;
-#endif
-}
-
 bool wr_gui_build_fonts(WrGui *gui, WrError *err)
 {
     ImFontAtlas *atlas = ImGui::GetIO().Fonts;
     Face faces[WR_FONT_ICON] = {};
+    FT_Library library;
+    if (FT_Init_FreeType(&library) != 0) return wr_fail(err, "no font could be drawn");
     atlas->Clear();
-    choose_rasterizer(atlas);
+    wr_gui_light_hinting(atlas);
     atlas->TexGlyphPadding = 1;
-    add_fonts(gui, atlas, faces);
+    add_fonts(gui, atlas, library, faces);
     unsigned char *pixels;
     int width, height;
     atlas->GetTexDataAsRGBA32(&pixels, &width, &height);
     for (int i = 0; i < WR_FONT_ICON; i++)
         if (faces[i].bytes) space_letters(gui->fonts[i], &faces[i]);
-    atlas->ClearInputData(); /* frees the font bytes */
+    FT_Done_FreeType(library); /* and the faces */
     for (Face &face : faces) wr_free(face.bytes);
     if (!pixels) return wr_fail(err, "no font could be drawn");
     if (gui->atlas) SDL_DestroyTexture(gui->atlas);
@@ -246,5 +230,6 @@ bool wr_gui_build_fonts(WrGui *gui, WrError *err)
     if (!gui->atlas) return wr_fail(err, "a texture of %dx%d: %s", width, height, SDL_GetError());
     atlas->ClearTexData();
     atlas->SetTexID(wr_gui_texture_id(gui->atlas));
+    wr_gui_fonts_built(atlas);
     return true;
 }

@@ -1,5 +1,4 @@
-/* Passing of keys to ImGui. Version 1.87 and later has a queue of key events and its own key codes; earlier ones an
-   array by the platform's codes. Only this file depends on the version. */
+/* Passing of keys to ImGui. */
 #include "ui/toolkit/gui_imgui.h"
 
 extern "C" {
@@ -47,10 +46,9 @@ static bool is_key(int code)
     return code >= 0 && code < WR_GUI_KEYS;
 }
 
-#if IMGUI_VERSION_NUM >= 18700
+/* ---- versions of ImGui: key events and codes of its own since 1.87, before that an array by the platform's codes ---- */
 
-/* ImGui spreads the events between two frames over several frames, so that no key is missed; modifiers are applied
-   with the key press they belong to. */
+#if IMGUI_VERSION_NUM >= 18700
 
 #if IMGUI_VERSION_NUM >= 18900
 #define MOD(name) ImGuiMod_##name
@@ -58,11 +56,10 @@ static bool is_key(int code)
 #define MOD(name) ImGuiKey_Mod##name
 #endif
 
-static ImGuiKey key_of(int code)
+/* ImGui would spread the events between two frames over several frames by rules of its own. */
+void wr_gui_keys_begin()
 {
-    for (const auto &pair : keys)
-        if (pair.sdl == code) return pair.imgui;
-    return ImGuiKey_None;
+    ImGui::GetIO().ConfigInputTrickleEventQueue = false;
 }
 
 static void send_held(int mod)
@@ -73,51 +70,16 @@ static void send_held(int mod)
     io.AddKeyEvent(MOD(Alt), (mod & KMOD_ALT) != 0);
 }
 
-void wr_gui_keys_begin()
+static void send_keys(const WrGui *gui)
 {
+    for (const auto &pair : keys) ImGui::GetIO().AddKeyEvent(pair.imgui, gui->down[pair.sdl]);
 }
 
-void wr_gui_keys_event(WrGui *gui, const SDL_KeyboardEvent *key)
-{
-    ImGuiKey known = key_of(key->keysym.scancode);
-    bool down = key->type == SDL_KEYDOWN;
-    if (down && key->keysym.scancode == SDL_SCANCODE_ESCAPE) gui->close_popups = true;
-    send_held(key->keysym.mod);
-    if (known != ImGuiKey_None) ImGui::GetIO().AddKeyEvent(known, down);
-}
-
-void wr_gui_keys_letters(WrGui *, const char *utf8)
-{
-    ImGui::GetIO().AddInputCharactersUTF8(utf8);
-}
-
-void wr_gui_keys_release(WrGui *)
-{
-    for (const auto &pair : keys) ImGui::GetIO().AddKeyEvent(pair.imgui, false);
-    send_held(0);
-}
-
-void wr_gui_keys_frame(WrGui *)
-{
-}
-
-bool wr_gui_keys_seen(WrGui *)
+static bool is_pressed(int code, bool repeated)
 {
     for (const auto &pair : keys)
-        if (ImGui::IsKeyDown(pair.imgui)) return true; /* its release may be in the queue */
+        if (pair.sdl == code) return ImGui::IsKeyPressed(pair.imgui, repeated);
     return false;
-}
-
-bool wr_gui_went_down(SDL_Scancode key)
-{
-    ImGuiKey known = key_of(key);
-    return known != ImGuiKey_None && ImGui::IsKeyPressed(known, false);
-}
-
-bool wr_gui_key_repeats(SDL_Scancode key)
-{
-    ImGuiKey known = key_of(key);
-    return known != ImGuiKey_None && ImGui::IsKeyPressed(known, true);
 }
 
 #else
@@ -126,6 +88,29 @@ void wr_gui_keys_begin()
 {
     for (const auto &pair : keys) ImGui::GetIO().KeyMap[pair.imgui] = pair.sdl;
 }
+
+static void send_held(int mod)
+{
+    ImGuiIO &io = ImGui::GetIO();
+    io.KeyShift = (mod & KMOD_SHIFT) != 0;
+    io.KeyCtrl = (mod & KMOD_CTRL) != 0;
+    io.KeyAlt = (mod & KMOD_ALT) != 0;
+}
+
+static void send_keys(const WrGui *gui)
+{
+    static_assert(sizeof gui->down == sizeof ImGui::GetIO().KeysDown, "one value for each key");
+    memcpy(ImGui::GetIO().KeysDown, gui->down, sizeof gui->down);
+}
+
+static bool is_pressed(int code, bool repeated)
+{
+    return is_key(code) && ImGui::IsKeyPressed(code, repeated);
+}
+
+#endif
+
+/* ---- the queue ---- */
 
 /* From the events between two frames ImGui reads all letters first (none while Ctrl is held), and only one of the
    keys that move or delete. So a frame gets letters, or one such key; the rest waits for the next frame, which
@@ -180,9 +165,10 @@ void wr_gui_keys_letters(WrGui *gui, const char *utf8)
 
 void wr_gui_keys_release(WrGui *gui)
 {
-    ImGuiIO &io = ImGui::GetIO();
-    memset(io.KeysDown, 0, sizeof io.KeysDown);
-    io.KeyShift = io.KeyCtrl = io.KeyAlt = false;
+    memset(gui->down, 0, sizeof gui->down);
+    memset(gui->released_late, 0, sizeof gui->released_late);
+    send_keys(gui);
+    send_held(0);
     int letters = 0;
     for (int i = 0; i < gui->typed_count; i++)
         if (gui->typed_on[i].letters[0]) gui->typed_on[letters++] = gui->typed_on[i];
@@ -194,7 +180,7 @@ static void key_down(WrGui *gui, const SDL_Keysym &key)
 {
     int code = key.scancode;
     if (code == SDL_SCANCODE_ESCAPE) gui->close_popups = true;
-    ImGui::GetIO().KeysDown[code] = gui->pressed_now[code] = true;
+    gui->down[code] = gui->pressed_now[code] = true;
     gui->released_late[code] = false;
     if (!is_held_key(code)) gui->held_late |= key.mod & (KMOD_CTRL | KMOD_SHIFT | KMOD_ALT);
 }
@@ -203,7 +189,7 @@ static void key_up(WrGui *gui, int code)
 {
     if (gui->pressed_now[code])
         gui->released_late[code] = true; /* pressed for one frame, then released */
-    else ImGui::GetIO().KeysDown[code] = false;
+    else gui->down[code] = false;
 }
 
 /* Move queued input to the next frame, from the first item. */
@@ -221,12 +207,12 @@ static void take_typed(WrGui *gui)
         }
         if (typed.down) {
             int code = typed.key.scancode;
-            bool down = ImGui::GetIO().KeysDown[code];
+            bool down = gui->down[code];
             if (down && !gui->released_late[code]) continue; /* held: ImGui repeats it itself */
             bool act = !is_held_key(code) && acts(typed.key);
             /* Released since the last frame: the frame must first see the release. Not for letters, which are passed
                as text. */
-            bool anew = down || ImGui::GetIO().KeysDownDuration[code] >= 0.0f;
+            bool anew = down || gui->was_down[code];
             if ((anew && !tells_by_letters(typed.key)) || (act && acted) ||
                 (letters && acts(typed.key)))
                 break;
@@ -247,12 +233,10 @@ static void take_typed(WrGui *gui)
 void wr_gui_keys_frame(WrGui *gui)
 {
     if (ImGui::GetCurrentContext() != gui->context) return;
-    ImGuiIO &io = ImGui::GetIO();
     take_typed(gui);
-    int mod = gui->typed_held | gui->held_late;
-    io.KeyShift = (mod & KMOD_SHIFT) != 0;
-    io.KeyCtrl = (mod & KMOD_CTRL) != 0;
-    io.KeyAlt = (mod & KMOD_ALT) != 0;
+    send_held(gui->typed_held | gui->held_late);
+    send_keys(gui);
+    memcpy(gui->was_down, gui->down, sizeof gui->down);
     gui->held_late = 0;
 }
 
@@ -262,7 +246,7 @@ bool wr_gui_keys_seen(WrGui *gui)
     for (int i = 0; i < WR_GUI_KEYS; i++) {
         gui->pressed_now[i] = false;
         if (!gui->released_late[i]) continue;
-        ImGui::GetIO().KeysDown[i] = gui->released_late[i] = false;
+        gui->down[i] = gui->released_late[i] = false;
         dropped = true;
     }
     return dropped;
@@ -270,12 +254,10 @@ bool wr_gui_keys_seen(WrGui *gui)
 
 bool wr_gui_went_down(SDL_Scancode key)
 {
-    return is_key(key) && ImGui::IsKeyPressed(key, false);
+    return is_pressed(key, false);
 }
 
 bool wr_gui_key_repeats(SDL_Scancode key)
 {
-    return is_key(key) && ImGui::IsKeyPressed(key, true);
+    return is_pressed(key, true);
 }
-
-#endif

@@ -24,6 +24,7 @@ WR_CAUGHT(0.0)
 
 extern "C" void wr_gui_menu_bar_end(void)
 try {
+    wr_gui_count_space();
     ImGui::EndMainMenuBar();
     ImGui::PopStyleColor();
     ImGui::PopStyleVar(2);
@@ -62,6 +63,7 @@ WR_CAUGHT(false)
 extern "C" void wr_gui_menu_end(void)
 {
     wr_gui_row_menu(nullptr);
+    wr_gui_count_space();
     if (wr_gui_reports_all) ImGui::End();
     else ImGui::EndMenu();
 }
@@ -101,6 +103,7 @@ extern "C" void wr_gui_popup_close(void)
 
 extern "C" void wr_gui_popup_end(void)
 {
+    wr_gui_count_space();
     if (wr_gui_reports_all) ImGui::End();
     else ImGui::EndPopup();
 }
@@ -149,6 +152,7 @@ WR_CAUGHT(false)
 
 extern "C" void wr_gui_dialog_end(void)
 {
+    wr_gui_count_space();
     ImGui::EndPopup();
 }
 
@@ -187,7 +191,7 @@ extern "C" bool wr_gui_text_field(const char *id, double width, char *text, size
 try {
     wr_gui_pin_step();
     ImGui::SetNextItemWidth(width > 0 ? (float)width : -1.0f);
-    if (focus || wr_gui_focus_pressed(ImGui::GetID(id))) ImGui::SetKeyboardFocusHere();
+    if (focus || wr_gui_focus_pressed(ImGui::GetID(id))) wr_gui_keyboard_here();
     bool done = ImGui::InputText(
         id, text, size, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     wr_gui_stop(WR_STOP_TEXT, false);
@@ -210,7 +214,7 @@ try {
     WrGui *gui = wr_gui_current();
     float tall = ImGui::GetTextLineHeight() * (float)lines + 2 * ImGui::GetStyle().FramePadding.y;
     if (focus || wr_gui_focus_pressed(ImGui::GetID(id))) {
-        ImGui::SetKeyboardFocusHere();
+        wr_gui_keyboard_here();
         gui->selecting = ImGui::GetID(id);
     }
     bool pending = gui->selecting == ImGui::GetID(id);
@@ -253,6 +257,7 @@ WR_CAUGHT()
 extern "C" void wr_gui_list_end(void)
 {
     wr_gui_stop_scrolled();
+    wr_gui_count_space();
     ImGui::EndChild();
 }
 

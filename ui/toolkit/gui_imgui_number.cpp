@@ -75,7 +75,7 @@ static WrEdit type_into(WrGui *gui, ImGuiID item, float width, const WrNumber *s
     ImGui::SetNextItemWidth(width);
     bool first = gui->typing_focus;
     gui->typing_frame = ImGui::GetFrameCount();
-    if (first) ImGui::SetKeyboardFocusHere();
+    if (first) wr_gui_keyboard_here();
     bool done =
         ImGui::InputText("##typed", gui->typed, sizeof gui->typed,
                          ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_EnterReturnsTrue);

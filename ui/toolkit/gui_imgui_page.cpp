@@ -52,6 +52,7 @@ extern "C" void wr_gui_page_end(double height, double scroll)
     ImGui::Dummy(ImVec2(1, (float)height));
     if (scroll >= 0) ImGui::SetScrollY((float)scroll);
     wr_gui_stop_scrolled();
+    wr_gui_count_space();
     ImGui::EndChild();
 }
 

@@ -66,6 +66,7 @@ extern "C" void wr_gui_area_end(void)
 try {
     wr_gui_stop_scrolled();
     wr_gui_pin_menu();
+    wr_gui_count_space();
     if (wr_gui_current()->floating) ImGui::EndChild();
     else ImGui::End();
 }
@@ -87,6 +88,7 @@ WR_CAUGHT()
 
 extern "C" void wr_gui_overlay_end(void)
 try {
+    wr_gui_count_space();
     ImGui::End();
 }
 WR_CAUGHT()
@@ -314,9 +316,7 @@ static void show_tip(const char *text)
 void wr_gui_tip_of(ImGuiID id, const char *text)
 try {
     wr_gui_row_tip(text);
-    const ImGuiContext &g = *ImGui::GetCurrentContext();
-    const bool grey = g.LastItemData.InFlags & ImGuiItemFlags_Disabled;
-    if (grey && wr_gui_current()->grey_why)
+    if (wr_gui_item_disabled() && wr_gui_current()->grey_why)
         return; /* the common tip of the disabled group is
                                                        shown */
     if (!wants_tip(id, text)) return;
@@ -346,7 +346,8 @@ try {
     const char *why = gui->grey_why;
     gui->grey_why = nullptr;
     if (why && wr_gui_reports_all) wr_gui_said(why);
-    if (!why || !g.HoveredIdDisabled || !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows))
+    if (!why || !wr_gui_disabled_hovered() ||
+        !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows))
         return;
     if (g.HoveredIdTimer < TIP_SECONDS) {
         gui->tip_waits = true;
@@ -399,10 +400,10 @@ try {
     float said_wide = ImGui::CalcTextSize(now).x;
     const bool tight = said_wide > room; /* shown in the small font */
     /* Drawn here: a font pushed across BeginCombo would be popped in the list's own window. */
-    const ImFont *small = wr_gui_current()->fonts[WR_FONT_SMALL];
-    if (tight) said_wide = small->CalcTextSizeA(small->FontSize, FLT_MAX, 0.0f, now).x;
+    ImFont *small = wr_gui_current()->fonts[WR_FONT_SMALL];
+    if (tight) said_wide = small->CalcTextSizeA(wr_gui_size_of(small), FLT_MAX, 0.0f, now).x;
     wr_gui_fits(now, said_wide, tight ? room + padding.x : room);
-    const float lower = (ImGui::GetFontSize() - small->FontSize) / 2;
+    const float lower = (ImGui::GetFontSize() - wr_gui_size_of(small)) / 2;
     const ImVec2 place(at.x + padding.x * 0.5f, at.y + padding.y + lower);
     const ImVec4 clip(at.x, at.y, right + px(13), at.y + ImGui::GetFrameHeight());
     const ImGuiID item = ImGui::GetID("##choice");
@@ -416,7 +417,7 @@ try {
     bool open = ImGui::BeginCombo("##choice", tight ? "" : now,
                                   ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton);
     if (tight)
-        list->AddText(small, small->FontSize, place, ImGui::GetColorU32(ImGuiCol_Text), now,
+        list->AddText(small, wr_gui_size_of(small), place, ImGui::GetColorU32(ImGuiCol_Text), now,
                       nullptr, 0.0f, &clip);
     wr_gui_edge(list, at, ImVec2(right + px(13), at.y + ImGui::GetFrameHeight()));
     if (!tight || place.x + said_wide < right - arrow)
@@ -1006,6 +1007,7 @@ extern "C" void wr_gui_group_begin(void)
 
 extern "C" void wr_gui_group_end(void)
 {
+    wr_gui_count_space();
     ImGui::EndGroup();
 }
 
@@ -1091,7 +1093,7 @@ try {
     ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::SetNextItemWidth(width > 0 ? (float)width : -1.0f);
     float wide = ImGui::CalcItemWidth();
-    if (wr_gui_focus_pressed(ImGui::GetID(id))) ImGui::SetKeyboardFocusHere();
+    if (wr_gui_focus_pressed(ImGui::GetID(id))) wr_gui_keyboard_here();
     bool changed = ImGui::InputTextWithHint(id, wr_gui_said(hint), text, size);
     wr_gui_stop(WR_STOP_TEXT, false);
     wr_gui_edge(ImGui::GetWindowDrawList(), at,
