@@ -30,8 +30,9 @@ if(TARGET wrinkle)
     if(NOT WR_SANITIZE)
         wr_script(packages packages.sh slow ${PROJECT_SOURCE_DIR} $<TARGET_FILE:wrinkle>)
         wr_script(aarch64 aarch64.sh slow ${PROJECT_SOURCE_DIR} $<TARGET_FILE:wrinkle> ${CMAKE_CURRENT_BINARY_DIR}/aarch64)
-        set_tests_properties(packages PROPERTIES TIMEOUT 5400 SKIP_RETURN_CODE 77)
         set_tests_properties(aarch64 PROPERTIES TIMEOUT 28800 SKIP_RETURN_CODE 77) # samples took 5 to 14 times as long in QEMU
+        wr_script(release_trixie releases.sh slow ${PROJECT_SOURCE_DIR} trixie)
+        set_tests_properties(packages release_trixie PROPERTIES TIMEOUT 5400 SKIP_RETURN_CODE 77)
     endif()
     wr_script(known_normals known_normals.sh repository $<TARGET_FILE:wrinkle> ${PROJECT_SOURCE_DIR})
 
