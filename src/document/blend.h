@@ -82,7 +82,7 @@ void wr_blend_tile(WrBlend mode, float opacity, float radius, const WrBlendTile 
 
    add and subtract change b as above, whatever a is. Where a = 1, b' has the bits of wr_blend_tile.
 
-   on_ground: nothing is below; then add takes h for b, as mix does
+   on_ground: nothing is below; then add uses h for b, as mix does
    cover    [count] 0..1 below, then of both */
 void wr_blend_tile_partial(WrBlend mode, bool on_ground, float opacity, float radius,
                            const WrBlendTile *tile, size_t count, float *below, float *cover);

@@ -168,7 +168,7 @@ typedef struct Saving {
     WR_ARRAY(char *) texts; /* names and values created for the file; owned */
 } Saving;
 
-/* Keeps a text until saving ends; takes ownership. */
+/* Keeps a text until saving ends; owns it from then on. */
 static const char *keep(Saving *to, WrText text)
 {
     char *kept = text.data ? text.data : wr_strdup("");

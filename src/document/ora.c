@@ -898,7 +898,7 @@ static bool add_text(Saving *to, const char *name, const char *text, size_t leng
     return add_entry(to, entry, err);
 }
 
-/* Adds a float picture; takes ownership of the name. */
+/* Adds a float picture; owns the name afterwards. */
 static bool add_floats(Saving *to, char *name, const WrField *field, WrError *err)
 {
     Entry entry = { .name = name,

@@ -1006,7 +1006,7 @@ static void set_levels(ImageSpec &spec, const WrImageOut &part)
 
 static bool check_write(WrCodecWriter &writer, bool ok, char *reason)
 {
-    /* The error handler of OpenImageIO 2.5 forgets failures at the end. */
+    /* The error handler of OpenImageIO 2.5 drops failures at the end. */
     if (!writer.disk && errno != EIO) note_disk_error();
     std::string message = writer.out->geterror();
     if (writer.disk && writer.disk->error) return fail(reason, std::strerror(writer.disk->error));
