@@ -55,8 +55,8 @@ says 'full pictures take as many samples' '[.sections[6].rows[] | .samples > 0] 
 grep -q '^this machine at its best: .* GFLOP/s; copying L1 .* GB/s$' table || complain 'no peaks'
 [[ $(grep -cE '^  .*( +[0-9.]+){5} +[0-9.-]+$' table) == 12 ]] || complain "not twelve rows: $(cat table)"
 
-"$program" bench schemes --exact --isa v1 --quick --size 16x16 --json >json || complain 'not with --exact'
-says 'arithmetic and isa' '.arithmetic == "exact" and .isa == "v1" and (.sections | length) == 1'
+"$program" bench schemes --exact --isa ref --quick --size 16x16 --json >json || complain 'not with --exact'
+says 'arithmetic and isa' '.arithmetic == "exact" and .isa == "ref" and (.sections | length) == 1'
 
 # All at once takes a minute: what --lines prints is there too.
 if [[ ${WR_FULL-} == 1 ]]; then

@@ -72,7 +72,7 @@ links() {
 # ---- a reflection model ----
 models=src/shade/reflection_models.h formulas=src/shade/reflection_body.h
 kinds=src/shade/reflection.h reference=src/render/reference/reference_shade.c
-kernels=(src/render/wr_kern_v1.c src/render/wr_kern_double_v1.c)
+kernels=(src/render/wr_kern_ref.c src/render/wr_kern_double_ref.c)
 # Files that have something to do with models: each includes the table, or has a switch.
 users=(src/shade/reflection.c src/shade/environment_brdf.c src/render/pipeline/pipeline.c src/render/plan/plan_light.c
     src/render/plan/plan_light.c src/render/plan/plan_light.c src/render/reference/reference_shade.c
