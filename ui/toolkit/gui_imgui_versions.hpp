@@ -132,6 +132,21 @@ inline bool wr_gui_disabled_hovered(void)
     return wr_gui_hovers_disabled(*ImGui::GetCurrentContext(), 0);
 }
 
+/* An invisible button below widgets that are drawn after it; it is hovered also where they are. */
+inline bool wr_gui_button_below(const char *name, ImVec2 size, bool *hovered)
+{
+#if IMGUI_VERSION_NUM >= 18970
+    ImGui::SetNextItemAllowOverlap();
+    const bool pressed = ImGui::InvisibleButton(name, size);
+    *hovered = ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenOverlappedByItem);
+#else
+    const bool pressed = ImGui::InvisibleButton(name, size);
+    *hovered = ImGui::IsItemHovered();
+    ImGui::SetItemAllowOverlap();
+#endif
+    return pressed;
+}
+
 /* Give the keyboard to the next item. Since 1.90 ImGui looks for it only in the focused window. */
 inline void wr_gui_keyboard_here(void)
 {

@@ -601,12 +601,11 @@ try {
     const ImRect &inner = ImGui::GetCurrentWindow()->InnerRect;
     ImGui::PushClipRect(ImVec2(left, inner.Min.y), ImVec2(right, inner.Max.y), gui->pin_skips);
     ImGui::SetCursorScreenPos(ImVec2(left, at.y));
-    bool released = ImGui::InvisibleButton("row", ImVec2(right - left, height));
-    bool hovered = ImGui::IsItemHovered(), held = ImGui::IsItemActive();
+    bool hovered, released = wr_gui_button_below("row", ImVec2(right - left, height), &hovered);
+    bool held = ImGui::IsItemActive();
     wr_gui_stop(WR_STOP_ROW, false);
     bool menu = (hovered && ImGui::IsMouseClicked(1)) || wr_gui_focus_menu(ImGui::GetItemID());
     bool moved = ImGui::IsMouseDragPastThreshold(0, px(5));
-    ImGui::SetItemAllowOverlap();
     const ImGuiID own = ImGui::GetItemID();
     const WrColour ground = ground_of(look, hovered);
     if (ground)
