@@ -3,7 +3,7 @@
 
 # The program: compiler and build tools, then the libraries that it links with, then its fonts.
 wr_program_packages=(
-    build-essential cmake ninja-build pkg-config
+    build-essential cmake ninja-build pkgconf
     libassimp-dev libexpat1-dev libfontconfig-dev libfreetype-dev libfribidi-dev libharfbuzz-dev libimgui-dev libjson-c-dev
     libdbus-1-dev libdeflate-dev libmd-dev libmd4c-dev libmypaint-dev libopenexr-dev libopenimageio-dev libpng-dev librsvg2-dev
     libsdl2-dev libseccomp-dev libsleef-dev libwayland-dev libx11-dev libxi-dev libxxhash-dev libzip-dev mypaint-brushes
