@@ -37,8 +37,8 @@ inline void wr_gui_glyphs_changed(ImFont *font)
 #endif
 }
 
-/* The fonts are rasterised and have their texture. Early versions keep files in memory that only the rasteriser needs; 1.92
-   needs them, and must know the atlas before a second context draws with it. */
+/* The fonts are rasterised and have their texture. Early versions free the font files; 1.92 loses the glyphs with them, and
+   requires an update before a second context draws with the atlas. */
 inline void wr_gui_fonts_built(ImFontAtlas *atlas)
 {
 #if IMGUI_VERSION_NUM >= 19200
@@ -147,7 +147,7 @@ inline bool wr_gui_button_below(const char *name, ImVec2 size, bool *hovered)
     return pressed;
 }
 
-/* Give the keyboard to the next item. Since 1.90 ImGui looks for it only in the focused window. */
+/* Give the keyboard to the next item. Since 1.90 ImGui searches only the focused window. */
 inline void wr_gui_keyboard_here(void)
 {
     ImGuiWindow *window = ImGui::GetCurrentWindow();
@@ -155,7 +155,7 @@ inline void wr_gui_keyboard_here(void)
     ImGui::SetKeyboardFocusHere();
 }
 
-/* Before the end of a window or group: space below the last item counts. 1.92 demands an item for it. */
+/* Before the end of a window or group: space below the last item counts. 1.92 requires an item for it. */
 inline void wr_gui_count_space(void)
 {
 #if IMGUI_VERSION_NUM >= 19200
