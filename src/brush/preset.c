@@ -5,6 +5,7 @@
 #include "base/exactmath.h"
 #include "base/file.h"
 #include "base/hash.h"
+#include "base/memory.h"
 #include "base/text.h"
 #include "brush/preset_internal.h"
 #include "system/path.h"
@@ -715,14 +716,15 @@ static bool read_root(WrPreset *preset, json_object *root, const char *folder, W
 
 /* json_tokener_parse_ex stops at the object's end; bytes after it, also a NUL, are an error, or a truncated or concatenated
    file would be accepted. */
-static json_object *parse_json(const char *text, size_t size, const char *name, WrError *err)
+static json_object *parse_with(int flags, const char *text, size_t size, const char *name,
+                               WrError *err)
 {
     json_tokener *tokener = json_tokener_new_ex(DEPTH);
     if (!tokener) {
         wr_fail(err, "%.100s: no memory to read it", name);
         return NULL;
     }
-    json_tokener_set_flags(tokener, JSON_TOKENER_STRICT | JSON_TOKENER_VALIDATE_UTF8);
+    json_tokener_set_flags(tokener, flags);
     json_object *root = json_tokener_parse_ex(tokener, text, (int)size);
     enum json_tokener_error status = json_tokener_get_error(tokener);
     size_t end = json_tokener_get_parse_end(tokener);
@@ -743,6 +745,23 @@ static json_object *parse_json(const char *text, size_t size, const char *name, 
             wr_fail(err, "%.100s: byte %zu: text after the JSON object's end", name, end);
         }
     return root;
+}
+
+/* The strict mode of json-c 0.18 rejects letters beyond ASCII, so the syntax is checked with others in their place. */
+static json_object *parse_json(const char *text, size_t size, const char *name, WrError *err)
+{
+    char *ascii = wr_alloc(size + 1, 1);
+    bool more = false;
+    for (size_t i = 0; i < size; i++) {
+        const bool beyond = (unsigned char)text[i] > 127;
+        ascii[i] = beyond ? 'x' : text[i];
+        more |= beyond;
+    }
+    json_object *root = parse_with(JSON_TOKENER_STRICT, ascii, size, name, err);
+    wr_free(ascii);
+    if (!root || !more) return root;
+    json_object_put(root);
+    return parse_with(JSON_TOKENER_VALIDATE_UTF8, text, size, name, err);
 }
 
 WrPreset *wr_preset_parse(const char *text, size_t size, const char *name, const char *folder,
