@@ -7,7 +7,7 @@
 #include <math.h>
 
 #define EDGE 64      /* points along a border */
-#define STEP 15.0    /* degrees of the turntable */
+#define STEP 15      /* degrees of the turntable */
 #define CLEARLY 0.15 /* relative to the square of the object's radius */
 #define HOLES 2      /* maximum for a surface */
 #define SAME 1e-6    /* relative to the radius: the points are equal */
@@ -127,7 +127,7 @@ static bool object_shows(const WrScene *part)
     if (holes.count == 0 || !wr_scene_place_with_radius(part, radius, 0, 1, &place, NULL))
         return false;
     const double most = seen(&holes, &place) + CLEARLY * radius * radius;
-    for (double turn = STEP; turn < 360; turn += STEP)
+    for (int turn = STEP; turn < 360; turn += STEP)
         if (wr_scene_place_with_radius(part, radius, turn, 1, &place, NULL) &&
             seen(&holes, &place) > most)
             return true;

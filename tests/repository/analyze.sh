@@ -20,6 +20,8 @@ tidy src/image/font_load.c bugprone-signed-char-misuse 1: levels of FriBidi are 
 tidy src/render/pipeline/pipeline_body.h misc-redundant-expression 1: one text in two precisions
 tidy src/system/linux.c bugprone-unsafe-functions 1: vfork is needed for a child that dies with its parent; signals are blocked around it
 tidy src/system/path.c clang-analyzer-unix.StdCLibraryFunctions 4: the folder is open, so that dirfd has a descriptor
+tidy ui/input/pen_curve.c clang-analyzer-core.CallAndMessage 1: a curve that is valid has two points or more
+tidy ui/input/pen_curve.c clang-analyzer-core.UndefinedBinaryOperatorResult 3: a curve that is valid has two points or more
 '
 
 root=$(CDPATH='' cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/../.." && pwd -P)

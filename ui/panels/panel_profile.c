@@ -51,8 +51,8 @@ static void draw_curve(const WrProfileState *hand, const WrPad *pad, const WrSha
     const double s = wr_gui_scale();
     WrSurfacePoint last = { 0 };
     const double axis = x_of(hand, pad, 0);
-    for (double y = pad->y; y < pad->y + pad->h; y += 8 * s)
-        wr_gui_draw_fill(axis - 0.5 * s, y, s, 4 * s, 0x60909090u, 0);
+    for (int i = 0; i * 8 * s < pad->h; i++)
+        wr_gui_draw_fill(axis - 0.5 * s, pad->y + i * 8 * s, s, 4 * s, 0x60909090u, 0);
     for (int i = 0; i <= STEPS; i++) {
         WrSurfacePoint at;
         wr_surface_at(shape, 0, 0, (double)i / STEPS, &at);

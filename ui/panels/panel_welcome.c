@@ -39,9 +39,10 @@ void wr_welcome_open(WrApp *app)
 
 static const char *const beginnings[] = { "bricks", "coin" };
 
-/* A starter by its file's name, NULL: it is missing. */
+/* The starter that beginning i opens. NULL: it opens a blank table, or the starter is missing. */
 static const WrScript *starter_of(const WrApp *app, int i)
 {
+    if (i >= (int)WR_LENGTH(beginnings)) return NULL;
     const WrScriptList *list = &app->shelf->starters;
     WrText name = { 0 };
     const WrScript *found = NULL;
@@ -54,8 +55,8 @@ static const WrScript *starter_of(const WrApp *app, int i)
 
 static void beginning(const WrApp *app, int i, WrPictureItem *out)
 {
-    if (i < (int)WR_LENGTH(beginnings)) {
-        const WrScript *starter = starter_of(app, i);
+    const WrScript *starter = starter_of(app, i);
+    if (starter) {
         out->title = starter->title, out->help = starter->words;
         out->picture = starter->picture;
         return;
@@ -68,8 +69,9 @@ static void beginning(const WrApp *app, int i, WrPictureItem *out)
 static void begin_with(WrApp *app, int i)
 {
     wr_dialog_close(app);
-    if (i < (int)WR_LENGTH(beginnings)) {
-        wr_app_open_path(app, starter_of(app, i)->path);
+    const WrScript *starter = starter_of(app, i);
+    if (starter) {
+        wr_app_open_path(app, starter->path);
         return;
     }
     WrText lines = { 0 };

@@ -258,7 +258,7 @@ static void place_shell(const WrTileJob *job, const Strip *s, const March *m, co
         near->py[k] = s->py[i] + t[i] * m->dy[i];
         near->pz[k] = s->pz[i] + t[i] * m->dz[i];
     }
-    round_of(job)->params(&VIEWED(job->view, shape), near);
+    KERNELS_OF(job)->round[job->plan->inversion].params(&VIEWED(job->view, shape), near);
 }
 
 /* Height of one of those points above the base. */

@@ -173,20 +173,19 @@ static bool illusion_height(const WrApp *app, const Step *step, WrText *out)
     return true;
 }
 
-static int recommended(const WrApp *app)
+static int recommended(const WrAccuracyBenchmark *benchmark)
 {
-    const WrAccuracyBenchmark *benchmark = benchmark_of(app);
     return benchmark ? best(benchmark, WR_AXIS_COUNT, true, HARD_TO_SEE) : -1;
 }
 
 static bool recommendation(const WrApp *app, const Step *step, WrText *out)
 {
     (void)step;
-    if (!benchmark_of(app)) return false;
-    const int rung = recommended(app);
+    const WrAccuracyBenchmark *benchmark = benchmark_of(app);
+    if (!benchmark) return false;
+    const int rung = recommended(benchmark);
     if (rung < 0) wr_text_add(out, wr_words("No setting has an error that is hard to see."));
-    else
-        add_rung("Fastest with an error that is hard to see", &benchmark_of(app)->rungs[rung], out);
+    else add_rung("Fastest with an error that is hard to see", &benchmark->rungs[rung], out);
     return true;
 }
 
@@ -338,7 +337,7 @@ void wr_panel_study(WrApp *app)
     print_result(app, step);
     wr_gui_list_end();
     if (a->study.step < WR_LENGTH(steps)) return;
-    const int rung = recommended(app);
+    const int rung = recommended(benchmark_of(app));
     wr_gui_disable(rung < 0);
     if (wr_gui_button("Use this setting", false)) wr_accuracy_take_rung(app, 0, rung);
     wr_gui_disable_end();
