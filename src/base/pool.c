@@ -243,6 +243,14 @@ void wr_once_async_begin(WrOnceAsync *once)
     wr_mutex_unlock(&lock);
 }
 
+bool wr_once_async_done(const WrOnceAsync *once)
+{
+    wr_mutex_lock(&lock);
+    const bool done = once->done;
+    wr_mutex_unlock(&lock);
+    return done;
+}
+
 bool wr_once_async_wait(WrOnceAsync *once, WrError *err)
 {
     bool stopped = false;

@@ -55,6 +55,8 @@ bool wr_once_async_wait(WrOnceAsync *once, WrError *err);
 /* Starts the work in advance, unless it is running or done, and returns at once. */
 void wr_once_async_begin(WrOnceAsync *once);
 
+bool wr_once_async_done(const WrOnceAsync *once);
+
 /* Lets the process exit without waiting for running work; exit handlers that were registered before
  * this call (it may be called several times) are then skipped. The two functions above call it. */
 void wr_once_async_watch_end(void);

@@ -161,11 +161,10 @@ static void look_through(WrLibrary *library, int collection, const char *root, c
         WrText path = { 0 }, full = { 0 };
         wr_text_addf(&path, "%s%s%s", below, *below ? "/" : "", name);
         wr_text_addf(&full, "%s/%s", root, path.data);
-        if (is_folder(full.data)) {
-            if (deep < DEEP) look_through(library, collection, root, path.data, deep + 1);
-        } else if (length > 4 && strcmp(name + length - 4, ".myb") == 0) {
-            add_preset(library, collection, root, path.data);
-        }
+        const char *end = length > 4 ? name + length - 4 : "";
+        if (strcmp(end, ".myb") == 0) add_preset(library, collection, root, path.data);
+        else if (strcmp(end, ".png") != 0 && deep < DEEP && is_folder(full.data))
+            look_through(library, collection, root, path.data, deep + 1);
         wr_text_fini(&path);
         wr_text_fini(&full);
     }

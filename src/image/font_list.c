@@ -302,6 +302,11 @@ void wr_font_config_begin(void)
     wr_once_async_begin(&loaded);
 }
 
+bool wr_font_config_done(void)
+{
+    return wr_once_async_done(&loaded);
+}
+
 /* ---- files of families ---- */
 
 /* The first readable file of an exact family and weight, in the order of their paths; NULL: none. Instances of variable fonts

@@ -363,6 +363,7 @@ static void add_light(double rgb[3], double share, double r, double g, double b)
    Gnomonic projection onto the panel's plane; |x|, |y| are tangents of angles from its middle. */
 static inline double panel(WrVec3 d, WrVec3 middle, double wide, double high)
 {
+    if (!(v3_dot(d, middle) > 0)) return 0; /* behind it */
     const WrVec3 m = v3_unit(middle, (WrVec3){ 0, 1, 0 }), up = { 0, 1, 0 }, back = { 0, 0, 1 };
     const WrVec3 side = v3_unit(v3_cross(fabs(m.y) > 0.99 ? back : up, m), back);
     const WrVec3 above = v3_cross(m, side);

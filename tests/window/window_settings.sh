@@ -58,6 +58,19 @@ ends 0
 grep -qx 'nothing to recover' out || complain "something is left to recover: $(cat out)"
 remembers "$radius" || complain "the end took the brush's size"
 
+# ---- the files of the fonts are stored; one that is no font is replaced at the next start ----
+grep '^window_font ' "$conf" | sort >fonts
+[[ $(wc -l <fonts) == 3 ]] || complain "the fonts are not stored: $(cat fonts)"
+while read -r _ file; do
+    [[ -r $file ]] || complain "there is no $file"
+done <fonts
+sed -i "0,/^window_font .*/s||window_font $folder/mine.exr|" "$conf"
+start
+rest
+xdotool key ctrl+q
+ends 0
+grep '^window_font ' "$conf" | sort | diff fonts - || complain 'a damaged entry is not replaced'
+
 # ---- a damaged journal is asked about, and its rest stays ----
 start mine.exr
 for y in 250 350 450; do

@@ -95,13 +95,14 @@
 bool wr_app_begin(WrApp *app, WrError *err)
 {
     wr_settings_begin(app);
-    wr_font_config_begin(); /* while the window opens */
+    if (!app->settings->window_fonts[WR_GUI_FONT_FILES - 1])
+        wr_font_config_begin(); /* while the window opens */
     wr_app_start_ahead(app);
     wr_words_choose(app->settings->language);
     wr_theme_set(app->settings->theme);
     if (!wr_window_open(app)) return wr_fail(err, "no window: %s", SDL_GetError());
     app->drawn_scale = wr_app_wanted_scale(app);
-    app->gui = wr_gui_new(app->renderer, app->drawn_scale, err);
+    app->gui = wr_gui_new(app->renderer, app->drawn_scale, app->settings->window_fonts, err);
     if (!app->gui) return false;
     wr_gui_use_folds(app->gui, app->settings->folds);
     wr_gui_use_pins(app->gui, app->settings->pins, WR_PINS_MAX);

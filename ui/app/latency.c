@@ -20,6 +20,7 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "image/font_list.h"
 #include "image/image.h"
 #include "system/clock.h"
 #include "system/process.h"
@@ -445,9 +446,12 @@ void wr_timing_note(WrApp *app, double seconds)
 {
     WrTiming *t = app->timing;
     if (t->pictures++ == 0) report_first(app);
-    /* Start the reader process after the first frames, so that the first picture file loads fast and the start is not
-       delayed. */
-    if (t->pictures == 2 && !app->latency) wr_image_warm();
+    /* Start the reader process and load the list of fonts after the first frames, so that the first picture file loads fast
+       and the start is not delayed. */
+    if (t->pictures == 2 && !app->latency) {
+        wr_image_warm();
+        wr_font_config_begin();
+    }
     t->seconds += seconds;
     t->slowest = seconds > t->slowest ? seconds : t->slowest;
 }

@@ -6,6 +6,7 @@
 #include "ui/canvas/tools/preset_browser.h"
 
 #include "command/session.h"
+#include "image/font_list.h"
 #include "system/clock.h"
 
 #include <SDL.h>
@@ -56,5 +57,7 @@ void wr_settings_autosave(WrApp *app)
 
 void wr_settings_end(WrApp *app)
 {
-    if (!app->latency) write_changes(app, true);
+    if (app->latency) return;
+    if (wr_font_config_done()) wr_gui_find_fonts(app->settings->window_fonts);
+    write_changes(app, true);
 }

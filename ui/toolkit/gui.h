@@ -19,8 +19,14 @@ extern "C" {
 typedef struct WrGui WrGui;
 typedef struct WrRetainedFrame WrRetainedFrame;
 
-/* scale: 0.75..4. The caller owns it; it must be freed before the renderer. */
-WrGui *wr_gui_new(SDL_Renderer *renderer, double scale, WrError *err);
+/* The font files of text, bold text and icons. */
+#define WR_GUI_FONT_FILES 3
+
+/* scale: 0.75..4. font_files: [WR_GUI_FONT_FILES] from an earlier start, owned by the caller, who keeps them until
+ * wr_gui_free; replaced if one is NULL or does not open. The caller owns the result; it must be freed before the renderer. */
+WrGui *wr_gui_new(SDL_Renderer *renderer, double scale, char **font_files, WrError *err);
+/* Replaces the files by those that Fontconfig finds; NULL: none. */
+void wr_gui_find_fonts(char **files);
 void wr_gui_free(WrGui *gui); /* NULL is allowed */
 /* States of the folds (folds.h), owned by the caller, who keeps them until wr_gui_free. NULL: none are remembered. */
 void wr_gui_use_folds(WrGui *gui, char **folds);

@@ -115,7 +115,7 @@ static void settle_io(WrGui *gui)
     wr_gui_keys_begin();
 }
 
-extern "C" WrGui *wr_gui_new(SDL_Renderer *renderer, double scale, WrError *err)
+extern "C" WrGui *wr_gui_new(SDL_Renderer *renderer, double scale, char **font_files, WrError *err)
 try {
     WrGui *gui = static_cast<WrGui *>(calloc(1, sizeof(WrGui)));
     if (!gui) {
@@ -132,6 +132,7 @@ try {
         return nullptr;
     }
     gui->renderer = renderer;
+    gui->font_files = font_files;
     gui->kept = wr_retained_frame_new(renderer);
     gui->context = ImGui::CreateContext();
     settle_io(gui);

@@ -99,6 +99,7 @@ struct WrGui {
     const char *grey_why;
     ImFont *fonts[WR_FONT_COUNT];
     double scale;
+    char **font_files;      /* WR_GUI_FONT_FILES; borrowed */
     bool no_icons, no_text; /* their fonts are missing */
     bool held[3];           /* button states from events */
     bool pressed[3];        /* pressed since the last frame, so that no press is missed */

@@ -170,11 +170,34 @@ static void add_icons(ImFontAtlas *atlas, const char *path, float size, bool mer
     atlas->AddFontFromFileTTF(path, size, &config, used);
 }
 
+static bool opens(FT_Library library, const char *path)
+{
+    FT_Face face;
+    if (!path || FT_New_Face(library, path, 0, &face) != 0) return false;
+    FT_Done_Face(face);
+    return true;
+}
+
+/* Files of an earlier start are used while they open: Fontconfig needs longer than the rest of the start. */
+static void find_files(FT_Library library, char **files)
+{
+    bool all = true;
+    for (int i = 0; i < WR_GUI_FONT_FILES; i++) all = all && opens(library, files[i]);
+    if (!all) wr_gui_find_fonts(files);
+}
+
+extern "C" void wr_gui_find_fonts(char **files)
+{
+    for (int i = 0; i < WR_GUI_FONT_FILES; i++) wr_free(files[i]);
+    files[0] = wr_font_file(text_families, 400);
+    files[1] = wr_font_file(text_families, 600);
+    files[2] = wr_font_file(icon_families, 400);
+}
+
 static void add_fonts(WrGui *gui, ImFontAtlas *atlas, FT_Library library, Face faces[WR_FONT_ICON])
 {
-    char *text = wr_font_file(text_families, 400);
-    char *bold = wr_font_file(text_families, 600);
-    char *icons = wr_font_file(icon_families, 400);
+    find_files(library, gui->font_files);
+    const char *text = gui->font_files[0], *bold = gui->font_files[1], *icons = gui->font_files[2];
     gui->no_text = !text;
     gui->no_icons = !icons;
     for (int i = 0; i < WR_FONT_ICON; i++) {
@@ -187,9 +210,6 @@ static void add_fonts(WrGui *gui, ImFontAtlas *atlas, FT_Library library, Face f
     int before = atlas->Fonts.Size;
     if (icons) add_icons(atlas, icons, roundf(22.0f * (float)gui->scale), false);
     if (atlas->Fonts.Size > before) gui->fonts[WR_FONT_ICON] = atlas->Fonts.back();
-    wr_free(text);
-    wr_free(bold);
-    wr_free(icons);
 }
 
 const char *wr_gui_icon(const char *icon)

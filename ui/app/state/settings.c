@@ -237,7 +237,7 @@ typedef struct TextRow {
     void (*note)(WrSettings *settings, const char *text);
 } TextRow;
 
-#define TEXT_ROWS 12
+#define TEXT_ROWS 13
 
 static void text_rows_of(WrSettings *s, TextRow rows[TEXT_ROWS])
 {
@@ -247,6 +247,7 @@ static void text_rows_of(WrSettings *s, TextRow rows[TEXT_ROWS])
         { "favourite", s->favourites, WR_FAVOURITES_MAX, true, NULL },
         { "used", s->used, WR_USED_MAX, true, wr_settings_note_used },
         { "font", s->fonts, WR_FONTS_MAX, true, wr_settings_note_font },
+        { "window_font", s->window_fonts, WR_GUI_FONT_FILES, false, NULL },
         { "preset", &s->preset, 1, false, NULL },
         { "tip", &s->tip, 1, false, NULL },
         { "set", &s->set, 1, false, NULL },

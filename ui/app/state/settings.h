@@ -3,6 +3,7 @@
 #include "ui/canvas/canvas.h"
 #include "ui/app/state/layout.h"
 #include "ui/toolkit/folds.h"
+#include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
 #include "ui/input/pen_curve.h"
 
@@ -83,6 +84,8 @@ typedef struct WrSettings {
     char *used[WR_USED_MAX];
     /* Recently used fonts, newest first, owned; NULL-terminated: a name of wr_font_names or "FACE PATH". */
     char *fonts[WR_FONTS_MAX];
+    /* Files of the window's fonts, for a faster start, owned (wr_gui_new). */
+    char *window_fonts[WR_GUI_FONT_FILES];
     bool symmetric;      /* brush.symmetry is `symmetry`; else there is no symmetry */
     WrSymmetry symmetry; /* kept while symmetry is off */
     bool mesh_mirror[3]; /* on meshes it has mirrors across these axes instead */
