@@ -285,9 +285,9 @@ bool wr_stroke_resolve_needed(const WrStrokeResolver *maker, const WrStrokeResol
 
 void wr_stroke_resolve_open(const WrStrokeResolver *maker, WrStrokeResolve *make)
 {
-    make->out = wr_field_tile_write(maker->ground.field, make->tx, make->ty);
-    make->mark =
-        maker->ground.mark ? wr_field_tile_write(maker->ground.mark, make->tx, make->ty) : NULL;
+    WrField *mark = maker->ground.mark;
+    make->out = wr_field_tile_place(maker->ground.field, make->tx, make->ty);
+    make->mark = mark ? wr_field_tile_place(mark, make->tx, make->ty) : NULL;
 }
 
 /* Painting raises the mark to the weight; erasing removes that fraction of the previous mark. */
@@ -311,6 +311,9 @@ static void make_mark(const WrStrokeResolver *maker, const float *before, const 
 void wr_stroke_resolve(const WrStrokeResolver *maker, const WrStrokeResolve *make)
 {
     alignas(WR_ALIGN) float part[WR_TILE], flat[WR_TILE];
+    const WrField *marks = maker->ground.mark;
+    float *out = wr_field_place_write(make->out, wr_field_level(maker->ground.field));
+    float *mark = make->mark ? wr_field_place_write(make->mark, wr_field_level(marks)) : NULL;
     const float *selection = selection_of(maker, make);
     const float *start = wr_field_tile(maker->start, make->tx, make->ty);
     const float *mark_start =
@@ -323,17 +326,18 @@ void wr_stroke_resolve(const WrStrokeResolver *maker, const WrStrokeResolve *mak
         int at = y * WR_TILE + make->low_x;
         const float *counts = all_counts ? make->cover + at : part;
         if (!all_counts) parts(maker, make, selection, at, part);
-        if (make->mark)
-            make_mark(maker, mark_start ? mark_start + at : NULL, counts, make->count,
-                      make->mark + at);
+        if (mark)
+            make_mark(maker, mark_start ? mark_start + at : NULL, counts, make->count, mark + at);
         maker->work->cover(&maker->args, start ? start + at : flat, counts,
-                           make->target ? make->target + at : NULL, make->count, make->out + at);
+                           make->target ? make->target + at : NULL, make->count, out + at);
     }
 }
 
 #define MANY_PAGES 64  /* number worth several threads */
 #define FEW_PAGES 8    /* between checks of the clock */
 #define POOL_PAGES 256 /* the same, by several threads */
+#define LARGE 256.0    /* texels: reach of shapes that are added together, */
+#define TOGETHER 32    /* and their largest number */
 
 void wr_coverage_init(WrCoverage *cover, const WrBrushGround *ground, const WrBrush *brush,
                       WrCoverageRule rule)
@@ -357,6 +361,7 @@ void wr_coverage_fini(WrCoverage *cover)
     wr_array_free(&cover->made);
     wr_array_free(&cover->changed);
     wr_array_free(&cover->makes);
+    wr_array_free(&cover->waiting);
     wr_free(cover->pages);
     cover->pages = NULL;
     wr_stroke_resolver_fini(&cover->maker);
@@ -370,13 +375,18 @@ static WrPage *page_of(WrCoverage *cover, int tx, int ty)
         *slot = wr_alloc(1, sizeof **slot);
         (*slot)->tx = tx;
         (*slot)->ty = ty;
-        (*slot)->cover = wr_field_tile_make();
-        memset((*slot)->cover, 0, WR_TILE * WR_TILE * sizeof(float));
-        if (cover->rule == WR_COVERAGE_SUM)
-            (*slot)->rest = wr_alloc(WR_TILE * WR_TILE, sizeof(float));
         wr_array_push(&cover->made, *slot);
     }
     return *slot;
+}
+
+/* Its texels: from the system, which clears fresh memory, so by the thread that fills them. */
+static float *texels_of(const WrCoverage *cover, WrPage *page)
+{
+    if (page->cover) return page->cover;
+    if (cover->rule == WR_COVERAGE_SUM) page->rest = wr_alloc(TEXELS, sizeof(float));
+    page->cover = wr_field_tile_make();
+    return memset(page->cover, 0, TEXELS * sizeof(float));
 }
 
 /* Called for each tile before its texels are covered. False if they cannot gain coverage: a large brush passes most of its tiles
@@ -430,16 +440,15 @@ static bool gain(const WrCoverage *cover, WrPage *page, const WrDabShape *shape,
     return false;
 }
 
-/* An upper bound of a shape's coverage in the tile of that run: at a distance to the motion that no texel of the tile falls
-   below. The last factor is more than all rounding errors. */
-static float bound_in_tile(const WrDabShape *shape, const WrRun *run)
+/* An upper bound of a shape's coverage in the tile whose first texel lies at (x, y), not wrapped: at a distance to the motion
+   that no texel of the tile falls below. The last factor is more than all rounding errors. */
+static float bound_in_tile(const WrDabShape *shape, double x, double y)
 {
     const WrCapsule *c = &shape->capsule;
     const double half = 0.5 * (WR_TILE - 1), diagonal = 1.4143 * half; /* > sqrt(2) half */
     if (shape->kind != WR_SHAPE_DAB && shape->kind != WR_SHAPE_MOTION)
         return (float)shape->strongest;
-    const double x = run->x - run->at % WR_TILE + half - c->x;
-    const double y = run->y - run->at / WR_TILE + half - c->y;
+    x += half - c->x, y += half - c->y;
     const double t = fmin(fmax((x * c->dx + y * c->dy) * c->inverse_length2, 0.0), 1.0);
     const double ex = x - t * c->dx, ey = y - t * c->dy, d = sqrt(ex * ex + ey * ey) - diagonal;
     if (d <= c->inner) return (float)shape->strongest;
@@ -451,16 +460,41 @@ static void visit(void *ctx, const WrDabShape *shape, const WrScanPatch *patch)
 {
     WrCoverage *cover = ctx;
     WrPage *page = cover->pages[(size_t)patch->ty * (size_t)cover->tiles_u + (size_t)patch->tx];
+    const WrRun *run = &patch->runs[0];
     const bool greatest = cover->rule == WR_COVERAGE_MAX;
     bool any = false;
-    if (greatest && page->least >= bound_in_tile(shape, &patch->runs[0])) return;
+    if (greatest &&
+        page->least >= bound_in_tile(shape, run->x - run->at % WR_TILE, run->y - run->at / WR_TILE))
+        return;
+    texels_of(cover, page);
     for (int k = 0; k < patch->count; k++)
         if (gain(cover, page, shape, &patch->runs[k])) note(page, &patch->runs[k]), any = true;
-    if (greatest && any) page->least = shape->kernels->least(page->cover, WR_TILE * WR_TILE);
+    if (greatest && any) page->least = shape->kernels->least(page->cover, TEXELS);
+}
+
+/* The largest bound first: it raises the least coverage of a tile, and the motions whose bounds are not above it are passed over. So
+   the motions of a frame cost little more than the few that are nearest, however many there are. The greatest coverage does
+   not depend on the order. */
+static void add_waiting(WrCoverage *cover)
+{
+    const WrBrushGround *ground = &cover->maker.ground;
+    if (cover->waiting.count == 0) return;
+    cover->strongest = 0;
+    for (int i = 0; i < cover->waiting.count; i++)
+        cover->strongest = fmax(cover->strongest, (double)(float)cover->waiting.data[i].strongest);
+    wr_scan_together(ground->field, cover->waiting.data, cover->waiting.count, ground->pool,
+                     prepare, visit, bound_in_tile, cover);
+    cover->strongest = HUGE_VAL;
+    cover->waiting.count = 0;
 }
 
 void wr_coverage_add(WrCoverage *cover, const WrDabShape *shape)
 {
+    if (cover->rule == WR_COVERAGE_MAX && shape->reach_x >= LARGE) {
+        wr_array_push(&cover->waiting, *shape);
+        if (cover->waiting.count == TOGETHER) add_waiting(cover);
+        return;
+    }
     if (cover->rule == WR_COVERAGE_MAX) cover->strongest = (double)(float)shape->strongest;
     wr_scan(cover->maker.ground.field, shape, cover->maker.ground.pool, prepare, visit, cover);
     cover->strongest = HUGE_VAL;
@@ -471,7 +505,7 @@ void wr_coverage_add_texel(WrCoverage *cover, int x, int y, float c)
     if (!prepare(cover, x / WR_TILE, y / WR_TILE)) return;
     WrPage *page = page_of(cover, x / WR_TILE, y / WR_TILE);
     const int at = y % WR_TILE * WR_TILE + x % WR_TILE, block = at & -WR_BRUSH_BLOCK;
-    float *to = &page->cover[at];
+    float *to = &texels_of(cover, page)[at];
     switch (cover->rule) {
     case WR_COVERAGE_MAX: *to = *to < c ? c : *to; break;
     case WR_COVERAGE_OVER: *to += (1.0f - *to) * c; break;
@@ -504,7 +538,7 @@ void wr_coverage_set_target(WrCoverage *cover, int x, int y, float target)
     const int at = y % WR_TILE * WR_TILE + x % WR_TILE;
     wr_coverage_target(cover, x / WR_TILE, y / WR_TILE);
     WrPage *page = page_of(cover, x / WR_TILE, y / WR_TILE);
-    if (page->cover[at] == 0.0f) page->target[at] = target;
+    if (!page->cover || page->cover[at] == 0.0f) page->target[at] = target;
 }
 
 static void make_one(int index, int worker, void *ctx)
@@ -545,6 +579,7 @@ static void make_some(WrCoverage *cover, int count)
 
 bool wr_coverage_make(WrCoverage *cover, double until)
 {
+    add_waiting(cover);
     while (cover->changed.count > 0) {
         bool pool = cover->maker.ground.pool && cover->changed.count >= MANY_PAGES;
         int most = until == HUGE_VAL ? cover->changed.count : pool ? POOL_PAGES : FEW_PAGES;

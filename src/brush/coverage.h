@@ -55,12 +55,12 @@ typedef struct WrStrokeResolve {
     int low_x, count;                   /* columns in the tile: whole blocks */
     const float *cover, *rest, *target; /* of the tile; rest and target may be NULL */
     bool within_1;                      /* no coverage is above 1 */
-    float *out, *mark;                  /* of the tile; for wr_stroke_resolve */
+    struct WrFieldPlace *out, *mark;    /* places of the tile; for wr_stroke_resolve */
 } WrStrokeResolve;
 
 /* True if any texel of it may change, judging by coverage and selection. */
 bool wr_stroke_resolve_needed(const WrStrokeResolver *maker, const WrStrokeResolve *make);
-/* Opens the tile for writing: sets out and mark. Not for several threads at once. */
+/* Sets out and mark. Not for several threads at once. */
 void wr_stroke_resolve_open(const WrStrokeResolver *maker, WrStrokeResolve *make);
 /* Any number of threads, on different tiles. */
 void wr_stroke_resolve(const WrStrokeResolver *maker, const WrStrokeResolve *make);
@@ -72,7 +72,7 @@ typedef enum WrCoverageRule {
 } WrCoverageRule;
 
 typedef struct WrPage {
-    /* a tile (wr_field_tile_make), owned; texels beyond the table's edge stay 0 */
+    /* a tile (wr_field_tile_make), owned; texels beyond the table's edge stay 0; NULL: all are 0 */
     float *cover;
     float *rest;   /* for sums: rounding errors; owned, or NULL */
     float *target; /* owned, or NULL */
@@ -88,9 +88,10 @@ typedef struct WrCoverage {
     WrStrokeResolver maker;
     WrCoverageRule rule;
     int tiles_u;
-    double strongest; /* upper bound of the shape being added; infinite between shapes */
+    double strongest; /* upper bound of the shapes being added; infinite between shapes */
     WrPage **pages;   /* [tiles]; NULL: no coverage; owned */
     WR_ARRAY(WrPage *) made, changed;
+    WR_ARRAY(WrDabShape) waiting;    /* large shapes that are added together, for WR_COVERAGE_MAX */
     WR_ARRAY(WrStrokeResolve) makes; /* scratch */
 } WrCoverage;
 

@@ -104,33 +104,29 @@ static void patch_of(const Band *band, int i, int count, int texel, WrScanPatch 
 
 /* The part of a band in one tile. */
 typedef struct Piece {
+    const WrDabShape *shape;
     const Band *band;
     int i, count, texel;
+    int next;    /* index of the next piece of the tile; -1: none */
+    float bound; /* WrBound; negative: visited */
 } Piece;
 
-/* Shared by all pieces of a scan; the scan owns the lists. */
+/* One shape's rectangle of texels. */
 typedef struct Scan {
     const WrField *field;
     const WrDabShape *shape;
     WrWindow columns, rows;
-    WrPrepare prepare;
-    WrVisit visit;
-    void *ctx;
-    WR_ARRAY(Piece) pieces, later; /* for several threads; for this one afterwards */
 } Scan;
 
-static void visit_piece(const Scan *scan, const Piece *piece)
+static Scan begin_scan(const WrField *field, const WrDabShape *shape)
 {
-    WrScanPatch patch;
-    patch_of(piece->band, piece->i, piece->count, piece->texel, &patch);
-    if (patch.count) scan->visit(scan->ctx, scan->shape, &patch);
-}
-
-static void work(int index, int worker, void *ctx)
-{
-    (void)worker;
-    const Scan *scan = ctx;
-    visit_piece(scan, &scan->pieces.data[index]);
+    const int width = wr_field_width(field), height = wr_field_height(field);
+    return (Scan){
+        .field = field,
+        .shape = shape,
+        .columns = wr_window(shape->x, shape->dx, shape->reach_x, width, wr_field_wrap_u(field)),
+        .rows = wr_window(shape->y, shape->dy, shape->reach_y, height, wr_field_wrap_v(field))
+    };
 }
 
 /* The band from row j on. */
@@ -145,66 +141,129 @@ static Band begin_band(const Scan *scan, int j)
     return band;
 }
 
-/* The next prepared piece of a band from column *i on; false at its end. */
+/* The next piece of a band from column *i on; false at its end. */
 static bool next_piece(const Scan *scan, const Band *band, int *i, Piece *piece)
 {
-    while (*i <= band->all.high) {
-        *piece = (Piece){ .band = band, .i = *i };
-        piece->count = wr_tile_run(*i, band->all.high, band->width, &piece->texel);
-        *i += piece->count;
-        if (!scan->prepare ||
-            scan->prepare(scan->ctx, piece->texel / WR_TILE, band->texel / WR_TILE))
-            return true;
-    }
-    return false;
+    if (*i > band->all.high) return false;
+    *piece = (Piece){ .shape = scan->shape, .band = band, .i = *i, .next = -1 };
+    piece->count = wr_tile_run(*i, band->all.high, band->width, &piece->texel);
+    *i += piece->count;
+    return true;
 }
 
-/* True for shapes of many tiles. A motion longer than a period meets a tile twice: then tiles are processed sequentially. */
+static void visit_piece(const Piece *piece, WrVisit visit, void *ctx)
+{
+    WrScanPatch patch;
+    patch_of(piece->band, piece->i, piece->count, piece->texel, &patch);
+    if (patch.count) visit(ctx, piece->shape, &patch);
+}
+
+/* True for shapes of many tiles, worth several threads. */
 static bool many(const Scan *scan, const WrPool *pool)
 {
     const int wide = scan->columns.high - scan->columns.low + 1;
     const int tall = scan->rows.high - scan->rows.low + 1;
     return pool && wr_pool_threads(pool) > 1 && wide >= MANY_TILES * WR_TILE &&
-           tall >= WR_TILE / 2 && scan->shape->kind != WR_SHAPE_TEXEL &&
-           wide <= wr_field_width(scan->field) && tall <= wr_field_height(scan->field);
+           tall >= WR_TILE / 2 && scan->shape->kind != WR_SHAPE_TEXEL;
 }
 
-/* All tiles of the shape at once: threads are woken once for a motion. Tiles that the two ends of a period share are scanned twice: the second time
-   after the threads. */
-static void scan_together(Scan *scan, WrPool *pool)
+/* ---- several shapes, tile by tile ---- */
+
+/* first[] lists the pieces of each tile: an index into `pieces`, NOT_YET or REFUSED. */
+#define NOT_YET (-1)
+#define REFUSED (-2)
+
+typedef struct Together {
+    const WrField *field;
+    WrPrepare prepare;
+    WrVisit visit;
+    WrBound bound;
+    void *ctx;
+    int *first;
+    WR_ARRAY(Piece) pieces;
+    WR_ARRAY(int) tiles; /* that have pieces */
+} Together;
+
+static void add_piece(Together *all, Piece piece)
 {
-    const int most = (scan->rows.high - scan->rows.low) / WR_TILE + 3;
-    Band *bands = wr_alloc((size_t)most, sizeof *bands), *band = bands;
-    for (int j = scan->rows.low; j <= scan->rows.high; j += (band++)->count) {
-        Piece piece;
-        *band = begin_band(scan, j);
-        const bool again = band > bands && band->texel / WR_TILE == bands->texel / WR_TILE;
-        int i = band->all.low, texel;
-        if (i > band->all.high) continue;
-        wr_tile_run(i, i, band->width, &texel);
-        for (const int first = i; next_piece(scan, band, &i, &piece);) {
-            const bool meet = piece.i > first && piece.texel / WR_TILE == texel / WR_TILE;
-            if (again || meet) wr_array_push(&scan->later, piece);
-            else wr_array_push(&scan->pieces, piece);
-        }
+    const int tx = piece.texel / WR_TILE, ty = piece.band->texel / WR_TILE;
+    const int tile = ty * wr_field_tiles_u(all->field) + tx;
+    int *first = &all->first[tile];
+    if (*first == NOT_YET) {
+        if (all->prepare && !all->prepare(all->ctx, tx, ty)) *first = REFUSED;
+        else wr_array_push(&all->tiles, tile);
     }
-    wr_pool_run(pool, scan->pieces.count, work, scan);
-    for (int i = 0; i < scan->later.count; i++) visit_piece(scan, &scan->later.data[i]);
-    wr_array_free(&scan->pieces);
-    wr_array_free(&scan->later);
+    if (*first == REFUSED) return;
+    piece.next = *first;
+    *first = all->pieces.count;
+    piece.bound = !all->bound ? 1
+                              : all->bound(piece.shape, piece.i - piece.texel % WR_TILE,
+                                           piece.band->j - piece.band->texel % WR_TILE);
+    wr_array_push(&all->pieces, piece);
+}
+
+static Band *add_shape(Together *all, const WrDabShape *shape, Band *bands)
+{
+    const Scan scan = begin_scan(all->field, shape);
+    if (scan.columns.low > scan.columns.high) return bands;
+    for (int j = scan.rows.low; j <= scan.rows.high; j += (bands++)->count) {
+        Piece piece;
+        *bands = begin_band(&scan, j);
+        for (int i = bands->all.low; next_piece(&scan, bands, &i, &piece);) add_piece(all, piece);
+    }
+    return bands;
+}
+
+/* Pieces of one tile, which the two ends of a period may share, are visited one after the other. */
+static void visit_tile(int index, int worker, void *ctx)
+{
+    (void)worker;
+    const Together *all = ctx;
+    Piece *pieces = all->pieces.data;
+    const int first = all->first[all->tiles.data[index]];
+    for (;;) {
+        int largest = first;
+        for (int k = first; k >= 0; k = pieces[k].next)
+            if (pieces[k].bound >= pieces[largest].bound) largest = k; /* the list is backwards */
+        if (!(pieces[largest].bound > 0)) return;
+        visit_piece(&pieces[largest], all->visit, all->ctx);
+        pieces[largest].bound = -1;
+    }
+}
+
+static int most_bands(const WrField *field, const WrDabShape *shape)
+{
+    const Scan scan = begin_scan(field, shape);
+    return (scan.rows.high - scan.rows.low) / WR_TILE + 3;
+}
+
+void wr_scan_together(const WrField *field, const WrDabShape *shapes, int count, WrPool *pool,
+                      WrPrepare prepare, WrVisit visit, WrBound bound, void *ctx)
+{
+    Together all = {
+        .field = field, .prepare = prepare, .visit = visit, .bound = bound, .ctx = ctx
+    };
+    const size_t tiles = (size_t)wr_field_tiles_u(field) * (size_t)wr_field_tiles_v(field);
+    int most = 0;
+    for (int i = 0; i < count; i++) most += most_bands(field, &shapes[i]);
+    Band *bands = wr_alloc((size_t)most, sizeof *bands), *band = bands;
+    all.first = wr_alloc(tiles, sizeof *all.first);
+    for (size_t i = 0; i < tiles; i++) all.first[i] = NOT_YET;
+    for (int i = 0; i < count; i++) band = add_shape(&all, &shapes[i], band);
+    wr_pool_run(pool, all.tiles.count, visit_tile, &all);
+    wr_array_free(&all.pieces);
+    wr_array_free(&all.tiles);
+    wr_free(all.first);
     wr_free(bands);
 }
 
 void wr_scan(const WrField *field, const WrDabShape *shape, WrPool *pool, WrPrepare prepare,
              WrVisit visit, void *ctx)
 {
-    int width = wr_field_width(field), height = wr_field_height(field);
-    Scan scan = { .field = field, .shape = shape, .prepare = prepare, .visit = visit, .ctx = ctx };
-    scan.columns = wr_window(shape->x, shape->dx, shape->reach_x, width, wr_field_wrap_u(field));
-    scan.rows = wr_window(shape->y, shape->dy, shape->reach_y, height, wr_field_wrap_v(field));
+    const Scan scan = begin_scan(field, shape);
     if (scan.columns.low > scan.columns.high) return;
     if (many(&scan, pool)) {
-        scan_together(&scan, pool);
+        wr_scan_together(field, shape, 1, pool, prepare, visit, NULL, ctx);
         return;
     }
     int count;
@@ -213,7 +272,8 @@ void wr_scan(const WrField *field, const WrDabShape *shape, WrPool *pool, WrPrep
         Piece piece;
         count = band.count;
         for (int i = band.all.low; next_piece(&scan, &band, &i, &piece);)
-            visit_piece(&scan, &piece);
+            if (!prepare || prepare(ctx, piece.texel / WR_TILE, band.texel / WR_TILE))
+                visit_piece(&piece, visit, ctx);
     }
 }
 

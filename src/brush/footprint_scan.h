@@ -40,5 +40,12 @@ typedef void (*WrVisit)(void *ctx, const WrDabShape *shape, const WrScanPatch *p
 void wr_scan(const WrField *field, const WrDabShape *shape, WrPool *pool, WrPrepare prepare,
              WrVisit visit, void *ctx);
 
+/* The same for large shapes together, tile by tile, each tile on one thread. bound: of a shape in the tile whose first texel
+ * lies at (x, y), not wrapped; the shapes of a tile are visited from the largest bound down, those of 0 are not. NULL: in
+ * their order. */
+typedef float (*WrBound)(const WrDabShape *shape, double x, double y);
+void wr_scan_together(const WrField *field, const WrDabShape *shapes, int count, WrPool *pool,
+                      WrPrepare prepare, WrVisit visit, WrBound bound, void *ctx);
+
 /* The coverage of a run: wr_shape_row with head and tail cleared. */
 void wr_run_cover(const WrDabShape *shape, const WrRun *run, float *fresh);

@@ -244,6 +244,16 @@ float *wr_field_tile_write(WrField *field, int tx, int ty)
     return own_tile(own_slot(field, tx, ty), field->level)->texels;
 }
 
+WrFieldPlace *wr_field_tile_place(WrField *field, int tx, int ty)
+{
+    return (WrFieldPlace *)own_slot(field, tx, ty);
+}
+
+float *wr_field_place_write(WrFieldPlace *place, float level)
+{
+    return own_tile((Counted **)place, level)->texels;
+}
+
 /* Like wr_field_tile_write, but the caller overwrites every texel: a shared tile is not copied first. */
 float *wr_field_tile_fresh(WrField *field, int tx, int ty)
 {

@@ -115,6 +115,40 @@ static void a_large_stroke_is_the_largest_of_its_motions(void **state)
     wr_pool_free(pool);
 }
 
+/* Motions of a large brush wait and are added together, and those that cannot raise a tile are passed over: one by one they give the
+   same bits. Some follow each other closely, as those of a pen do. */
+static void a_large_stroke_does_not_depend_on_what_is_added_together(void **state)
+{
+    (void)state;
+    enum { COUNT = 70, WIDE = 1103, TALL = 911 };
+    WrPool *pool = wr_pool_new(3);
+    TestRandom r = { 31 };
+    for (int k = 0; k < 4; k++) {
+        const WrWrap wrap_u = k & 1 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC;
+        const WrWrap wrap_v = k & 2 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC;
+        WrBrush brush = brush_of(WR_BRUSH_RAISE, 257 + 400 * test_random(&r));
+        brush.hardness = k == 2 ? 0 : test_random(&r);
+        WrField *alone = wr_field_new(WIDE, TALL, wrap_u, wrap_v, 0.3f, NULL);
+        WrField *together = wr_field_share(alone);
+        const WrBrushGround ground = { .field = together, .pool = pool };
+        WrStroke *one = wr_stroke_new(alone, &brush), *all = wr_stroke_new_on(&ground, &brush);
+        WrSample s = { .u = test_random(&r), .v = test_random(&r), .pressure = 0.5 };
+        for (int i = 0; i < COUNT; i++) {
+            const double far = i % 16 == 15 ? 0.7 : 0.05;
+            s.u += far * (test_random(&r) - 0.5), s.v += far * (test_random(&r) - 0.5);
+            s.pressure = 0.2 + 0.8 * test_random(&r);
+            wr_stroke_add(one, s);
+            wr_stroke_push(all, s);
+        }
+        wr_stroke_finish(one);
+        wr_stroke_finish(all);
+        assert_true(same_heights(alone, together));
+        wr_field_free(alone);
+        wr_field_free(together);
+    }
+    wr_pool_free(pool);
+}
+
 static void several_threads_give_the_same_bits(void **state)
 {
     (void)state;
@@ -472,6 +506,7 @@ int main(void)
         cmocka_unit_test(the_bits_do_not_depend_on_how_the_work_is_cut),
         cmocka_unit_test(an_abandoned_stroke_draws_nothing_more),
         cmocka_unit_test(a_large_stroke_is_the_largest_of_its_motions),
+        cmocka_unit_test(a_large_stroke_does_not_depend_on_what_is_added_together),
         cmocka_unit_test(several_threads_give_the_same_bits),
         cmocka_unit_test(every_set_of_kernels_gives_the_same_bits),
         cmocka_unit_test(the_short_way_of_circles_gives_the_bits_of_the_long_one),

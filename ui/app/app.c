@@ -491,7 +491,8 @@ void wr_app_step(WrApp *app)
     if (app->redraw > 0 && app->visible && now >= app->drawn_at + frame_seconds(app) - 0.0005) {
         app->redraw--;
         draw(app, now);
-        wr_timing_note(app, wr_clock_seconds() - now);
+        app->draw_seconds = wr_clock_seconds() - now;
+        wr_timing_note(app, app->draw_seconds);
     }
     for (const WrPart *const *p = app->registry->parts; *p; p++)
         if ((*p)->after) (*p)->after(app);

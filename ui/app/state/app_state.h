@@ -111,6 +111,7 @@ struct WrApp {
     int redraw;       /* frames still to draw */
     bool visible, quit;
     double drawn_at, started_at;
+    double draw_seconds; /* duration of the last frame */
     double drawn_scale;
     WrTiming *timing;
 

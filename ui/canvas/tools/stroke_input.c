@@ -31,7 +31,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define WORK_SECONDS 0.020 /* drawing time per frame */
+#define WORK_SECONDS                                                                               \
+    0.020 /* drawing time per frame, or as long as the last frame if that was longer: a busy */
+#define MOST_SECONDS 0.200 /* machine would otherwise fall behind */
 
 /* Append a stroke command without points for a brush, with the files in *app->brush_files. */
 static void strokes_head(const WrApp *app, const char *verb, const WrBrush *brush, WrText *line)
@@ -274,7 +276,9 @@ void wr_strokes_work(WrApp *app)
 {
     app->brush->taken = app->hand->events;
     if (app->brush->jobs.count == 0) app->brush->shown = app->brush->taken;
-    else work_until(app, wr_clock_seconds() + WORK_SECONDS);
+    else
+        work_until(app,
+                   wr_clock_seconds() + fmin(MOST_SECONDS, fmax(WORK_SECONDS, app->draw_seconds)));
 }
 
 bool wr_strokes_waits(const WrApp *app)
