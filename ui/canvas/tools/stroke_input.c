@@ -31,9 +31,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define WORK_SECONDS                                                                               \
-    0.020 /* drawing time per frame, or as long as the last frame if that was longer: a busy */
-#define MOST_SECONDS 0.200 /* machine would otherwise fall behind */
+/* Drawing time per frame: as long as the last frame took, so that a busy machine does not fall behind, within these. */
+#define WORK_SECONDS 0.020
+#define MOST_SECONDS 0.200
 
 /* Append a stroke command without points for a brush, with the files in *app->brush_files. */
 static void strokes_head(const WrApp *app, const char *verb, const WrBrush *brush, WrText *line)
