@@ -131,15 +131,17 @@ static inline void slopes_at(const Ring *ring, int x, int y, double *fu, double 
 static void fill_gradient(const WrField *field, int i, int j, int w, int h, float *out,
                           size_t pitch)
 {
-    Ring ring = read_ring(field, i, j, w, h);
-    for (int y = 0; y < h; y++)
+    const Ring ring = read_ring(field, i, j, w, h);
+    for (int y = 0; y < h; y++) {
+        float *restrict row = out + 2 * (size_t)y * pitch;
+#pragma omp simd
         for (int x = 0; x < w; x++) {
             double fu, fv;
-            float *slopes = out + 2 * ((size_t)y * pitch + (size_t)x);
             slopes_at(&ring, x, y, &fu, &fv);
-            slopes[0] = narrow(fu);
-            slopes[1] = narrow(fv);
+            row[2 * x] = narrow(fu);
+            row[2 * x + 1] = narrow(fv);
         }
+    }
     wr_free(ring.t);
 }
 
