@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The Debian packages (ui/desktop/package.sh): made, examined by lintian, installed in bare systems once with their dependencies
-# alone and once with all that they recommend, used there by a user without rights, and removed without a trace.
+# alone and once with all that they recommend, used there by a user without rights, and removed without a trace; and the folder that
+# runs anywhere, in each release (places.sh).
 # Needs root and a Debian mirror.  packages.sh SOURCE-FOLDER PROGRAM [FOLDER of packages that are made already]
 set -uo pipefail
 source=$1 program=$2
@@ -26,7 +27,7 @@ suite=$(sed -n 's/^VERSION_CODENAME=//p' /etc/os-release)
 
 # ---- the packages ----
 made=${3:-$folder/made}
-[[ $# -ge 3 ]] || DEBFULLNAME='Package test' DEBEMAIL=test@debian.org bash "$source/ui/desktop/package.sh" "$made" >log 2>&1 ||
+[[ $# -ge 3 ]] || DEBFULLNAME='Package test' DEBEMAIL=test@debian.org bash "$source/ui/desktop/package.sh" --tarball "$made" >log 2>&1 ||
     fail "$(tail -n 30 log)"
 names=(blender-wrinkle libwrinkle-dev libwrinkle0 python3-wrinkle wrinkle wrinkle-doc)
 found=$(find "$made" -maxdepth 1 -name '*.deb' -printf '%f\n' | sed 's/_.*//' | sort | tr '\n' ' ')
@@ -197,4 +198,10 @@ mapfile -t some < <(given wrinkle wrinkle-doc)
 install "wrinkle with its recommendations" install "${some[@]}"
 inside 1000:1000 sh /given/check.sh full "$upstream" >log 2>&1 || fail "with recommendations: $(cat log)"
 inside 1000:1000 wrinkle render /usr/share/wrinkle/samples/bricks.wrinkle -o /home/painter/bricks.png >log 2>&1 || fail "bricks: $(cat log)"
+rm -rf --one-file-system "$system"
+
+# ---- the folder that runs anywhere: in this release, and in later ones ----
+later=()
+[[ $suite != bookworm ]] || later=(trixie noble)
+bash "$source/tests/repository/places.sh" "$made"/wrinkle-*.tar.xz "$suite" "${later[@]}" || fail 'the folder does not run everywhere'
 say "all passed"
