@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Files of 1.0.0, kept in formats/, open as they were written; a document of a newer version opens with one note, and is not
+# Files of earlier versions, kept in formats/, open as they were written; a document of a newer version opens with one note, and is not
 # replaced.  formats.sh PROGRAM SOURCE-FOLDER
 #
 # document.wrinkle says the heights of all documents: u/2 + v/4, plus half of 1/8, plus 1/4, at the centre of each texel; they are
@@ -14,17 +14,21 @@ unset DISPLAY WAYLAND_DISPLAY
 bad=0
 complain() { printf 'formats: %s\n' "$*"; bad=1; }
 
-# heights FILE CONSTANT: the composite is u/2 + v/4 + CONSTANT, bit for bit. Rows of a picture begin at the top, v = 1.
-heights() {
-    "$program" export "$1" --as height -o h.exr >out 2>err || { complain "$1 does not open: $(cat err)"; return; }
-    oiiotool --dumpdata h.exr | awk -v constant="$2" '
-        /Pixel/ {
-            gsub(/[(),:]/, " ")
-            count++
-            want = ($2 + 0.5) / 16 + (3.5 - $3) / 16 + constant
-            if ($4 != want) { printf "(%d, %d) is %s, not %s\n", $2, $3, $4, want; bad = 1 }
+# are RAW CONSTANT WHAT: exported floats are u/2 + v/4 + CONSTANT, bit for bit. Rows begin at the top, v = 1.
+are() {
+    od -An -v -t f4 -w4 "$1" | awk -v constant="$2" '
+        {
+            x = (NR - 1) % 8
+            y = int((NR - 1) / 8)
+            want = (x + 0.5) / 16 + (3.5 - y) / 16 + constant
+            if ($1 != want) { printf "(%d, %d) is %s, not %s\n", x, y, $1, want; bad = 1 }
         }
-        END { exit bad || count != 32 }' >wrong || complain "$1: $(head -n 3 wrong)"
+        END { exit bad || NR != 32 }' >wrong || complain "$3: $(head -n 3 wrong)"
+}
+# heights FILE CONSTANT: those of the composite.
+heights() {
+    "$program" export "$1" --as height -o h.r32 >out 2>err || { complain "$1 does not open: $(cat err)"; return; }
+    are h.r32 "$2" "$1"
 }
 heights "$kept/plain.exr" 0
 heights "$kept/mesh.exr" 0
@@ -43,6 +47,36 @@ hashes=$(for file in document.exr document.ora document.wrinkle history.wrinkle;
     echo
 done | sort -u | wc -l)
 [[ $hashes == 1 ]] || complain "the kept files are $hashes different documents"
+
+# ---- each version of the two formats, N.exr and N.ora ----
+# 1.exr and 2.exr are of the programs of those versions, the others of 1.0.0, which writes the lowest version that can hold a document:
+# 3 one layer; 4 a mesh; 5, 2.ora a normal map; 6 surroundings; 7, 3.ora the cell's size; 8, 4.ora a picture of roughness; 9, 6.ora a
+# filter layer; 10, 7.ora the projection of a mesh; 11, 8.ora a generator layer; 12, 9.ora a group; 13, 10.ora a view of colours.
+# Saved again, each needs the same version: without its feature it would need a lower one.
+version_of() {
+    case $1 in
+    *.exr) LC_ALL=C grep -aoP 'wrinkle:version\x00string\x00[\x01-\x03]\x00\x00\x00\K[0-9]+' "$1" | head -n 1 ;;
+    *) python3 -c 'import sys, zipfile; print(zipfile.ZipFile(sys.argv[1]).read("stack.xml").decode())' "$1" | sed -n 's/.*wrinkle:version="\([0-9]*\)".*/\1/p' | head -n 1 ;;
+    esac
+}
+for file in "$kept"/[0-9]*; do
+    name=$(basename "$file") constant=0
+    case $name in
+    2.exr | 12.exr | 9.ora) constant=0.0625 ;; # half of 1/8
+    11.exr | 8.ora) constant=0.25 ;;
+    esac
+    [[ $(version_of "$file") == "${name%.*}" ]] || complain "$name is of version $(version_of "$file")"
+    again=again.${name##*.}
+    printf '%s\n' "open $file" 'export height a.r32' "save $again" "open $again" 'export height b.r32' >again.wrinkle
+    "$program" run again.wrinkle >out 2>err || { complain "$name is not saved again: $(cat err)"; continue; }
+    are a.r32 $constant "$name"
+    are b.r32 $constant "$name, saved again"
+    again=$(version_of "$again") same=${name%.*}
+    [[ $name != 1.exr ]] || same=3 # of one layer
+    [[ $again == "$same" ]] || complain "$name: saved again it is of version $again"
+done
+[[ $(find "$kept" -name '[0-9]*.exr' | wc -l) == $(sed -n 's/^#define WR_DOCUMENT_VERSION \([0-9]*\)$/\1/p' "$2/src/document/document_file.h") ]] ||
+    complain 'not one EXR document of each version'
 
 # The mesh: a square from -1 to 1 in the plane of x and z, seen from its side; its file is not needed.
 "$program" inspect "$kept/mesh.exr" --at 0.5,0.5 >out 2>err || complain "mesh.exr: $(cat err)"
