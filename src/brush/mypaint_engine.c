@@ -253,8 +253,8 @@ static void stride(WrEngine *engine, const WrEnginePoint *to, double seconds)
 
 static void pass_jump(WrEngine *engine, int knot)
 {
-    const WrEnginePoint *halt = &engine->knots.data[knot].point, *go = halt;
-    go = &engine->knots.data[knot + 1].point;
+    const WrEnginePoint *halt = &engine->knots.data[knot].point;
+    const WrEnginePoint *go = &engine->knots.data[knot + 1].point;
     engine->origin_x += go->x - halt->x;
     engine->origin_y += go->y - halt->y;
     engine->last_x += go->x - halt->x;

@@ -432,7 +432,7 @@ static double bring(double x, double low, double high, int *skipped)
 static bool read_point(json_object *pair, Place at, float point[2], double reach, int *skipped,
                        WrError *err)
 {
-    double xy[2];
+    double xy[2] = { 0, 0 };
     if (!json_object_is_type(pair, json_type_array) || json_object_array_length(pair) != 2)
         return fail_type(err, at, pair, "points [x, y]");
     for (size_t k = 0; k < 2; k++)

@@ -15,6 +15,7 @@ kept='
 gcc src/base/memory.c -Wanalyzer-malloc-leak 1: the block is kept in the header before the aligned address, which is computed
 gcc src/generate/svg_path.c -Wanalyzer-null-dereference 1: a list with a count above 0 has memory
 tidy src/base/file.c misc-redundant-expression 1: a removal that failed is tried a second time
+tidy src/brush/paint.c clang-analyzer-security.FloatLoopCounter 1: whole numbers that may be beyond those of an int
 tidy src/export/film.c bugprone-suspicious-missing-comma 2: PALETTE is joined of two texts
 tidy src/image/font_load.c bugprone-signed-char-misuse 1: levels of FriBidi are not negative
 tidy src/render/pipeline/pipeline_body.h misc-redundant-expression 1: one text in two precisions
