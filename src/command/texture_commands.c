@@ -141,6 +141,14 @@ static bool refuse_without(const WrCall *call, const char *const *names, const c
 
 /* ---- colour ---- */
 
+/* A texel's value as light. Most pictures have 256 codes: `light` holds those, and the power is computed for others. */
+static float decoded(const float light[256], float code)
+{
+    const int k = (int)(code * 255.0f + 0.5f);
+    const bool is_code = k >= 0 && k < 256 && code == (float)k / 255.0f;
+    return is_code ? light[k] : wr_srgb_decode(code);
+}
+
 /* Linear RGB, or one grey channel, without alpha; 8-bit and 16-bit values are decoded from sRGB. Shading works in linear
    light; decoding here, once per picture, leaves renderers without a colour conversion per lookup. Negative floats have no
    meaning as reflectance and become 0. */
@@ -152,6 +160,8 @@ static WrImage *linear_colour(const WrImage *from, WrError *err)
     to->type = WR_PIXEL_F32;
     size_t pixels = (size_t)from->width * (size_t)from->height;
     bool decode = from->type != WR_PIXEL_F32;
+    float light[256];
+    for (int k = 0; k < 256; k++) light[k] = wr_srgb_decode((float)k / 255.0f);
     for (size_t i = 0; i < pixels; i++) {
         if (i % LOOK == 0 && wr_progress_stopped()) {
             wr_image_free(to);
@@ -160,7 +170,7 @@ static WrImage *linear_colour(const WrImage *from, WrError *err)
         }
         for (int c = 0; c < channels; c++) {
             float x = from->data[i * (size_t)from->channels + (size_t)c];
-            if (decode) x = wr_srgb_decode(x);
+            if (decode) x = decoded(light, x);
             to->data[i * (size_t)channels + (size_t)c] = x > 0 ? x : 0;
         }
     }

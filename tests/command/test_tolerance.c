@@ -145,7 +145,7 @@ static void expect_to_hold(const char *const *scene, const double tolerances[2],
 static void outlines_that_run_with_the_pixels_rows_do_not_deceive(void **state)
 {
     (void)state;
-    for (int n = 0; n < 5; n++) {
+    for (int n = 0; n < 5; n += test_step(2, 2)) {
         char camera[80];
         snprintf(camera, sizeof camera, "camera orthographic size=%g", 1.2 + 0.0219 * n);
         const char *const square[] = { "table 32x32",
@@ -166,7 +166,7 @@ static void relief_in_a_corner_of_the_picture_is_seen(void **state)
     (void)state;
     static const char *const places[] = { "0.03,0.04", "0.5,0.02",    "0.52,0.47", "0.96,0.93",
                                           "0.51,0.5",  "0.555,0.445", "0.6,0.53" };
-    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+    for (size_t i = 0; i < sizeof places / sizeof *places; i += (size_t)test_step(2, 3)) {
         char dab[80];
         snprintf(dab, sizeof dab, "dab %s radius=5 strength=1", places[i]);
         const char *const spot[] = { "table 128x128",
@@ -254,8 +254,8 @@ static void random_tables_at_odd_sizes_keep_to_the_tolerance_or_it_says_so(void 
 {
     (void)state;
     static const char *const surfaces[] = { "plane", "sphere R=1", "cylinder", "torus", "cube" };
-    int met = 0;
-    for (uint32_t n = 0; n < 15; n++) {
+    int met = 0, tried = 0;
+    for (uint32_t n = 0; n < 15; n += (uint32_t)test_step(2, 3)) {
         char table[40], noise[120], surface[40], height[60];
         const uint32_t random = wr_mix32(n + 77);
         const int width = 41 + (int)(random % 50), rows = 35 + (int)(random / 64 % 60);
@@ -283,12 +283,12 @@ static void random_tables_at_odd_sizes_keep_to_the_tolerance_or_it_says_so(void 
         if (choice.met && errors.rms > value)
             fail_msg("%s, %dx%d: %g: %s", surface, width, rows, errors.rms, choice.reason);
         assert_int_equal(strstr(choice.reason, "MISSED") == NULL, choice.met);
-        met += choice.met;
+        met += choice.met, tried++;
         wr_choice_fini(&choice);
         wr_reference_fini(&reference);
         bench_fini(&bench);
     }
-    assert_in_range(met, 12, 15);
+    assert_in_range(met, tried - 3, tried);
 }
 
 static void a_cancelled_choice_is_none(void **state)

@@ -575,7 +575,8 @@ static TestRandom member_random(const char *family, int member)
 
 static bool near_enough(float a, float b, double bound)
 {
-    if (memcmp(&a, &b, sizeof a) == 0) return true;
+    if (a == b && !signbit(a) == !signbit(b)) return true;
+    if (memcmp(&a, &b, sizeof a) == 0) return true; /* not numbers */
     if (bound >= 0 && ((a > FAR_AWAY && b > FAR_AWAY) || (a < -FAR_AWAY && b < -FAR_AWAY)))
         return true;
     double scale = fmax(1.0, fmax(fabs((double)a), fabs((double)b)));
@@ -593,6 +594,7 @@ static void compare(const WrStrip *got, const WrStrip *want, int length, double 
     const float *b = (const float *)(const void *)want->index;
     size_t count = (sizeof *got - offsetof(WrStrip, index)) / sizeof(float);
     assert_int_equal(got->count, want->count);
+    if (memcmp(a, b, count * sizeof *a) == 0) return;
     for (size_t i = 0; i < count; i++)
         if ((i % WR_SPAN < (size_t)length || i % WR_SPAN >= whole) &&
             !near_enough(a[i], b[i], bound))
@@ -611,6 +613,7 @@ static void check_set(const WrKernels *set, const WrKernels *ref)
 {
     TestRandom tables = { seed };
     Bench *b = wr_alloc(1, sizeof *b), *r = wr_alloc(1, sizeof *r);
+    WrStrip *filled = wr_alloc(1, sizeof *filled);
     bench_init(b, &tables);
     for (int f = 0; f < FAMILIES; f++)
         for (int member = 0;; member++) {
@@ -620,7 +623,8 @@ static void check_set(const WrKernels *set, const WrKernels *ref)
             for (int count = 0; count <= 68 && any; count++) {
                 char what[80];
                 int length = count == 68 ? WR_SPAN : count;
-                fill_strip(&random, &b->strip);
+                if (count % 6 == 0) fill_strip(&random, filled);
+                b->strip = *filled;
                 *r = *b;
                 any = families[f].run(set, b, member, length);
                 families[f].run(ref, r, member, length);
@@ -632,6 +636,7 @@ static void check_set(const WrKernels *set, const WrKernels *ref)
             if (!any) break;
         }
     bench_fini(b);
+    wr_free(filled);
     wr_free(b);
     wr_free(r);
 }

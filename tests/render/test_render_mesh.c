@@ -347,7 +347,7 @@ static void weighted_meshes_are_the_reference(void **state)
     WrField *field = bumpy_field(32, 20);
     for (int j = 0; j < 20; j++)
         for (int i = 0; i < 32; i++) wr_field_set(field, i, j, wr_field_get(field, i, j) + 1.7f);
-    for (int i = 0; i < 3 * WEIGHTED; i += test_step(2, 4)) {
+    for (int i = 0; i < 3 * WEIGHTED; i += test_step(3, 4)) {
         WrScene *scene = weighted_scene(i % WEIGHTED);
         take_way(&ways[i / WEIGHTED % 2], scene);
         scene->displaced = i >= 2 * WEIGHTED;

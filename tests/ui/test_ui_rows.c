@@ -417,15 +417,23 @@ static int list_new(Walk *walk, WrKeyStop *out)
     return n;
 }
 
-/* Of a long list, such as that of the hard cases, every sixth after the first ones; all with WR_FULL. */
+static bool is_of_list(const WrKeyStop *row)
+{
+    return row->kind == WR_STOP_LIST || row->kind == WR_STOP_ROW || row->kind == WR_STOP_TILE;
+}
+
+/* Of a long list, such as that of the hard cases, every seventh after the first ones; all with WR_FULL. */
 static void change_rows(Walk *walk, const WrKeyStop *rows, int count)
 {
-    enum { FIRST = 40, STEP = 6 };
+    enum { FIRST = 40, FIRST_OF_LIST = 4, STEP = 7 };
     const Base base = base_of(walk);
+    int listed = 0;
     forget_messages(walk);
-    for (int i = 0; i < count; i++)
-        if (i < FIRST || i % STEP == 0 || i == count - 1 || getenv("WR_FULL"))
+    for (int i = 0; i < count; i++) {
+        const bool is_first = is_of_list(&rows[i]) ? listed++ < FIRST_OF_LIST : i < FIRST;
+        if (is_first || i % STEP == 0 || i == count - 1 || getenv("WR_FULL"))
             change_row(walk, rows[i].id, &base);
+    }
 }
 
 /* Rows near a choice belong to the object whose kind it sets. Of the others some are changed, all with WR_FULL. */
@@ -433,7 +441,7 @@ static void change_again(Walk *walk, const WrKeyStop *rows, int count, int choic
 {
     const Base base = base_of(walk);
     for (int i = 0; i < count; i++)
-        if (abs(i - choice) <= 5 || (i + step) % 23 == 0 || getenv("WR_FULL"))
+        if (abs(i - choice) <= 5 || (i + step) % 41 == 0 || getenv("WR_FULL"))
             change_row(walk, rows[i].id, &base);
 }
 

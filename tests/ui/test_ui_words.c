@@ -336,6 +336,7 @@ static void no_text_is_cut(void **state)
         cuts.walk = &walk;
         cuts.count = cuts.told = 0;
         for (int s = 0; s < 6; s += test_amount(1, 5)) {
+            if (s % 2 != l % 2 && !getenv("WR_FULL")) continue; /* half of the scales a language */
             if (!wr_gui_set_scale(walk.app->gui, scales[s], &err)) fail_msg("%s", err.text);
             for (int k = 0; k < 5; k++) {
                 if (sizes[k][0] < 900 * scales[s] || sizes[k][1] < 500 * scales[s]) continue;
