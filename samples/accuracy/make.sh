@@ -14,10 +14,10 @@
 # ImageMagick's convert. Takes about half an hour; --quick, half a minute.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
-out=$here keep='' program='' size=256x256 runs=9 contest_size=96x96 quick=''
+out=$here keep='' program='' size=256x256 shown_size=256x256 runs=9 contest_size=96x96 quick=''
 while [[ $# -gt 0 ]]; do
     case $1 in
-    --quick) quick=yes size=16x16 runs=3 contest_size=32x32 ;;
+    --quick) quick=yes size=16x16 shown_size=72x72 runs=3 contest_size=24x24 ;;
     --out) out=$2 && shift ;;
     --keep) keep=$2 && shift ;;
     -*) printf 'make.sh: unknown option %s\n' "$1" >&2 && exit 2 ;;
@@ -64,7 +64,7 @@ measure() {
             --differences "$pictures" --json >"$keep/$name.new"
         mv "$keep/$name.new" "$keep/$name.json"
     fi
-    "$program" render "$(script "$name")" -o "$temporary/picture.png" --size 256x256
+    "$program" render "$(script "$name")" -o "$temporary/picture.png" --size $shown_size
     shrink "$temporary/picture.png" "$out/$name.png" +dither -colors 256
     shrink "$keep/$name-plot.png" "$out/$name-plot.png" -colors 48
     # Errors of one sample, of the filtered table, of moments, side by side.

@@ -50,15 +50,19 @@ typedef struct Rows {
 /* Row of samples beside the texels' centres, which stencils do not reach. */
 static void border_row(const WrExportJob *job, int y, const WrDerivativesRow *row)
 {
-    const double height = job->scene->height, v = wr_export_row_v(job, y);
+    const double height = job->scene->height;
+    const size_t width = (size_t)job->width;
+    double *v = wr_alloc(width, sizeof *v);
+    for (size_t i = 0; i < width; i++) v[i] = wr_export_row_v(job, y);
+    if (!job->analytic)
+        wr_field_sample(job->field, (WrScheme)job->options.scheme, width, job->u, v, NULL, row->p,
+                        row->q);
     for (int i = 0; i < job->width; i++) {
         double *p = &row->p[i], *q = &row->q[i];
-        if (job->analytic) wr_analytic_sample(&job->scene->analytic, job->u[i], v, NULL, p, q);
-        else
-            wr_field_sample(job->field, (WrScheme)job->options.scheme, 1, &job->u[i], &v, NULL, p,
-                            q);
+        if (job->analytic) wr_analytic_sample(&job->scene->analytic, job->u[i], v[i], NULL, p, q);
         *p *= height / job->options.cell_w, *q *= height / job->options.cell_h;
     }
+    wr_free(v);
 }
 
 static Rows open_rows(const WrExportJob *job, int y, int rows)

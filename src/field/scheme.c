@@ -7,6 +7,7 @@
 #include "field/scheme_list.h"
 
 #include <float.h>
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -344,29 +345,47 @@ static Place locate(double u, int n, WrWrap wrap, bool runs_down, WrSchemeTaps t
     return place;
 }
 
-/* Fits the whole table with a margin of two texels; NULL if fitting the taps of single points is
- * cheaper (about 200 texels' worth each) or memory is exhausted. */
-static double *fit_whole(const WrField *field, WrScheme scheme, size_t count)
+/* The part of the table, fitted, that holds the taps of all points: of a row of samples, four rows. */
+typedef struct Fitted {
+    double *taps; /* NULL: the taps of each point are fitted separately */
+    int i, j;
+    size_t pitch;
+} Fitted;
+
+/* None if fitting the taps of single points is cheaper (about 200 texels' worth each) or memory is exhausted. */
+static Fitted fit_around(const WrField *field, WrScheme scheme, size_t count, const double *u,
+                         const double *v)
 {
-    const int width = wr_field_width(field) + 4, height = wr_field_height(field) + 4;
-    const size_t texels = (size_t)width * (size_t)height;
-    if (wr_schemes[scheme].taps != WR_TAPS_FITTED || count < texels / 200) return NULL;
-    double *whole = wr_try_alloc(texels, sizeof *whole, "taps", NULL);
-    if (whole)
-        wr_field_read_bspline_coefficients_double(field, -2, -2, width, height, whole,
-                                                  (size_t)width);
-    return whole;
+    const WrSchemeTaps kind = wr_schemes[scheme].taps;
+    const int width = wr_field_width(field), height = wr_field_height(field);
+    int left = INT_MAX, right = INT_MIN, top = INT_MAX, bottom = INT_MIN;
+    if (kind != WR_TAPS_FITTED || count < 2) return (Fitted){ NULL, 0, 0, 0 };
+    for (size_t k = 0; k < count; k++) {
+        const int i = locate(u[k], width, wr_field_wrap_u(field), false, kind).cell - 1;
+        const int j = locate(v[k], height, wr_field_wrap_v(field), true, kind).cell - 1;
+        left = i < left ? i : left, right = i > right ? i : right;
+        top = j < top ? j : top, bottom = j > bottom ? j : bottom;
+    }
+    const int columns = right - left + 4, rows = bottom - top + 4;
+    const size_t texels = (size_t)columns * (size_t)rows;
+    Fitted fitted = { NULL, left, top, (size_t)columns };
+    if (count < texels / 200) return fitted;
+    fitted.taps = wr_try_alloc(texels, sizeof *fitted.taps, "taps", NULL);
+    if (fitted.taps)
+        wr_field_read_bspline_coefficients_double(field, left, top, columns, rows, fitted.taps,
+                                                  fitted.pitch);
+    return fitted;
 }
 
-/* The 16 taps whose first is (i, j); whole: the fitted table with its margin, or NULL. */
-static void read_taps(const WrField *field, WrSchemeTaps kind, const double *whole, int i, int j,
+/* The 16 taps whose first is (i, j). */
+static void read_taps(const WrField *field, WrSchemeTaps kind, const Fitted *fitted, int i, int j,
                       double taps[16])
 {
-    const size_t pitch = (size_t)wr_field_width(field) + 4;
     float texels[16];
-    if (whole) {
+    if (fitted->taps) {
+        const double *from = fitted->taps + (size_t)(j - fitted->j) * fitted->pitch;
         for (int k = 0; k < 4; k++)
-            memcpy(taps + 4 * k, whole + (size_t)(j + 2 + k) * pitch + (size_t)(i + 2),
+            memcpy(taps + 4 * k, from + (size_t)k * fitted->pitch + (size_t)(i - fitted->i),
                    4 * sizeof *taps);
     } else if (kind == WR_TAPS_FITTED) {
         wr_field_read_bspline_coefficients_double(field, i, j, 4, 4, taps, 4);
@@ -379,7 +398,7 @@ static void read_taps(const WrField *field, WrSchemeTaps kind, const double *who
 void wr_field_sample(const WrField *field, WrScheme scheme, size_t count, const double *u,
                      const double *v, double *f, double *fu, double *fv)
 {
-    double *whole = fit_whole(field, scheme, count);
+    const Fitted fitted = fit_around(field, scheme, count, u, v);
     const WrSchemeInfo *info = &wr_schemes[scheme];
     int width = wr_field_width(field), height = wr_field_height(field);
     Place last_x = { .cell = -2 }, last_y = last_x; /* no point is in cell -2 */
@@ -388,7 +407,7 @@ void wr_field_sample(const WrField *field, WrScheme scheme, size_t count, const 
         Place x = locate(u[k], width, wr_field_wrap_u(field), false, info->taps);
         Place y = locate(v[k], height, wr_field_wrap_v(field), true, info->taps);
         if (x.cell != last_x.cell || y.cell != last_y.cell)
-            read_taps(field, info->taps, whole, x.cell - 1, y.cell - 1, taps);
+            read_taps(field, info->taps, &fitted, x.cell - 1, y.cell - 1, taps);
         last_x = x, last_y = y;
         double out[3];
         info->eval(taps, x.fraction, y.fraction, out);
@@ -396,7 +415,7 @@ void wr_field_sample(const WrField *field, WrScheme scheme, size_t count, const 
         if (fu) fu[k] = x.varies ? width * out[1] : 0.0;
         if (fv) fv[k] = y.varies ? 0.0 - height * out[2] : 0.0; /* rows run down; 0 - 0 is +0 */
     }
-    wr_free(whole);
+    wr_free(fitted.taps);
 }
 
 /* FVAL of the paper, with v up and texels at their centres. */

@@ -94,9 +94,13 @@ grep -q '^tolerance rms=0.05: met' c && grep -q '^whole picture: scheme=' c || c
 "$program" explain "$scene" --size 64x64 --do 'tolerance rms=0.05' --json | jq -e '.tolerance.met' >/dev/null ||
     complain 'explain --json does not tell the choice'
 
-# The page, its scenes and its pictures.
+# The page, its scenes and its pictures; hard cases as if they were measured before.
+mkdir kept
+printf '{"cases":[{"id":"HC07","what":"the pole","verdict":"fail"},{"id":"HC08","what":"no","verdict":"pass"}],"pass":1,"fail":1,"waits":0}' >kept/hard.json
 bash "$source/samples/accuracy/make.sh" --quick --out page --keep kept "$program" >out 2>err ||
     complain "make.sh fails: $(tail -n 3 err)"
+grep -q 'measures 2 cases: 1 pass, 1 fail' page/README.md && grep -qx -- '- HC07, the pole: fails.' page/README.md ||
+    complain 'the page does not name the hard case that fails'
 for path in "$source"/samples/accuracy/*.wrinkle; do
     name=$(basename "$path" .wrinkle)
     for page in page/README.md "$source/samples/accuracy/README.md"; do

@@ -264,7 +264,7 @@ static void check_bits(WrSession *s, uint64_t seed)
 static void random_edits_leave_the_bits_of_layers_made_anew(void **state)
 {
     (void)state;
-    const int seeds = getenv("WR_FULL") ? 24 : test_amount(10, 2);
+    const int seeds = getenv("WR_FULL") ? 24 : test_amount(6, 2);
     for (int seed = 0; seed < seeds; seed++) {
         WrSession *s = session_of(stack);
         for (int k = 0; seed % 2 && groups[k]; k++) must_run(s, groups[k]);

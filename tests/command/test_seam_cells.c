@@ -197,9 +197,10 @@ static void a_check_says_what_the_export_said(void **state)
                                         "height depth=16 lay=hex",
                                         "normal+y depth=16 lay=half-drop resize=200x100",
                                         "occlusion depth=8" };
-    int torn = 0;
+    int torn = 0, tried = 0;
+    const int step = test_step(5, 9);
     for (int k = 0; k < CELLS; k++)
-        for (int w = k % 3; w < 9; w += test_amount(3, 9)) {
+        for (int w = k % step; w < 9; w += step) {
             Said said = { "" };
             char line[200];
             WrSession *session = listening(&said);
@@ -210,10 +211,10 @@ static void a_check_says_what_the_export_said(void **state)
             snprintf(line, sizeof line, "export %s c.png", ways[w]);
             must_run(session, line);
             agree("c.png", &said, cells[k]);
-            torn += is_torn(said.text);
+            torn += is_torn(said.text), tried++;
             wr_session_free(session);
         }
-    assert_true(torn > test_amount(60, 12));
+    assert_true(16 * torn > 5 * tried);
 }
 
 static void every_pattern_has_a_cell(void **state)

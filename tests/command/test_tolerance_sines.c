@@ -143,7 +143,7 @@ static void random_sums_of_sines_keep_to_their_tolerances(void **unused)
     const char *wanted = getenv("WR_SINES");
     const bool print = wanted && sscanf(wanted, "%d,%d", &first, &count) == 2;
     Tally tally = { 0 };
-    for (int n = first; n < first + count; n += print ? 1 : test_step(2, 2)) {
+    for (int n = first; n < first + count; n += print ? 1 : test_step(3, 3)) {
         WrError err;
         WrSession *session = scene_of(n);
         WrScene *scene = wr_scene_clone(doc(session)->scene);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Every header compiles on its own, as C17 with all warnings; one that only C++ files include, as C++17.
-# The build itself proves this for a header that NAME.c beside it includes first; the others are compiled here.
+# The build itself proves this for a header that some file includes first; the others are compiled here.
 # Helpers of tests stand after test.h, as in every test. A header without '#pragma once' is a piece of text
 # that others include on purpose, and only some places may hold such.  headers.sh SOURCE-FOLDER BUILD-FOLDER
 set -uo pipefail
@@ -18,11 +18,17 @@ bad=0 count=0 compiled=0
 included() { grep -rhoE --include="$1" --exclude='gui_imgui*.h' '^#include "[^"]+"' src ui | sort -u; }
 by_cpp=$(included '*.cpp') by_c=$(included '*.[ch]')
 
-# Headers of src and ui that a C file of the build includes before any other preprocessor line. Sources are named by
-# their absolute paths in the list of commands.
-proved=$(sed -nE "s|^ *\"file\": \"$PWD/((src\|ui)/[^\"]*\.c)\".*|\1|p" "$commands" | sort -u |
-    xargs awk 'FNR == 1 { header = FILENAME; sub(/\.c$/, ".h", header); name = header; sub(/^src\//, "", name) }
-        /^[ \t]*#/ { if ($0 == "#include \"" name "\"") print header; nextfile }')
+# Headers that a C file of the build includes before any other preprocessor line, or a test right after test.h. Sources are
+# named by their absolute paths in the list of commands.
+proved=$(sed -nE "s|^ *\"file\": \"$PWD/((src\|ui\|tests)/[^\"]*\.c)\".*|\1|p" "$commands" | sort -u |
+    xargs awk '/^[ \t]*#/ {
+        if ($0 == "#include \"test.h\"") next
+        if ($1 == "#include" && $2 ~ /^".*"$/) { folder = FILENAME; sub(/[^\/]*$/, "", folder); print folder, substr($2, 2, length($2) - 2) }
+        nextfile }' | while read -r folder header; do
+            for at in "$folder$header" "src/$header" "$header" "tests/$header"; do
+                [[ -f $at ]] && { printf '%s\n' "$at"; break; }
+            done
+        done | sort -u)
 # Heads that name a file: it is this one.
 misnamed=$(find src ui tests -name '*.[ch]' -exec awk 'FNR == 1 && $2 ~ /\.[ch]$/ && $3 == "-" {
     name = FILENAME; sub(/.*\//, "", name); if ($2 != name) print FILENAME ": its head names " $2 }' {} +)
