@@ -202,7 +202,8 @@ static void bad_values_give_one_error_that_names_the_parameter(void **state)
 static void check_ends(const WrGenerator *g)
 {
     const bool full = getenv("WR_FULL");
-    const int thin = strcmp(g->family, "solid") == 0 ? 27 : 9; /* copies of solids on a texel are many */
+    const int thin =
+        strcmp(g->family, "solid") == 0 ? 27 : 9; /* copies of solids on a texel are many */
     static const int sizes[][2] = { { 1, 1 }, { 7, 3 }, { 1, 65 } };
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
         WrField *like = table_of(sizes[s][0], sizes[s][1]);
