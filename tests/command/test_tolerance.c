@@ -526,8 +526,9 @@ static void the_worst_pixel_keeps_to_the_tolerance_or_it_says_so(void **state)
     };
     static const char *const *const scenes[] = { ball, sheet, band, roll };
     static const double tolerances[] = { 0.3, 0.1, 0.03, 0.01 };
-    int met = 0;
-    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+    int met = 0, tried = 0;
+    const size_t step = (size_t)test_step(2, 2);
+    for (size_t i = step - 1; i < sizeof scenes / sizeof *scenes; i += step) {
         Bench bench = bench_of(scenes[i]);
         WrReference reference = reference_of(&bench, 32);
         for (size_t t = 0; t < sizeof tolerances / sizeof *tolerances; t++) {
@@ -539,13 +540,13 @@ static void the_worst_pixel_keeps_to_the_tolerance_or_it_says_so(void **state)
             if (choice.met && errors.max > tolerances[t])
                 fail_msg("scene %d: %g, not %g: %s", (int)i, errors.max, tolerances[t],
                          choice.reason);
-            met += choice.met;
+            met += choice.met, tried++;
             wr_choice_fini(&choice);
         }
         wr_reference_fini(&reference);
         bench_fini(&bench);
     }
-    assert_in_range(met, 8, 15);
+    assert_in_range(met, tried / 2, tried - 1);
 }
 
 /* Seconds are converted to an operation count by a speed that is measured once and stored. */

@@ -220,9 +220,11 @@ static void run_fault(const Job *job, const Good *good, FaultKind kind, int64_t 
     check_end(job, good, status, tally, what);
 }
 
-/* Important cases, each guarded by a single line of code: run every time, for some of the jobs. */
-static bool is_telling(int job, FaultKind kind, FaultMode mode)
+/* Important cases, each guarded by a single line of code: run every time, for some of the jobs. Of many calls, such as the
+   closing of a contact sheet's inputs, the first, the last and a seventh. */
+static bool is_telling(int job, FaultKind kind, FaultMode mode, int64_t n, int64_t count)
 {
+    if (n > 9 && n < count - 9 && n % test_step(7, 7) != 0) return false;
     bool end = kind == FAULT_SYNC || kind == FAULT_RENAME || kind == FAULT_CLOSE;
     return kind == FAULT_UNLINK || (mode == FAULT_ERROR && end && job % 7 == 0);
 }
@@ -266,7 +268,7 @@ static void every_call_may_fail(void **state)
                 for (int mode = 0; mode < FAULT_MODES; mode++)
                     if (mode < FAULT_FLIP && fault_fits((FaultKind)kind, (FaultMode)mode) &&
                         (fault_is_wanted(index++, i) ||
-                         is_telling(i, (FaultKind)kind, (FaultMode)mode)))
+                         is_telling(i, (FaultKind)kind, (FaultMode)mode, n, counted.counts[kind])))
                         run_fault(job, &good, (FaultKind)kind, n, (FaultMode)mode, &tally);
         fault_tell(job->file, &tally);
         fault_add(&world.all, &tally);
