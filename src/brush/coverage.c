@@ -333,11 +333,12 @@ void wr_stroke_resolve(const WrStrokeResolver *maker, const WrStrokeResolve *mak
     }
 }
 
-#define MANY_PAGES 64  /* number worth several threads */
-#define FEW_PAGES 8    /* between checks of the clock */
-#define POOL_PAGES 256 /* the same, by several threads */
-#define LARGE 256.0    /* texels: reach of shapes that are added together, */
-#define TOGETHER 32    /* and their largest number */
+#define MANY_PAGES 64   /* number worth several threads */
+#define FEW_PAGES 8     /* between checks of the clock */
+#define POOL_PAGES 256  /* the same, by several threads */
+#define LARGE 256.0     /* texels: reach of shapes that are added together, */
+#define TOGETHER 32     /* their largest number, */
+#define TEXELS_MOST 1e8 /* and the texels of all, so that the clock is read in between */
 
 void wr_coverage_init(WrCoverage *cover, const WrBrushGround *ground, const WrBrush *brush,
                       WrCoverageRule rule)
@@ -491,8 +492,10 @@ static void add_waiting(WrCoverage *cover)
 void wr_coverage_add(WrCoverage *cover, const WrDabShape *shape)
 {
     if (cover->rule == WR_COVERAGE_MAX && shape->reach_x >= LARGE) {
+        const double texels = 4 * shape->reach_x * shape->reach_y;
         wr_array_push(&cover->waiting, *shape);
-        if (cover->waiting.count == TOGETHER) add_waiting(cover);
+        if (cover->waiting.count == TOGETHER || cover->waiting.count * texels > TEXELS_MOST)
+            add_waiting(cover);
         return;
     }
     if (cover->rule == WR_COVERAGE_MAX) cover->strongest = (double)(float)shape->strongest;
