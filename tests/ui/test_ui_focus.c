@@ -175,7 +175,7 @@ static void examine(Walk *walk)
         if (!place.reached[i] && (!dialog || place.stops[i].part == dialog))
             COMPLAIN("%s: the keys pass by what stands at %g,%g (kind %d)\n", walk->where,
                      place.stops[i].x0, place.stops[i].y0, place.stops[i].kind);
-    find_by_pointer(walk, &place, 15);
+    find_by_pointer(walk, &place, test_amount(15, 37));
     places++;
     stops_seen += place.count;
     if (modal) return;
