@@ -18,14 +18,13 @@ bad=0 count=0 compiled=0
 included() { grep -rhoE --include="$1" --exclude='gui_imgui*.h' '^#include "[^"]+"' src ui | sort -u; }
 by_cpp=$(included '*.cpp') by_c=$(included '*.[ch]')
 
-# Headers that a C file of the build includes before any other preprocessor line, or a test right after test.h. Sources are
-# named by their absolute paths in the list of commands.
-proved=$(sed -nE "s|^ *\"file\": \"$PWD/((src\|ui\|tests)/[^\"]*\.c)\".*|\1|p" "$commands" | sort -u |
+# Headers that a C file of the build includes before any other preprocessor line. Sources are named by their absolute paths in the
+# list of commands.
+proved=$(sed -nE "s|^ *\"file\": \"$PWD/((src\|ui)/[^\"]*\.c)\".*|\1|p" "$commands" | sort -u |
     xargs awk '/^[ \t]*#/ {
-        if ($0 == "#include \"test.h\"") next
         if ($1 == "#include" && $2 ~ /^".*"$/) { folder = FILENAME; sub(/[^\/]*$/, "", folder); print folder, substr($2, 2, length($2) - 2) }
         nextfile }' | while read -r folder header; do
-            for at in "$folder$header" "src/$header" "$header" "tests/$header"; do
+            for at in "$folder$header" "src/$header" "$header"; do
                 [[ -f $at ]] && { printf '%s\n' "$at"; break; }
             done
         done | sort -u)
