@@ -52,11 +52,12 @@ typedef struct WrOnceAsync {
  * Threads  any; results of the work are visible after this returned true */
 bool wr_once_async_wait(WrOnceAsync *once, WrError *err);
 
+/* True if the work has succeeded; does not wait. Any thread. */
+bool wr_once_async_done(const WrOnceAsync *once);
+
 /* Starts the work in advance, unless it is running or done, and returns at once. */
 void wr_once_async_begin(WrOnceAsync *once);
 
-bool wr_once_async_done(const WrOnceAsync *once);
-
 /* Lets the process exit without waiting for running work; exit handlers that were registered before
- * this call (it may be called several times) are then skipped. The two functions above call it. */
+ * this call (it may be called several times) are then skipped. wr_once_async_wait and wr_once_async_begin call it. */
 void wr_once_async_watch_end(void);

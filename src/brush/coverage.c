@@ -311,9 +311,8 @@ static void make_mark(const WrStrokeResolver *maker, const float *before, const 
 void wr_stroke_resolve(const WrStrokeResolver *maker, const WrStrokeResolve *make)
 {
     alignas(WR_ALIGN) float part[WR_TILE], flat[WR_TILE];
-    const WrField *marks = maker->ground.mark;
-    float *out = wr_field_place_write(make->out, wr_field_level(maker->ground.field));
-    float *mark = make->mark ? wr_field_place_write(make->mark, wr_field_level(marks)) : NULL;
+    float *out = wr_field_place_write(maker->ground.field, make->out);
+    float *mark = make->mark ? wr_field_place_write(maker->ground.mark, make->mark) : NULL;
     const float *selection = selection_of(maker, make);
     const float *start = wr_field_tile(maker->start, make->tx, make->ty);
     const float *mark_start =
@@ -381,7 +380,7 @@ static WrPage *page_of(WrCoverage *cover, int tx, int ty)
     return *slot;
 }
 
-/* Its texels: from the system, which clears fresh memory, so by the thread that fills them. */
+/* The coverage of a page, allocated on first use: by the thread that fills it, since the system clears new memory. */
 static float *texels_of(const WrCoverage *cover, WrPage *page)
 {
     if (page->cover) return page->cover;

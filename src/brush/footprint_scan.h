@@ -40,10 +40,10 @@ typedef void (*WrVisit)(void *ctx, const WrDabShape *shape, const WrScanPatch *p
 void wr_scan(const WrField *field, const WrDabShape *shape, WrPool *pool, WrPrepare prepare,
              WrVisit visit, void *ctx);
 
-/* The same for large shapes together, tile by tile, each tile on one thread. bound: of a shape in the tile whose first texel
- * lies at (x, y), not wrapped; the shapes of a tile are visited from the largest bound down, those of 0 are not. NULL: in
- * their order. */
+/* An upper bound of a shape's coverage in the tile whose first texel lies at (x, y), not wrapped. */
 typedef float (*WrBound)(const WrDabShape *shape, double x, double y);
+/* The same for several shapes [count], tile by tile, each tile on one thread. The shapes of a tile are visited from the largest
+ * bound down, and not if it is 0; without bound (NULL) in their order. prepare is called once for a tile. */
 void wr_scan_together(const WrField *field, const WrDabShape *shapes, int count, WrPool *pool,
                       WrPrepare prepare, WrVisit visit, WrBound bound, void *ctx);
 

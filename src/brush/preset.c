@@ -747,7 +747,8 @@ static json_object *parse_with(int flags, const char *text, size_t size, const c
     return root;
 }
 
-/* The strict mode of json-c 0.18 rejects letters beyond ASCII, so the syntax is checked with others in their place. */
+/* The strict mode of json-c 0.18 rejects letters beyond ASCII, so it checks the syntax of a copy that has an x for each of their
+   bytes. */
 static json_object *parse_json(const char *text, size_t size, const char *name, WrError *err)
 {
     char *ascii = wr_alloc(size + 1, 1);

@@ -141,7 +141,7 @@ static bool refuse_without(const WrCall *call, const char *const *names, const c
 
 /* ---- colour ---- */
 
-/* A texel's value as light. Most pictures have 256 codes: `light` holds those, and the power is computed for others. */
+/* A code 0..1 of sRGB as linear light. light: that of the 256 codes of 8 bits, which most pictures have; others need a power. */
 static float decoded(const float light[256], float code)
 {
     const int k = (int)(code * 255.0f + 0.5f);

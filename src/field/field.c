@@ -249,9 +249,9 @@ WrFieldPlace *wr_field_tile_place(WrField *field, int tx, int ty)
     return (WrFieldPlace *)own_slot(field, tx, ty);
 }
 
-float *wr_field_place_write(WrFieldPlace *place, float level)
+float *wr_field_place_write(const WrField *field, WrFieldPlace *place)
 {
-    return own_tile((Counted **)place, level)->texels;
+    return own_tile((Counted **)place, field->level)->texels;
 }
 
 /* Like wr_field_tile_write, but the caller overwrites every texel: a shared tile is not copied first. */

@@ -56,11 +56,11 @@ float wr_field_level(const WrField *field);
    change; heights written must be finite. Not for several threads at once on one field (fetch all
    pointers first, then fill them in parallel). */
 float *wr_field_tile_write(WrField *field, int tx, int ty);
-/* The same in two steps: the place of a tile, on one thread; then its texels, by any number of threads on different tiles.
-   The places hold until the field is shared or written otherwise. */
+/* The same in two steps: the place of each tile, on one thread; then their texels, by any number of threads, each tile by one.
+   A place belongs to the field, and is valid until the field is shared, freed or changed by another function. */
 typedef struct WrFieldPlace WrFieldPlace;
 WrFieldPlace *wr_field_tile_place(WrField *field, int tx, int ty);
-float *wr_field_place_write(WrFieldPlace *place, float level); /* level: the field's */
+float *wr_field_place_write(const WrField *field, WrFieldPlace *place);
 /* The tile for writing with undefined content: the caller writes all texels, the unused ones with the
    level. */
 float *wr_field_tile_fresh(WrField *field, int tx, int ty);

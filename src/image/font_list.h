@@ -42,4 +42,4 @@ char *wr_font_file(const char *const *families, int weight);
  * Threads  any */
 bool wr_font_config(WrError *err);
 void wr_font_config_begin(void); /* starts it in advance, and returns at once */
-bool wr_font_config_done(void);  /* without waiting */
+bool wr_font_config_done(void);  /* true if the list is loaded; does not wait */
