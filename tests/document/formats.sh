@@ -50,8 +50,8 @@ done | sort -u | wc -l)
 
 # ---- each version of the two formats, N.exr and N.ora ----
 # 1.exr and 2.exr are of the programs of those versions, the others of 1.0.0, which writes the lowest version that can hold a document:
-# 3 one layer; 4 a mesh; 5, 2.ora a normal map; 6 surroundings; 7, 3.ora the cell's size; 8, 4.ora a picture of roughness; 9, 6.ora a
-# filter layer; 10, 7.ora the projection of a mesh; 11, 8.ora a generator layer; 12, 9.ora a group; 13, 10.ora a view of colours.
+# 3 one layer; 4 a mesh; 5, 2.ora a normal map; 6 surroundings; 7, 3.ora the cell's size; 8, 4.ora a picture of roughness; 5.ora a
+# hidden filter layer; 9, 6.ora a filter layer; 10, 7.ora the projection of a mesh; 11, 8.ora a generator layer; 12, 9.ora a group; 13, 10.ora a view of colours.
 # Saved again, each needs the same version: without its feature it would need a lower one.
 version_of() {
     case $1 in
@@ -77,6 +77,8 @@ for file in "$kept"/[0-9]*; do
 done
 [[ $(find "$kept" -name '[0-9]*.exr' | wc -l) == $(sed -n 's/^#define WR_DOCUMENT_VERSION \([0-9]*\)$/\1/p' "$2/src/document/document_file.h") ]] ||
     complain 'not one EXR document of each version'
+[[ $(find "$kept" -name '[0-9]*.ora' | wc -l) == $(sed -n 's/^#define WR_ORA_VERSION \([0-9]*\).*/\1/p' "$2/src/document/ora.h") ]] ||
+    complain 'not one OpenRaster document of each version'
 
 # The mesh: a square from -1 to 1 in the plane of x and z, seen from its side; its file is not needed.
 "$program" inspect "$kept/mesh.exr" --at 0.5,0.5 >out 2>err || complain "mesh.exr: $(cat err)"
