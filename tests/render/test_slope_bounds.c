@@ -225,7 +225,7 @@ static void tiles_are_as_steep_as_what_is_read_of_them(void **state)
     wr_pool_free(pool);
 }
 
-/* The copy of a table with empty tiles, as numbers: 0 and -0 are the same. */
+/* As numbers: 0 and -0 are the same. */
 static void assert_same_copies(const WrTable *a, const WrTable *b, WrCopyKind kind, int rows)
 {
     const WrTableCopy *one = &a->copies[kind], *other = &b->copies[kind];
@@ -235,6 +235,49 @@ static void assert_same_copies(const WrTable *a, const WrTable *b, WrCopyKind ki
     for (size_t i = 0; i < count; i++)
         if (one->data ? one->data[i] != other->data[i] : one->fine[i] != other->fine[i])
             fail_msg("kind %d: number %zu differs", (int)kind, i);
+}
+
+/* Random heights in a random rectangle, from a point to most of the table. */
+static void scatter(WrField *field, TestRandom *random)
+{
+    const int w = wr_field_width(field), h = wr_field_height(field);
+    const int i0 = (int)(w * test_random(random)), j0 = (int)(h * test_random(random));
+    const double share = test_random(random);
+    for (int j = j0; j <= j0 + (int)(0.8 * share * h) && j < h; j++)
+        for (int i = i0; i <= i0 + (int)(0.8 * share * w) && i < w; i++)
+            wr_field_set(field, i, j, (float)test_random(random));
+}
+
+static void edits_refresh_a_copy_to_the_bits_of_a_new_one(void **state)
+{
+    (void)state;
+    TestRandom random = { 4321 };
+    WrError err = { "" };
+    WrPool *pool = wr_pool_new(3);
+    for (int k = 0; k < 12; k++) {
+        const int w = 700 + 37 * k, h = 900 - 29 * k, kind = k % WR_COPY_COUNT;
+        const WrWrap u = k % 2 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC;
+        const WrWrap v = k % 4 < 2 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC;
+        WrField *field = wr_field_new(w, h, u, v, 0, NULL);
+        WrTable kept;
+        wr_table_init(&kept);
+        for (int edit = 0; edit < test_amount(6, 3); edit++) {
+            WrTable fresh;
+            wr_table_init(&fresh);
+            assert_true(wr_table_update(&kept, (WrCopyKind)kind, field, pool, &err));
+            assert_true(wr_table_update(&fresh, (WrCopyKind)kind, field, pool, &err));
+            assert_same_copies(&kept, &fresh, (WrCopyKind)kind, h);
+            if (kind == WR_COPY_GRADIENT)
+                assert_memory_equal(kept.steep, fresh.steep,
+                                    (size_t)wr_field_tiles_u(field) *
+                                        (size_t)wr_field_tiles_v(field) * sizeof *kept.steep);
+            wr_table_fini(&fresh);
+            scatter(field, &random);
+        }
+        wr_table_fini(&kept);
+        wr_field_free(field);
+    }
+    wr_pool_free(pool);
 }
 
 /* Empty tiles are left out of copies; those of a table that stores its zeros are not. Both are edited, and edits undone. */
@@ -284,6 +327,7 @@ int main(void)
         cmocka_unit_test(what_is_spared_shows_nowhere),
         cmocka_unit_test(edits_show_wherever_they_are),
         cmocka_unit_test(tiles_are_as_steep_as_what_is_read_of_them),
+        cmocka_unit_test(edits_refresh_a_copy_to_the_bits_of_a_new_one),
         cmocka_unit_test(empty_tiles_are_left_out_and_read_as_zeros),
         cmocka_unit_test(no_tile_that_a_box_reads_is_steeper_than_it_says),
     };

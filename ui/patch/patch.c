@@ -268,7 +268,11 @@ static void patch_after(WrApp *app)
         wish(app, !edited);
         p->refreshing = edited;
         p->outstanding = true;
-    } else if (p->wished_painted && !is_painted(app) && !p->wished_moving && !p->outstanding) {
+        return;
+    }
+    /* motions that changed nothing are in the picture, too */
+    if (!p->outstanding && !app->busy) p->seen = app->brush->shown;
+    if (p->wished_painted && !is_painted(app) && !p->wished_moving && !p->outstanding) {
         wish(app, false); /* a rough picture may be refined now */
     } else if (p->wished_moving && !p->outstanding && now >= p->rest_at) {
         wish(app, false);

@@ -1,5 +1,6 @@
 #include "render/textures/height_copies.h"
 
+#include "base/array.h"
 #include "base/enum_rows.h"
 #include "base/error.h"
 #include "base/kernmath.h"
@@ -11,6 +12,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- quantized heights ---- */
@@ -270,14 +272,21 @@ void wr_table_range(const WrTable *table, float *low, float *high)
 
 /* ---- copies ------------------------------------------------------------------------------------ */
 
+/* The texels of a tile of the copy that are computed again. */
+typedef struct Part {
+    int tile; /* ty * tiles_u + tx */
+    WrFieldRect box;
+} Part;
+
 typedef struct CopyJob {
     WrTable *table;
     WrTableCopy *copy;
     WrCopyKind kind;
     const WrField *field;
     bool skips;  /* tiles that stay empty are left out */
+    int changed; /* tiles */
     bool border; /* a texel that the apron repeats has changed */
-    int changed; /* changed tiles */
+    WR_ARRAY(Part) parts;
 } CopyJob;
 
 static size_t place(const CopyJob *job, int i, int j)
@@ -501,30 +510,73 @@ static void reached(const CopyJob *job, int tx, int ty, Pieces *u, Pieces *v)
     *v = reach_from(own.j0, own.j1, reach, h, wr_field_wrap_v(field));
 }
 
-static void refresh_tile(int tx, int ty, void *ctx)
+/* Cuts texels i0 <= i < i1, j0 <= j < j1 at the tiles' edges. */
+static void add_parts(CopyJob *job, int i0, int i1, int j0, int j1)
 {
-    CopyJob *job = ctx;
-    Pieces u, v;
-    if (wr_progress_stopped()) return;
-    reached(job, tx, ty, &u, &v);
-    for (int b = 0; b < v.count; b++)
-        for (int a = 0; a < u.count; a++)
-            refresh(job, u.from[a], v.from[b], u.to[a] - u.from[a], v.to[b] - v.from[b]);
-    if (u.border || v.border) job->border = true;
+    for (int j = j0, bottom; j < j1; j = bottom) {
+        bottom = tile_end(j, j1);
+        for (int i = i0, right; i < i1; i = right) {
+            right = tile_end(i, i1);
+            const int tile = j / WR_TILE * wr_field_tiles_u(job->field) + i / WR_TILE;
+            wr_array_push(&job->parts, ((Part){ tile, { i, right, j, bottom } }));
+        }
+    }
 }
 
-/* Updates a tile's slope bounds, after the apron. */
-static void mark_tile(int tx, int ty, void *ctx)
+/* Counts a changed tile. Beyond half of all tiles the whole copy will be built, which needs no list. */
+static void list_change(int tx, int ty, void *ctx)
 {
     CopyJob *job = ctx;
     Pieces u, v;
-    if (wr_progress_stopped()) return;
+    if (++job->changed > tile_count(job->field) / 2 || wr_progress_stopped()) return;
     reached(job, tx, ty, &u, &v);
     for (int b = 0; b < v.count; b++)
-        for (int a = 0; a < u.count; a++)
-            for (int y = v.from[b] / WR_TILE; y <= (v.to[b] - 1) / WR_TILE; y++)
-                for (int x = u.from[a] / WR_TILE; x <= (u.to[a] - 1) / WR_TILE; x++)
-                    mark_steep(job, x, y);
+        for (int a = 0; a < u.count; a++) add_parts(job, u.from[a], u.to[a], v.from[b], v.to[b]);
+    job->border |= u.border || v.border;
+}
+
+static int by_tile(const void *a, const void *b)
+{
+    const Part *p = a, *q = b;
+    return (p->tile > q->tile) - (p->tile < q->tile);
+}
+
+/* One part for each tile, so that threads can share the work: the box around those that its own change and those of its
+   neighbours reach. */
+static void join_parts(CopyJob *job)
+{
+    Part *part = job->parts.data;
+    int count = 0;
+    if (job->parts.count > 1) qsort(part, (size_t)job->parts.count, sizeof *part, by_tile);
+    for (int i = 0; i < job->parts.count; i++) {
+        if (count == 0 || part[count - 1].tile != part[i].tile) {
+            part[count++] = part[i];
+            continue;
+        }
+        WrFieldRect *box = &part[count - 1].box;
+        const WrFieldRect *more = &part[i].box;
+        box->i0 = more->i0 < box->i0 ? more->i0 : box->i0;
+        box->i1 = more->i1 > box->i1 ? more->i1 : box->i1;
+        box->j0 = more->j0 < box->j0 ? more->j0 : box->j0;
+        box->j1 = more->j1 > box->j1 ? more->j1 : box->j1;
+    }
+    job->parts.count = count;
+}
+
+static void refresh_part(int index, int worker, void *ctx)
+{
+    (void)worker;
+    CopyJob *job = ctx;
+    const WrFieldRect *box = &job->parts.data[index].box;
+    refresh(job, box->i0, box->j0, box->i1 - box->i0, box->j1 - box->j0);
+}
+
+static void mark_part(int index, int worker, void *ctx)
+{
+    (void)worker;
+    CopyJob *job = ctx;
+    const int tile = job->parts.data[index].tile, across = wr_field_tiles_u(job->field);
+    mark_steep(job, tile % across, tile / across);
 }
 
 /* The whole apron: cheap beside a frame, and simpler than its parts. */
@@ -555,10 +607,16 @@ static void sum_steep(WrTable *table, int count)
     table->sloped = sloped;
 }
 
-static void count_tile(int tx, int ty, void *ctx)
+#define SHARED_PARTS 64 /* tiles worth several threads */
+
+/* Computes the listed parts again. Slopes near an end of a clamped axis are bounded with the apron. */
+static void refresh_parts(CopyJob *job, WrPool *pool)
 {
-    (void)tx, (void)ty;
-    ((CopyJob *)ctx)->changed++;
+    join_parts(job);
+    if (job->parts.count < SHARED_PARTS) pool = NULL;
+    wr_pool_run(pool, job->parts.count, refresh_part, job);
+    if (job->border) refresh_apron(job);
+    if (job->kind == WR_COPY_GRADIENT) wr_pool_run(pool, job->parts.count, mark_part, job);
 }
 
 #define MANY_TILES 4096
@@ -602,7 +660,26 @@ static bool allocate(CopyJob *job, WrError *err)
     return true;
 }
 
-/* Up to half of the tiles are updated one by one on this thread; beyond that a parallel full build is faster. */
+/* Updates the copy's texels; false and an error if there is no memory. With changes in more than half of the tiles a full build is
+   faster. */
+static bool update(CopyJob *job, WrPool *pool, WrError *err)
+{
+    WrTableCopy *copy = job->copy;
+    const WrField *field = job->field;
+    const bool same = same_layout(copy->seen, field);
+    job->skips = may_skip(field) && (!copy->seen || wr_field_level(copy->seen) == 0.0f);
+    if (same && job->changed <= tile_count(field) / 2) {
+        refresh_parts(job, pool);
+        return true;
+    }
+    if (!(same && (!copy->sparse || is_sparse(field)))) {
+        if (!allocate(job, err)) return false;
+        job->skips = may_skip(field);
+    }
+    wr_pool_run(pool, wr_field_tiles_v(field), build_strip, job);
+    return true;
+}
+
 bool wr_table_update(WrTable *table, WrCopyKind kind, const WrField *field, WrPool *pool,
                      WrError *err)
 {
@@ -611,20 +688,12 @@ bool wr_table_update(WrTable *table, WrCopyKind kind, const WrField *field, WrPo
     table->texels_refreshed = 0;
     if (copy->precision != table->precision) wr_table_drop(table, kind);
     if (same_layout(copy->seen, field)) {
-        wr_field_changes(copy->seen, field, count_tile, &job);
+        wr_field_changes(copy->seen, field, list_change, &job);
         if (job.changed == 0) return true;
     }
-    job.skips = may_skip(field) && (!copy->seen || wr_field_level(copy->seen) == 0.0f);
-    if (same_layout(copy->seen, field) && job.changed <= tile_count(field) / 2) {
-        wr_field_changes(copy->seen, field, refresh_tile, &job);
-        if (job.border) refresh_apron(&job);
-        if (kind == WR_COPY_GRADIENT) wr_field_changes(copy->seen, field, mark_tile, &job);
-    } else {
-        const bool fits = same_layout(copy->seen, field) && (!copy->sparse || is_sparse(field));
-        if (!fits && !allocate(&job, err)) return false;
-        job.skips = may_skip(field) && (!copy->seen || wr_field_level(copy->seen) == 0.0f);
-        wr_pool_run(pool, wr_field_tiles_v(field), build_strip, &job);
-    }
+    const bool good = update(&job, pool, err);
+    wr_array_free(&job.parts);
+    if (!good) return false;
     if (wr_progress_stopped()) {
         wr_table_drop(table, kind); /* incomplete */
         return wr_fail(err, "cancelled");
