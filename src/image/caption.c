@@ -79,7 +79,7 @@ static void draw_character(WrLabel *label, uint32_t character, int x, int y, uin
                            uint8_t *pixels, int width, int height)
 {
     if (FT_Load_Char(label->face, character, FT_LOAD_RENDER | FT_LOAD_TARGET_LIGHT)) return;
-    const FT_GlyphSlot glyph = label->face->glyph;
+    const FT_GlyphSlotRec *glyph = label->face->glyph;
     const FT_Bitmap *bits = &glyph->bitmap;
     if (bits->pixel_mode != FT_PIXEL_MODE_GRAY) return;
     for (int j = 0; j < (int)bits->rows; j++)

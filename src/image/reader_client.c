@@ -601,7 +601,6 @@ bool wr_reader_block(const char *name, int fd, WrWireTask task, const void *ask,
     for (int attempt = 0; attempt < 2 && gone && !good; attempt++) {
         if (reader->channel >= 0) wr_fd_close(reader->channel);
         reader->channel = -1;
-        gone = false;
         if (!send_order(reader, &order, fd, err)) break;
         /* If the child has ended, its last messages are read below. */
         wr_wire_send(reader->channel, WR_WIRE_ASK, ask, ask_length, -1);

@@ -94,6 +94,33 @@ static int start_events(void **state)
     return SDL_Init(SDL_INIT_EVENTS);
 }
 
+/* After a small edit the finest picture is mended; after one of the whole table it follows on two rougher ones. */
+static void a_large_edit_is_seen_roughly_at_first(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *line;
+        int pictures;
+    } edits[] = { { "dab 0.2,0.3 radius=5 strength=0.3", 1 },
+                  { "adjust invert", 3 },
+                  { "dab 0.7,0.6 radius=9 strength=0.4", 1 },
+                  { "undo", 1 },
+                  { "adjust multiply factor=1.5", 3 } };
+    static const char *const sphere[] = { "table 256x192", "grid cells=4x4 width=6",
+                                          "surface sphere", NULL };
+    WrSession *session = session_of(sphere);
+    WrPreview *preview = new_preview();
+    uint64_t serial = finest(preview, session, NULL, 10)->serial;
+    for (size_t i = 0; i < sizeof edits / sizeof *edits; i++) {
+        must_run(session, edits[i].line);
+        const uint64_t next = finest(preview, session, NULL, 10)->serial;
+        assert_int_equal(next - serial, edits[i].pictures);
+        serial = next;
+    }
+    wr_preview_free(preview);
+    wr_session_free(session);
+}
+
 /* A copy of the last fetched picture, updated in the reported changed region, equals the newest picture; also if
    pictures in between were skipped, and if sizes change. */
 static void what_is_said_to_have_changed_makes_the_picture(void **state)
@@ -172,6 +199,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_a_view_chose_is_what_the_document_keeps),
         cmocka_unit_test(dials_of_another_picture_are_chosen_anew),
+        cmocka_unit_test(a_large_edit_is_seen_roughly_at_first),
         cmocka_unit_test(what_is_said_to_have_changed_makes_the_picture),
         cmocka_unit_test(pixels_that_are_full_in_a_colour_are_counted_and_striped),
     };

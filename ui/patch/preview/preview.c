@@ -288,19 +288,36 @@ static bool only_edited(const WrPreview *preview)
            now->height == next->height;
 }
 
+static void count_tile(int tx, int ty, void *ctx)
+{
+    (void)tx, (void)ty;
+    ++*(int *)ctx;
+}
+
+/* True if so much of the table changed that all of the picture is drawn again, as by undo of a filter or with a layer hidden:
+   roughly at first, like any other change of the whole. */
+static bool is_large(const WrField *was, const WrField *now)
+{
+    int changed = 0;
+    if (!wr_field_alike(was, now)) return true;
+    wr_field_changes(was, now, count_tile, &changed);
+    return changed > wr_field_tiles_u(now) * wr_field_tiles_v(now) / 8;
+}
+
 /* Start the next request, or refine the present one; false: nothing to do. Called with the lock held. */
 static bool choose(WrPreview *preview, WrPreviewLevel *level)
 {
     if (preview->next.field) {
         bool edited = only_edited(preview);
+        const bool large = edited && is_large(preview->now.field, preview->next.field);
         request_clear(&preview->now);
         preview->now = preview->next;
         preview->next = (Wish){ 0 };
         __atomic_store_n(&preview->cancel, 0, __ATOMIC_RELAXED);
         preview->edited = edited && preview->level > WR_PREVIEW_FULL;
         if (edited) {
-            bool slow = preview->now.painting &&
-                        (preview->edit_seconds > EDIT_SECONDS || has_tolerance(&preview->now));
+            bool slow = large || (preview->now.painting && (preview->edit_seconds > EDIT_SECONDS ||
+                                                            has_tolerance(&preview->now)));
             *level = slow ? WR_PREVIEW_FULL : preview->level;
             preview->edited = preview->edited && !slow;
             return true;
