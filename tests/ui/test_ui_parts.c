@@ -48,6 +48,19 @@ static void the_beginning_of_a_label_counts_more_than_its_middle(void **state)
     assert_true(begin > word && word > inside && inside > 0);
 }
 
+/* A brush named "***" has no letter to search for, but is found by its place. */
+static void a_label_without_letters_is_found_by_other_words(void **state)
+{
+    (void)state;
+    WrSearchQuery query;
+    const char *const field[WR_SEARCH_FIELDS] = { [WR_SEARCH_LABEL] = "",
+                                                  [WR_SEARCH_PLACE] = "brushes" };
+    wr_search_parse("brushes", &query);
+    assert_true(wr_search_rank(&query, field, false) > 0);
+    wr_search_parse("pencil", &query);
+    assert_int_equal(wr_search_rank(&query, field, false), 0);
+}
+
 /* ---- the canvas's range ---- */
 
 static void assert_range(const double range[2], double low, double high)
@@ -820,6 +833,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_search_takes_all_words_in_any_order_and_case),
+        cmocka_unit_test(a_label_without_letters_is_found_by_other_words),
         cmocka_unit_test(the_beginning_of_a_label_counts_more_than_its_middle),
         cmocka_unit_test(a_range_shows_a_new_table_in_the_middle_and_signs_around_it),
         cmocka_unit_test(a_range_moves_only_the_end_that_is_passed),

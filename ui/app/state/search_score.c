@@ -217,9 +217,10 @@ static int phrase_bonus(const char *joined, const char *text)
     return best;
 }
 
+/* At least 1, also of an empty label. */
 static int word_count(const char *text)
 {
-    int count = *text != '\0';
+    int count = 1;
     for (; *text; text++) count += *text == ' ' || *text == ',';
     return count;
 }
