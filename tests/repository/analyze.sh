@@ -29,12 +29,53 @@ tidy src/document/document.c clang-analyzer-core.uninitialized.ArraySubscript 1:
 tidy src/document/history.c clang-analyzer-core.NullDereference 1: each state has a document
 tidy src/document/recover.c clang-analyzer-core.NonNullParamChecker 2: a reader that has bytes has a buffer
 tidy src/export/film.c bugprone-suspicious-missing-comma 2: PALETTE is joined of two texts
+tidy src/export/glb.c clang-analyzer-core.NullDereference 1: without triangles of its own it takes the scene's, which has some
+tidy src/export/line_drawing.c clang-analyzer-core.uninitialized.Assign 1: a drawing that was made is set as a whole
+tidy src/export/solid.c clang-analyzer-core.NullDereference 1: a list with a count above 0 has memory
+tidy src/export/solid.c clang-analyzer-core.UndefinedBinaryOperatorResult 1: both ends of a side have a location
+tidy src/field/horizon.c clang-analyzer-core.UndefinedBinaryOperatorResult 1: each direction has its sine
+tidy src/field/ops_build.c clang-analyzer-core.NonNullParamChecker 1: a row to compare has been made
+tidy src/field/select_shape.c clang-analyzer-core.CallAndMessage 2: select_vertex sets both, or fails
+tidy src/field/select_shape.c clang-analyzer-core.NullDereference 1: a loop has a first point
+tidy src/generate/rim_generators.c clang-analyzer-core.NullDereference 1: one of the two lists has a piece left
+tidy src/generate/solid_generators.c clang-analyzer-core.uninitialized.ArraySubscript 1: the net begins without points
+tidy src/generate/solid_places.c clang-analyzer-core.uninitialized.Assign 1: the points' function sets their count, or fails
+tidy src/generate/text_generators.c clang-analyzer-core.CallAndMessage 1: as many names are told as were lent
+tidy src/generate/text_relief.c clang-analyzer-core.NullDereference 1: a list with a count above 0 has memory
+tidy src/generate/text_relief.c clang-analyzer-core.uninitialized.Assign 1: distances are found for wanted texels
+tidy src/image/exr.c clang-analyzer-core.CallAndMessage 1: a part that was added has an index
 tidy src/image/font_load.c bugprone-signed-char-misuse 1: levels of FriBidi are not negative
+tidy src/image/font_load.c clang-analyzer-core.NonNullParamChecker 1: a font has a glyph
+tidy src/image/font_load.c clang-analyzer-core.NullDereference 2: a font that was opened has a face; lines are asked for
+tidy src/image/font_outline.c clang-analyzer-core.CallAndMessage 7: each verb takes its number of points
+tidy src/image/gltf_mesh.c clang-analyzer-core.NullDereference 1: an accessor with a count above 0 has bytes
+tidy src/image/mesh_readers.c clang-analyzer-core.uninitialized.Assign 2: numbers are set, or reading fails
+tidy src/noise/noise.c clang-analyzer-core.UndefinedBinaryOperatorResult 2: noise has one to three dimensions, and a slope in each
+tidy src/noise/noise.c clang-analyzer-core.uninitialized.Assign 1: noise has one to three dimensions, and a slope in each
+tidy src/noise/noise.c clang-analyzer-core.uninitialized.UndefReturn 1: noise has one to three dimensions
+tidy src/noise/octaves.c clang-analyzer-core.UndefinedBinaryOperatorResult 1: octaves set a slope in each dimension
+tidy src/render/frame/adaptive.c clang-analyzer-core.uninitialized.Assign 2: pairs and rows of pixels are not empty
 tidy src/render/pipeline/pipeline_body.h misc-redundant-expression 1: one text in two precisions
+tidy src/render/reference/reference.c clang-analyzer-core.NullDereference 1: a looker has a scene
+tidy src/render/tessellation/dice.c clang-analyzer-core.NonNullParamChecker 1: each face has its rates
+tidy src/render/visibility/view.c clang-analyzer-core.UndefinedBinaryOperatorResult 2: each face of the shape is facing or not
+tidy src/scene/objects.c clang-analyzer-core.UndefinedBinaryOperatorResult 1: wr_scene_place sets the place, or fails
+tidy src/scene/objects.c clang-analyzer-core.uninitialized.Branch 1: wr_scene_place sets the place, or fails
+tidy src/surface/patches.c clang-analyzer-core.UndefinedBinaryOperatorResult 2: read_whole sets the number, or fails
+tidy src/surface/projection.c clang-analyzer-core.UndefinedBinaryOperatorResult 1: the first angle is set before others follow it
+tidy src/surface/uv_coverage.c clang-analyzer-core.uninitialized.Assign 1: maps have one to three channels
 tidy src/system/linux.c bugprone-unsafe-functions 1: vfork is needed for a child that dies with its parent; signals are blocked around it
+tidy src/system/linux.c clang-analyzer-security.insecureAPI.vfork 1: needed for a child that dies with its parent; signals are blocked around it
+tidy src/system/linux.c clang-analyzer-unix.Vfork 1: the child calls what may be called between fork and exec, and ends
 tidy src/system/path.c clang-analyzer-unix.StdCLibraryFunctions 4: the folder is open, so that dirfd has a descriptor
+tidy ui/canvas/canvas.c clang-analyzer-core.CallAndMessage 1: one field, or both, are set
 tidy ui/input/pen_curve.c clang-analyzer-core.CallAndMessage 1: a curve that is valid has two points or more
 tidy ui/input/pen_curve.c clang-analyzer-core.UndefinedBinaryOperatorResult 3: a curve that is valid has two points or more
+tidy ui/input/pen_record.c clang-analyzer-core.CallAndMessage 1: number_of sets the number, or fails
+tidy ui/panels/generate/generate_state.c clang-analyzer-core.NullDereference 1: a call has a generator
+tidy ui/panels/help/guide.c clang-analyzer-core.CallAndMessage 1: a file that was read has its text
+tidy ui/panels/panel_plan.c clang-analyzer-core.CallAndMessage 1: the last of the beginnings is empty, so that one fits
+tidy ui/panels/panel_right.c clang-analyzer-core.UndefinedBinaryOperatorResult 1: a floating tab has its place
 '
 
 root=$(CDPATH='' cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/../.." && pwd -P)

@@ -1,9 +1,12 @@
 #!/usr/bin/env bash
 # Ways of installing in bare systems: the folder that runs anywhere (package.sh --tarball), by root in /opt and by a user without
-# rights at home, and packages, where some were made for that release. Each is used for a first picture and a window, moved (the
-# folder), and removed; it fails if anything is left. Prints a table with seconds and megabytes. Needs root and a mirror.
-#   places.sh TARBALL SUITE[=FOLDER of its packages]...    e.g. places.sh wrinkle-1.0.0-x86_64.tar.xz bookworm trixie noble
+# rights at home, packages, where some were made for that release, and with --source this checkout, built by ui/run.sh. Each is used for a
+# first picture and a window, moved (the folder), and removed; it fails if anything is left. Prints a table with seconds and megabytes.
+# Needs root and a mirror.
+#   places.sh [--source] TARBALL SUITE[=FOLDER of its packages]...    e.g. places.sh wrinkle-1.0.0-x86_64.tar.xz bookworm trixie noble
 set -uo pipefail
+source=
+[[ ${1:-} != --source ]] || { source=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd -P) && shift; }
 tarball=$1
 shift
 folder=$(mktemp -d) || exit 1
@@ -72,7 +75,7 @@ row() {
     inside "$user" sh -c "$remove" >log 2>&1 || fail "$suite, $way: $(tail -n 20 log)"
     census >after
     # Other packages leave settings, caches and lists of users; nothing of ours may stay, and nothing at all of the folder.
-    left=$(comm -13 before after | if [[ $way == packages* ]]; then grep -i wrinkle; else cat; fi | head -n 5)
+    left=$(comm -13 before after | if [[ $way != folder ]]; then grep -i wrinkle; else cat; fi | head -n 5)
     left+=$(find "$system/home/painter" -mindepth 1 -maxdepth 1 -not -name '.*' -not -name 'mine.*' -not -name picture.png -not -name window.log)
     [[ -z $left ]] || fail "$suite, $way: after the removal these are left: $left"
     printf '| %s | %s | %s | %d.%d s | %d MB | %d.%02d s |\n' "$suite" "$way" "$who" $((seconds / 1000000)) $((seconds / 100000 % 10)) "$size" \
@@ -104,6 +107,18 @@ for place; do
             'apt-get -q -y purge --autoremove wrinkle' wrinkle
         row 'packages, with recommended ones' root 0:0 'apt-get -q -y install /given/wrinkle_*.deb /given/wrinkle-doc_*.deb' \
             'apt-get -q -y purge --autoremove wrinkle wrinkle-doc' wrinkle
+    fi
+    if [[ $source ]]; then
+        mkdir "$system/opt/source"
+        (cd "$source" && find . -path './build*' -prune -o -path ./.git -prune -o -type f -print0 | tar --null --files-from=- -cf -) |
+            tar -C "$system/opt/source" -xf - || fail "the checkout was not copied"
+        # A user who may not install packages is told which are missing.
+        inside 1000:1000 sh -c 'cd && cp -r /opt/source mine.source && bash mine.source/ui/run.sh --version; code=$?; rm -rf mine.source; exit $code' >log 2>&1 &&
+            fail "$suite: a user without rights built it, although packages are missing"
+        grep -q 'no sudo to install them: apt-get install .*libsdl2-dev' log || fail "$suite: a user without rights is told: $(cat log)"
+        row 'checkout, built by `ui/run.sh`' root 0:0 \
+            'apt-mark showmanual | sort >/given/had && bash /opt/source/ui/run.sh --version' \
+            'rm -rf /opt/source && apt-mark showmanual | sort | comm -13 /given/had - | xargs apt-get -q -y purge --autoremove' /opt/source/build/wrinkle
     fi
     rm -rf --one-file-system "$system"
 done

@@ -451,8 +451,11 @@ try {
     for (int row = 0, first = 0; first < count; row++) {
         float wide, end = 0;
         int n = tabs_in_row(items, first, count, width, &wide);
-        const int even = (count - first + rows - row - 1) / (rows - row);
-        while (n > even) wide -= ImGui::CalcTextSize(wr_gui_said(items[first + --n])).x;
+        const int left = count - first, rows_left = rows > row + 1 ? rows - row : 1;
+        const int even = (left + rows_left - 1) / rows_left;
+        /* as long as the rest fits into the other rows */
+        while (n > even && rows_of_tabs(items + first + n - 1, left - n + 1, width) < rows_left)
+            wide -= ImGui::CalcTextSize(wr_gui_said(items[first + --n])).x;
         const float gap = (width - wide) / (float)n;
         for (int i = first; i < first + n; i++) {
             float x0 = roundf(end);

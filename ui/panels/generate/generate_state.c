@@ -305,10 +305,11 @@ void wr_generate_free(WrApp *app)
 void wr_generate_blame(WrGenerateState *hand)
 {
     const char *said = hand->err.text, *colon = strstr(said, ": ");
-    size_t family = hand->generator ? strlen(hand->generator->family) : 0;
     hand->blamed = -1;
     hand->blame = 0;
-    if (!colon || strncmp(said, hand->generator->family, family) != 0) return;
+    if (!colon || !hand->generator) return;
+    const char *family = hand->generator->family;
+    if (strncmp(said, family, strlen(family)) != 0) return;
     said = colon + 2;
     hand->blame = (size_t)(said - hand->err.text);
     for (int i = 0; hand->generator->params[i].name; i++) {
