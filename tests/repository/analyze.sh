@@ -29,7 +29,7 @@ tidy src/document/document.c clang-analyzer-core.uninitialized.ArraySubscript 1:
 tidy src/document/history.c clang-analyzer-core.NullDereference 1: each state has a document
 tidy src/document/recover.c clang-analyzer-core.NonNullParamChecker 2: a reader that has bytes has a buffer
 tidy src/export/film.c bugprone-suspicious-missing-comma 2: PALETTE is joined of two texts
-tidy src/export/glb.c clang-analyzer-core.NullDereference 1: without triangles of its own it takes the scene's, which has some
+tidy src/export/glb.c clang-analyzer-core.NullDereference 1: without triangles of its own it takes those of the scene, which has some
 tidy src/export/line_drawing.c clang-analyzer-core.uninitialized.Assign 1: a drawing that was made is set as a whole
 tidy src/export/solid.c clang-analyzer-core.NullDereference 1: a list with a count above 0 has memory
 tidy src/export/solid.c clang-analyzer-core.UndefinedBinaryOperatorResult 1: both ends of a side have a location
@@ -39,7 +39,7 @@ tidy src/field/select_shape.c clang-analyzer-core.CallAndMessage 2: select_verte
 tidy src/field/select_shape.c clang-analyzer-core.NullDereference 1: a loop has a first point
 tidy src/generate/rim_generators.c clang-analyzer-core.NullDereference 1: one of the two lists has a piece left
 tidy src/generate/solid_generators.c clang-analyzer-core.uninitialized.ArraySubscript 1: the net begins without points
-tidy src/generate/solid_places.c clang-analyzer-core.uninitialized.Assign 1: the points' function sets their count, or fails
+tidy src/generate/solid_places.c clang-analyzer-core.uninitialized.Assign 1: what makes the points sets their count, or fails
 tidy src/generate/text_generators.c clang-analyzer-core.CallAndMessage 1: as many names are told as were lent
 tidy src/generate/text_relief.c clang-analyzer-core.NullDereference 1: a list with a count above 0 has memory
 tidy src/generate/text_relief.c clang-analyzer-core.uninitialized.Assign 1: distances are found for wanted texels

@@ -53,6 +53,8 @@ inside 'ctest --test-dir build -L "^quick$" --parallel $(nproc) --timeout 900' >
     fail "tests: $(tail -n 20 "$folder/log")"
 say "$(grep 'tests passed' "$folder/log")"
 # (They close no request for packaging, since they are not uploaded to Debian, and the project has no home page.)
-inside 'export DEBFULLNAME="Package test" DEBEMAIL=test@debian.org && bash ui/desktop/package.sh /made && lintian --allow-root --fail-on=error,warning \
-    --suppress-tags=initial-upload-closes-no-bugs,appstream-metadata-validation-failed /made/*.changes' >"$folder/log" 2>&1 || fail "packages: $(tail -n 30 "$folder/log")"
+# shellcheck disable=SC2016
+inside 'export DEBFULLNAME="Package test" DEBEMAIL=test@debian.org && bash ui/desktop/package.sh /made &&
+    known=$(lintian-explain-tags appstream-metadata-validation-failed >/dev/null 2>&1 && echo ,appstream-metadata-validation-failed);
+    lintian --allow-root --fail-on=error,warning --suppress-tags=initial-upload-closes-no-bugs$known /made/*.changes' >"$folder/log" 2>&1 || fail "packages: $(tail -n 30 "$folder/log")"
 say "packages made"

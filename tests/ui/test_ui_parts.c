@@ -53,8 +53,9 @@ static void a_label_without_letters_is_found_by_other_words(void **state)
 {
     (void)state;
     WrSearchQuery query;
-    const char *const field[WR_SEARCH_FIELDS] = { [WR_SEARCH_LABEL] = "",
-                                                  [WR_SEARCH_PLACE] = "brushes" };
+    const char *const field[WR_SEARCH_FIELDS] = {
+        [WR_SEARCH_LABEL] = "", [WR_SEARCH_PLACE] = "brushes"
+    };
     wr_search_parse("brushes", &query);
     assert_true(wr_search_rank(&query, field, false) > 0);
     wr_search_parse("pencil", &query);
