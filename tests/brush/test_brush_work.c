@@ -154,7 +154,7 @@ static void several_threads_give_the_same_bits(void **state)
     (void)state;
     WrPool *pool = wr_pool_new(4);
     WrTip *tip = arrow_tip();
-    for (int mode = 0; mode < WR_BRUSH_MODE_COUNT; mode += 3)
+    for (int mode = 0; mode < WR_BRUSH_MODE_COUNT; mode += test_step(3, 6))
         for (int way = 0; way < WAY_COUNT; way += 2) {
             WrField *one = rough(1100, 900, WR_WRAP_PERIODIC), *four = wr_field_share(one);
             WrField *marks[] = { torus(1100, 900), torus(1100, 900) };

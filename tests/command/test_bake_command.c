@@ -259,7 +259,8 @@ static void cancelled_it_changes_nothing(void **state)
     int at = 0;
     while (!good) {
         WrError err = { "" };
-        Stop stop = { .at = ++at };
+        at += test_amount(1, 3);
+        Stop stop = { .at = at };
         const WrProgress progress = { &stop.cancel, count_report, &stop };
         wr_progress_set(&progress);
         good = wr_session_run(s, "bake high.obj map=normal size=64x64 samples=3", &err);

@@ -516,7 +516,7 @@ static void damage_lines(const WrCommand *command, int form, void *ctx)
 {
     TestRandom *random = ctx;
     WrText line = { 0 }, first = { 0 }, second = { 0 };
-    for (int round = 0; round < 200; round++) {
+    for (int round = 0; round < test_amount(200, 50); round++) {
         WrCall *call;
         make_line(command, form, true, random, &line);
         for (int hits = 1 + (int)(test_random(random) * 3); hits > 0; hits--) {

@@ -129,7 +129,7 @@ static void whole_cells_have_no_seam(void **state)
 {
     (void)state;
     assert_true(CELLS >= 64);
-    for (int k = 0; k < CELLS; k++) {
+    for (int k = 0; k < CELLS; k += test_step(1, 3)) {
         WrSession *session = session_with(cells[k]);
         const WrSeam seam = wr_seam_measure(wr_document_field(doc(session)), NULL);
         if (shows(&seam)) fail_msg("%s: orders %d and %d", cells[k], seam.u.order, seam.v.order);
@@ -145,8 +145,8 @@ static void most_cuts_have_one_in_every_lay(void **state)
     static const WrSeamOptions lays[] = { { { 0 }, { 0 }, 0 },
                                           { { 0 }, { 48, 0 }, 0 },
                                           { { 0 }, { 0, 50 }, 0 } };
-    int missed[3] = { 0 };
-    for (int k = 0; k < CELLS; k++) {
+    int missed[3] = { 0 }, tried = 0;
+    for (int k = 0; k < CELLS; k += test_step(1, 3), tried++) {
         WrSession *session = session_with(cells[k]);
         WrField *cut = part_of(wr_document_field(doc(session)), 39, 33, 100, 96);
         for (int lay = 0; lay < 3; lay++) {
@@ -157,7 +157,8 @@ static void most_cuts_have_one_in_every_lay(void **state)
         wr_session_free(session);
     }
     for (int lay = 0; lay < 3; lay++)
-        if (missed[lay] > 7) fail_msg("lay %d: %d of %d cuts were missed", lay, missed[lay], CELLS);
+        if (10 * missed[lay] > tried)
+            fail_msg("lay %d: %d of %d cuts were missed", lay, missed[lay], tried);
 }
 
 /* ---- files ---- */
@@ -199,7 +200,7 @@ static void a_check_says_what_the_export_said(void **state)
                                         "occlusion depth=8" };
     int torn = 0, tried = 0;
     const int step = test_step(5, 9);
-    for (int k = 0; k < CELLS; k++)
+    for (int k = 0; k < CELLS; k += test_step(1, 3))
         for (int w = k % step; w < 9; w += step) {
             Said said = { "" };
             char line[200];

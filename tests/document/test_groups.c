@@ -298,7 +298,7 @@ static void random_groups_equal_a_naive_composite(void **state)
                 deepest = document->layers[i].depth > deepest ? document->layers[i].depth : deepest;
             WrDocument *anew = wr_document_snapshot(document);
             assert_same(wr_document_composite(document, pool), wr_document_field(anew), k);
-            assert_naive(anew, k);
+            if (k % test_amount(1, 4) == 0) assert_naive(anew, k);
             wr_document_free(anew);
             if (k % 25 < 24) continue; /* a share reuses the cached data */
             WrDocument *shared = wr_document_share(document);

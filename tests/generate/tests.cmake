@@ -1,7 +1,7 @@
 wr_test(zbuffer_hidden generate LABEL heavy)
 wr_test(generate generate)
 wr_test(pattern generate)
-wr_test(pattern_fine generate)
+wr_test(pattern_fine generate LABEL heavy)
 wr_test(noise_rows generate)
 wr_test(text generate)
 wr_test(fft generate)

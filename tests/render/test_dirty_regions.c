@@ -114,7 +114,8 @@ static Drawn check_scene(TestRandom *random, int k, bool hides)
                                .codes.wanted = test_random(random) < 0.5 };
     const size_t size = (size_t)request.width * (size_t)request.height;
     Drawn drawn = { 0 };
-    for (int step = 0; step <= EDITS; step++) {
+    const int edits = test_amount(EDITS, 7);
+    for (int step = 0; step <= edits; step++) {
         WrFrame frame, fresh;
         WrError err = { "" };
         request.field = field;

@@ -344,7 +344,8 @@ static void no_pixel_is_lost_wherever_the_camera_stands(void **state)
     TestRandom random = { 11 };
     WrField *field = bumpy_field(8, 8);
     int covered = 0, clipped = 0;
-    for (int n = 0; n < 60; n++) {
+    const int count = test_amount(60, 22); /* all surfaces */
+    for (int n = 0; n < count; n++) {
         WrScene *scene = scene_of(wr_surfaces[n % WR_SURFACE_COUNT]->name);
         WrCamera *camera = &scene->camera;
         const double far = n % 4 == 0 ? 0.6 : 1 + 4 * test_random(&random);
@@ -375,7 +376,7 @@ static void no_pixel_is_lost_wherever_the_camera_stands(void **state)
         put_away(&shot);
         wr_scene_free(scene);
     }
-    assert_true(covered > 20 && clipped > 10);
+    assert_true(3 * covered > count && 6 * clipped > count);
     wr_field_free(field);
 }
 

@@ -344,7 +344,7 @@ static void compare_normals(bool mirrored, bool coarse)
 static void normals_are_those_of_the_displaced_sphere(void **state)
 {
     (void)state;
-    compare_normals(false, false);
+    if (test_amount(1, 0)) compare_normals(false, false);
     compare_normals(false, true);
 }
 

@@ -171,7 +171,7 @@ static void nothing_but_the_text_of_the_steps_grows(void **state)
 {
     (void)state;
     const char *all = getenv("WR_FULL");
-    int rounds = all && *all == '1' ? 100 : 16, settled = rounds / 2;
+    int rounds = all && *all == '1' ? 100 : test_amount(16, 6), settled = rounds / 2;
     Soak soak = { .session = wr_session_new(NULL),
                   .preview = wr_preview_new(2, "auto", SDL_USEREVENT),
                   .trial = wr_edit_preview_new(2, SDL_USEREVENT) };
