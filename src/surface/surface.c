@@ -126,10 +126,16 @@ WrVec3 wr_shape_centre(const WrShape *shape)
     return centre;
 }
 
-/* The largest distance of 33 x 33 points, plus a hundredth for points between them. */
+/* The largest distance of 33 x 33 points, plus a hundredth for points between them. Each frame asks for it several times: the
+   last one is cached. */
 static double sampled_radius(const WrShape *shape)
 {
     enum { STEPS = 32 };
+    static _Thread_local struct {
+        WrShape shape;
+        double radius; /* 0: none yet */
+    } last;
+    if (last.radius > 0 && memcmp(&last.shape, shape, sizeof *shape) == 0) return last.radius;
     WrVec3 centre = wr_shape_centre(shape);
     double most = 0;
     for (int j = 0; j <= STEPS; j++) {
@@ -139,7 +145,8 @@ static double sampled_radius(const WrShape *shape)
             most = fmax(most, v3_len(v3_sub(o.p, centre)));
         }
     }
-    return 1.01 * most;
+    memcpy(&last.shape, shape, sizeof *shape);
+    return last.radius = 1.01 * most;
 }
 
 /* Never 0: it is a divisor of tolerances and camera distances. */
