@@ -632,16 +632,9 @@ static Stage *stage_at(Chain *chain, int index)
     return &chain->stages.data[index];
 }
 
-static void count_tile(int tx, int ty, void *ctx)
-{
-    (void)tx, (void)ty;
-    ++*(size_t *)ctx;
-}
-
 static void note_time(const WrLayer *layer, double began, const WrField *in, const WrField *made)
 {
-    size_t tiles = 0;
-    wr_field_changes(in, made, count_tile, &tiles);
+    const size_t tiles = (size_t)wr_field_changed_tiles(in, made);
     wr_layer_time_note(wr_field_key(layer->heights), wr_clock_seconds() - began, tiles);
 }
 

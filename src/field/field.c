@@ -352,6 +352,19 @@ void wr_field_changes(const WrField *a, const WrField *b, WrTileVisitor changed,
     compare(&c, a->root, b->root, a->depth, 0, 0);
 }
 
+static void count_tile(int tx, int ty, void *ctx)
+{
+    (void)tx, (void)ty;
+    ++*(int *)ctx;
+}
+
+int wr_field_changed_tiles(const WrField *a, const WrField *b)
+{
+    int tiles = 0;
+    wr_field_changes(a, b, count_tile, &tiles);
+    return tiles;
+}
+
 /* Number of used texels of tile index t along an axis of n texels. */
 static int used(int t, int n)
 {

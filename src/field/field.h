@@ -100,6 +100,8 @@ bool wr_field_alike(const WrField *a, const WrField *b);
    differ. The sizes must be equal. The cost depends on the differences, not on the table size. */
 typedef void (*WrTileVisitor)(int tx, int ty, void *ctx);
 void wr_field_changes(const WrField *a, const WrField *b, WrTileVisitor changed, void *ctx);
+/* The number of those tiles. */
+int wr_field_changed_tiles(const WrField *a, const WrField *b);
 /* Bounding box of the texels of tile (tx, ty) whose bits differ between a and b, of equal size: columns
    i0 <= i < i1 and rows j0 <= j < j1 of the table; all 0 if none differs. */
 typedef struct WrFieldRect {

@@ -126,8 +126,8 @@ WrVec3 wr_shape_centre(const WrShape *shape)
     return centre;
 }
 
-/* The largest distance of 33 x 33 points, plus a hundredth for points between them. Each frame asks for it several times: the
-   last one is cached. */
+/* The largest distance of 33 x 33 points, plus a hundredth for points between them. A frame needs the radius of one shape several
+   times, so each thread keeps the last. Unused bytes of the struct can only make equal shapes differ. */
 static double sampled_radius(const WrShape *shape)
 {
     enum { STEPS = 32 };

@@ -51,7 +51,8 @@ done | sort -u | wc -l)
 # ---- each version of the two formats, N.exr and N.ora ----
 # 1.exr and 2.exr are of the programs of those versions, the others of 1.0.0, which writes the lowest version that can hold a document:
 # 3 one layer; 4 a mesh; 5, 2.ora a normal map; 6 surroundings; 7, 3.ora the cell's size; 8, 4.ora a picture of roughness; 5.ora a
-# hidden filter layer; 9, 6.ora a filter layer; 10, 7.ora the projection of a mesh; 11, 8.ora a generator layer; 12, 9.ora a group; 13, 10.ora a view of colours.
+# hidden filter layer; 9, 6.ora a filter layer; 10, 7.ora the projection of a mesh; 11, 8.ora a generator layer; 12, 9.ora a group;
+# 13, 10.ora a view of colours.
 # Saved again, each needs the same version: without its feature it would need a lower one.
 version_of() {
     case $1 in

@@ -130,7 +130,6 @@ typedef struct Job {
     const WrField *field; /* source of level 1; NULL: level 1 exists */
     WrWrap wrap_u, wrap_v;
     int level; /* level to build */
-    int changed;
     /* bits of the levels whose outermost texels changed: their aprons must be updated */
     unsigned ends;
 } Job;
@@ -321,12 +320,6 @@ static void make_all(Job *job, WrPool *pool)
         (int64_t)wr_field_width(job->field) * (int64_t)wr_field_height(job->field);
 }
 
-static void count_tile(int tx, int ty, void *ctx)
-{
-    (void)tx, (void)ty;
-    ((Job *)ctx)->changed++;
-}
-
 /* Rebuilds everything that depends on texels [a, b) x [c, d) of the table, which may extend one texel outside
    it. */
 static void remake(Job *job, int a, int b, int c, int d)
@@ -409,9 +402,9 @@ bool wr_pyramid_update(WrPyramid *pyramid, WrPyramidKind kind, const WrField *fi
     const int tiles = wr_field_tiles_u(field) * wr_field_tiles_v(field);
     const bool same = pyramid->kind == kind && same_layout(pyramid->seen, field);
     pyramid->texels_refreshed = 0;
-    if (same) wr_field_changes(pyramid->seen, field, count_tile, &job);
-    if (same && job.changed == 0) return true;
-    if (same && job.changed <= tiles / 2) {
+    const int changed = same ? wr_field_changed_tiles(pyramid->seen, field) : tiles;
+    if (changed == 0) return true;
+    if (same && changed <= tiles / 2) {
         wr_field_changes(pyramid->seen, field, remake_tile, &job);
         for (job.level = first_level(pyramid); job.level < pyramid->levels; job.level++)
             if (job.ends >> job.level & 1) make_apron(&job);

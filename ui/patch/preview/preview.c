@@ -288,20 +288,12 @@ static bool only_edited(const WrPreview *preview)
            now->height == next->height;
 }
 
-static void count_tile(int tx, int ty, void *ctx)
-{
-    (void)tx, (void)ty;
-    ++*(int *)ctx;
-}
-
 /* True if so much of the table changed that all of the picture is drawn again, as by undo of a filter or with a layer hidden:
    roughly at first, like any other change of the whole. */
 static bool is_large(const WrField *was, const WrField *now)
 {
-    int changed = 0;
-    if (!wr_field_alike(was, now)) return true;
-    wr_field_changes(was, now, count_tile, &changed);
-    return changed > wr_field_tiles_u(now) * wr_field_tiles_v(now) / 8;
+    return !wr_field_alike(was, now) ||
+           wr_field_changed_tiles(was, now) > wr_field_tiles_u(now) * wr_field_tiles_v(now) / 8;
 }
 
 /* Start the next request, or refine the present one; false: nothing to do. Called with the lock held. */
@@ -316,10 +308,11 @@ static bool choose(WrPreview *preview, WrPreviewLevel *level)
         __atomic_store_n(&preview->cancel, 0, __ATOMIC_RELAXED);
         preview->edited = edited && preview->level > WR_PREVIEW_FULL;
         if (edited) {
-            bool slow = large || (preview->now.painting && (preview->edit_seconds > EDIT_SECONDS ||
-                                                            has_tolerance(&preview->now)));
-            *level = slow ? WR_PREVIEW_FULL : preview->level;
-            preview->edited = preview->edited && !slow;
+            const bool rough =
+                large || (preview->now.painting &&
+                          (preview->edit_seconds > EDIT_SECONDS || has_tolerance(&preview->now)));
+            *level = rough ? WR_PREVIEW_FULL : preview->level;
+            preview->edited = preview->edited && !rough;
             return true;
         }
         preview->level = WR_PREVIEW_NONE;
