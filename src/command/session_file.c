@@ -404,27 +404,29 @@ bool wr_session_reads_back(WrSession *session, const char *path, WrError *err)
 }
 
 /* Store the command that opens the document again, for a script of the history. */
-static bool note_origin(WrSession *session, const char *path, WrError *err)
+static void note_origin(WrSessionState *state, const char *path)
 {
-    char hex[65], *full = wr_path_real(path);
-    bool good = wr_sha256_file(path, hex, err);
+    char *full = wr_path_real(path);
     WrText line = { 0 };
     wr_text_add(&line, "open ");
     wr_text_add_word(&line, full ? full : path);
-    wr_text_addf(&line, " sha256=%s", good ? hex : "");
-    if (good) session->state.origin = wr_strdup(wr_text_get(&line));
+    wr_text_addf(&line, " sha256=%s", state->origin_sha256);
+    state->origin = wr_strdup(wr_text_get(&line));
     wr_text_fini(&line);
     free(full);
-    return good;
 }
 
 static bool open_document(WrSession *session, const char *path, WrError *err)
 {
-    WrFileIdentity stamp = wr_file_identity(path); /* taken before the file is read */
-    if (!note_origin(session, path, err) || !wr_session_load(session, path, err)) return false;
+    WrSessionState *state = &session->state;
+    const WrFileIdentity stamp = wr_file_identity(path); /* taken before the file is read */
+    WrSha256Work *hash = wr_sha256_begin(path);
+    const bool loaded = wr_session_load(session, path, err);
+    if (!wr_sha256_end(hash, state->origin_sha256, loaded ? err : NULL) || !loaded) return false;
+    note_origin(state, path);
     wr_session_restart_history(session);
-    session->state.path = wr_strdup(path);
-    session->state.stamp = stamp;
+    state->path = wr_strdup(path);
+    state->stamp = state->origin_file = stamp;
     return true;
 }
 
@@ -665,6 +667,14 @@ static void add_history(WrSession *session)
         wr_session_journal_saved(session);
 }
 
+/* True if the document's file is the one that was opened, unchanged. */
+static bool is_as_opened(const WrSessionState *state)
+{
+    if (!state->origin || !state->path) return false;
+    const WrFileIdentity now = wr_file_identity(state->path);
+    return now.there && wr_file_identity_same(&now, &state->origin_file);
+}
+
 /* Record the state before the first command as the journal's start. The document's file counts only if it is
    unchanged since it was opened. */
 static void begin(WrSession *session)
@@ -672,18 +682,19 @@ static void begin(WrSession *session)
     const WrSessionState *state = &session->state;
     WrJournalOptions options = { .report = report, .ctx = session };
     WrJournalStart start = { .kind = WR_JOURNAL_EMPTY };
-    char hex[65] = "";
-    bool opened = state->origin && state->path && wr_sha256_file(state->path, hex, NULL) &&
-                  strstr(state->origin, hex);
+    bool opened = is_as_opened(state);
     if (opened)
-        start = (WrJournalStart){ .kind = WR_JOURNAL_DOCUMENT, .path = state->path, .sha256 = hex };
+        start = (WrJournalStart){ .kind = WR_JOURNAL_DOCUMENT,
+                                  .path = state->path,
+                                  .sha256 = state->origin_sha256 };
     if (wr_history_position(state->history) == 0) start.hash = hash_at_start(session);
     if (wr_progress_stopped())
         return; /* the hash is incomplete: the next command begins the
                                           journal */
     session->journal = wr_journal_begin(&options, &start);
     forget_kept(session);
-    if (opened) keep(session, state->path, hex);
+    if (opened) keep(session, state->path, state->origin_sha256);
+    opened = opened && wr_journal_state(session->journal).safe; /* its content may be another */
     session->journal_base = 0;
     session->journal_top = wr_history_position(state->history);
     session->view_base = session->view_top = wr_views_number(state->views);

@@ -51,7 +51,9 @@ typedef struct WrSessionState {
     uint64_t saved_revision;
     char *path;           /* path of the document file; owned; NULL: none */
     WrFileIdentity stamp; /* identity of that file when it was opened or saved here */
-    char *origin;     /* command line that creates the history's first state; owned; NULL: none */
+    char *origin; /* command line that creates the history's first state; owned; NULL: none */
+    WrFileIdentity origin_file; /* the document file that it opens, before that was read */
+    char origin_sha256[65];     /* of its content */
     char *newer_path; /* file of a newer version that must not be overwritten; owned; NULL: none */
     /* stored dials of the document for its tolerance (wr_choice_write); owned; NULL: none */
     char *chosen;

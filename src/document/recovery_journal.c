@@ -1,16 +1,19 @@
 /* Journal files: the folder with its locks, and the encoding of lines. */
 #include "document/recovery_journal.h"
 
+#include "base/array.h"
 #include "base/enum_rows.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "base/text.h"
 #include "document/recover.h"
 #include "system/clock.h"
 #include "system/fd.h"
 #include "system/path.h"
 #include "system/process.h"
+#include "system/thread.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -514,6 +517,20 @@ static bool link_sibling(const char *folder, const char *target, const char *nam
     return found;
 }
 
+/* A copy to be kept: of the content of `from`, or of the file at `path` if that is -1. */
+typedef struct Copy {
+    char *folder, *files; /* all journals, and the files of this one */
+    char *path;           /* for messages and the extension */
+    char sha256[65];
+    int from; /* owned */
+    bool good;
+    bool changed; /* the content is not that of sha256 */
+    /* of a copy made by a thread of its own: */
+    WrThread thread;
+    volatile int cancel;
+    _Atomic bool ended;
+} Copy;
+
 /* Copies inside the file system if it can share blocks, else through memory. */
 static bool copy_bytes(int from, int to)
 {
@@ -521,15 +538,17 @@ static bool copy_bytes(int from, int to)
     if (copied != 0) return copied > 0;
     char block[65536];
     for (;;) {
+        if (wr_progress_stopped()) return errno = ECANCELED, false;
         int64_t n = wr_fd_read(from, block, sizeof block);
         if (n <= 0) return n == 0;
         if (!wr_fd_write(to, block, (size_t)n)) return false;
     }
 }
 
-/* Copies to a temporary name, verifies the copy rather than the file (which may be changing), then renames it. */
+/* Copies to a temporary name, verifies the copy rather than the file (which may be changing), then renames it. *changed: the
+   content is another one. */
 static bool copy_open(int from, const char *path, const char *target, const char *sha256,
-                      WrError *err)
+                      bool *changed, WrError *err)
 {
     WrText half = { 0 };
     wr_text_addf(&half, "%s.new", target);
@@ -539,7 +558,8 @@ static bool copy_open(int from, const char *path, const char *target, const char
     bool ok = to >= 0 && copy_bytes(from, to) && wr_fd_sync(to);
     if (!ok) wr_fail(err, "%s: no copy can be kept (%s)", path, strerror(errno));
     if (to >= 0) wr_fd_close(to);
-    if (ok && !content_is(temporary, sha256))
+    *changed = ok && !content_is(temporary, sha256) && !wr_progress_stopped();
+    if (*changed || (ok && wr_progress_stopped()))
         ok = wr_fail(err, "%s: no copy can be kept: its content is not %.12s... any more", path,
                      sha256);
     if (ok && !wr_path_rename(temporary, target))
@@ -549,33 +569,61 @@ static bool copy_open(int from, const char *path, const char *target, const char
     return ok;
 }
 
-static bool copy_file(const char *path, const char *target, const char *sha256, WrError *err)
+/* Takes ownership of `from`. */
+static Copy *new_copy(const char *folder, const char *files, const char *path, int from,
+                      const char *sha256)
 {
-    int from = wr_file_open(path, WR_FILE_MAX, NULL, err);
-    if (from < 0) return false;
-    bool ok = copy_open(from, path, target, sha256, err);
-    wr_fd_close(from);
-    return ok;
+    Copy *copy = wr_alloc(1, sizeof *copy);
+    copy->folder = wr_strdup(folder);
+    copy->files = wr_strdup(files);
+    copy->path = wr_strdup(path);
+    memcpy(copy->sha256, sha256, sizeof copy->sha256);
+    copy->from = from;
+    return copy;
 }
 
-/* wr_journal_keep_file for the journal whose files are in `files`, inside `folder`. from: a descriptor at the
-   beginning of the content, or -1: the file at `path` is read. */
-static bool journal_keep(const char *folder, const char *files, const char *path, int from,
-                         const char *sha256, WrError *err)
+static void free_copy(Copy *copy)
 {
-    if (!journal_is_sha256(sha256))
-        return wr_fail(err, "%s: its SHA-256 must be 64 lower-case hex digits", path);
+    wr_fd_close(copy->from);
+    wr_free(copy->folder);
+    wr_free(copy->files);
+    wr_free(copy->path);
+    wr_free(copy);
+}
+
+static void make_copy(Copy *copy, WrError *err)
+{
     WrText name = { 0 }, target = { 0 };
-    kept_name(&name, sha256, path);
-    wr_text_addf(&target, "%s/%s", files, wr_text_get(&name));
-    bool ok = wr_path_is_there(wr_text_get(&target));
-    if (!ok && journal_make_folder(files, err))
-        ok = link_sibling(folder, wr_text_get(&target), wr_text_get(&name), sha256) ||
-             (from < 0 ? copy_file(path, wr_text_get(&target), sha256, err)
-                       : copy_open(from, path, wr_text_get(&target), sha256, err));
-    if (ok) journal_sync_path(files, NULL);
+    kept_name(&name, copy->sha256, copy->path);
+    wr_text_addf(&target, "%s/%s", copy->files, wr_text_get(&name));
+    const char *to = wr_text_get(&target);
+    copy->good = wr_path_is_there(to);
+    if (!copy->good && journal_make_folder(copy->files, err))
+        copy->good = link_sibling(copy->folder, to, wr_text_get(&name), copy->sha256) ||
+                     copy_open(copy->from, copy->path, to, copy->sha256, &copy->changed, err);
+    if (copy->good) journal_sync_path(copy->files, NULL);
     wr_text_fini(&name);
     wr_text_fini(&target);
+}
+
+static void *make_copy_aside(void *arg)
+{
+    Copy *copy = arg;
+    const WrProgress progress = { .cancel = &copy->cancel };
+    wr_thread_step_back();
+    wr_progress_set(&progress);
+    make_copy(copy, NULL);
+    copy->ended = true;
+    return NULL;
+}
+
+static bool copy_named(const char *path, const char *target, const char *sha256, WrError *err)
+{
+    bool changed;
+    int from = wr_file_open(path, WR_FILE_MAX, NULL, err);
+    if (from < 0) return false;
+    bool ok = copy_open(from, path, target, sha256, &changed, err);
+    wr_fd_close(from);
     return ok;
 }
 
@@ -589,7 +637,7 @@ static bool journal_keep_as_named(const char *files, const char *path, WrError *
     wr_text_addf(&target, "%s/%s", files, slash ? slash + 1 : path);
     bool ok = journal_make_folder(files, err);
     if (ok && !wr_path_is_there(wr_text_get(&target)))
-        ok = copy_file(path, wr_text_get(&target), hex, err);
+        ok = copy_named(path, wr_text_get(&target), hex, err);
     else if (ok && !content_is(wr_text_get(&target), hex))
         ok = wr_fail(err, "%s: no copy can be kept: another file of that name is", path);
     if (ok) journal_sync_path(files, NULL);
@@ -648,17 +696,19 @@ struct WrJournal {
     int64_t lines, commands;
     uint64_t sequence; /* of the next record */
     Open open;
-    WrText line;      /* scratch */
-    bool unsynced;    /* lines were written after synced_at */
-    double synced_at; /* wr_clock_seconds */
-    bool broken;      /* lines are missing: only a restart helps */
-    bool gap_marked;  /* and the file records that */
-    bool writable;    /* broken, but writing has worked again */
-    double tried_at;  /* wr_clock_seconds of the last failure or attempt */
-    double ask_at;    /* no request for a restart before */
-    double patience;  /* delay before the next request, seconds, after one is put off */
-    int snapshot;     /* number of the last snapshot path */
-    char reason[384]; /* reason of `broken` */
+    WrText line;             /* scratch */
+    bool unsynced;           /* lines were written after synced_at */
+    double synced_at;        /* wr_clock_seconds */
+    bool broken;             /* lines are missing: only a restart helps */
+    bool gap_marked;         /* and the file records that */
+    bool writable;           /* broken, but writing has worked again */
+    double tried_at;         /* wr_clock_seconds of the last failure or attempt */
+    double ask_at;           /* no request for a restart before */
+    double patience;         /* delay before the next request, seconds, after one is put off */
+    int snapshot;            /* number of the last snapshot path */
+    char start_sha256[65];   /* of the document that it starts from; "": none */
+    WR_ARRAY(Copy *) copies; /* that threads are making */
+    char reason[384];        /* reason of `broken` */
 };
 
 /* ---- failure and recovery ---- */
@@ -725,6 +775,61 @@ static void retry(WrJournal *journal)
     if (journal->writable) mark_gap(journal);
 }
 
+/* ---- copies made by threads ---- */
+
+#define COPY_ASIDE ((uint64_t)4 << 20) /* bytes of a file for which no command waits */
+
+static void take_copy(WrJournal *journal, const Copy *copy)
+{
+    if (!copy->changed || strcmp(copy->sha256, journal->start_sha256) != 0) return;
+    WrText text = { 0 };
+    wr_text_addf(&text, "%s: was changed while it was opened", copy->path);
+    wr_journal_break(journal, wr_text_get(&text));
+    wr_text_fini(&text);
+}
+
+/* Takes the results of copies that have ended; of all, if it waits. */
+static void settle_copies(WrJournal *journal, bool wait)
+{
+    int left = 0;
+    for (int i = 0; i < journal->copies.count; i++) {
+        Copy *copy = journal->copies.data[i];
+        if (!wait && !copy->ended) {
+            journal->copies.data[left++] = copy;
+            continue;
+        }
+        wr_thread_join(copy->thread);
+        take_copy(journal, copy);
+        free_copy(copy);
+    }
+    journal->copies.count = left;
+}
+
+/* except: SHA-256 of a copy that is still needed; NULL: none. */
+static void cancel_copies(WrJournal *journal, const char *except)
+{
+    for (int i = 0; i < journal->copies.count; i++)
+        if (!except || strcmp(journal->copies.data[i]->sha256, except) != 0)
+            journal->copies.data[i]->cancel = 1;
+    settle_copies(journal, true);
+}
+
+/* from: at the beginning of the content; owned by this function. aside: by a thread, if one starts. */
+static bool keep_copy(WrJournal *journal, const char *path, int from, bool aside,
+                      const char *sha256, WrError *err)
+{
+    Copy *copy = new_copy(journal->options.folder, journal->files, path, from, sha256);
+    if (aside && wr_thread_begin(&copy->thread, make_copy_aside, copy)) {
+        wr_array_push(&journal->copies, copy);
+        return true;
+    }
+    make_copy(copy, err);
+    const bool good = copy->good;
+    take_copy(journal, copy);
+    free_copy(copy);
+    return good;
+}
+
 /* ---- writing lines ---- */
 
 static bool write_line(WrJournal *journal, WrError *err)
@@ -748,6 +853,7 @@ static bool append(WrJournal *journal, char kind, const char *payload, WrError *
 {
     WrError local;
     if (!err) err = &local;
+    settle_copies(journal, false);
     if (journal->broken) {
         retry(journal);
         return wr_fail(err, "the journal is not safe: %s", journal->reason);
@@ -838,6 +944,7 @@ bool wr_journal_sync(WrJournal *journal, WrError *err)
     WrError local;
     WrFileInfo mine, named;
     if (!err) err = &local;
+    settle_copies(journal, false);
     if (journal->broken) {
         retry(journal);
         return wr_fail(err, "the journal is not safe: %s", journal->reason);
@@ -944,6 +1051,8 @@ static bool start_file(WrJournal *journal, const WrJournalStart *start, WrError 
     journal->fd = fd;
     journal->bytes = (int64_t)journal->line.length;
     journal->lines = 1;
+    snprintf(journal->start_sha256, sizeof journal->start_sha256, "%s",
+             start->sha256 ? start->sha256 : "");
     journal->commands = 0;
     journal->sequence = 1;
     journal->unsynced = false;
@@ -1009,6 +1118,7 @@ bool wr_journal_restart(WrJournal *journal, const WrJournalStart *start, WrError
     bool was_broken = journal->broken;
     if (!start_file(journal, start, err)) return false;
     const char *slash = start->snapshot ? strrchr(start->snapshot, '/') : NULL;
+    cancel_copies(journal, start->sha256);
     wr_journal_clear_files(journal->files, slash ? slash + 1 : NULL, start->sha256);
     if (was_broken) report(journal, "the journal is safe again");
     return true;
@@ -1023,21 +1133,27 @@ void wr_journal_put_off(WrJournal *journal)
 
 /* ---- neighbouring files ---- */
 
-bool wr_journal_keep_file(WrJournal *journal, const char *path, const char *sha256, WrError *err)
+static bool can_keep(const WrJournal *journal, const char *path, const char *sha256, WrError *err)
 {
     if (!journal->path) return wr_fail(err, "%s", journal->reason);
-    return journal_keep(journal->options.folder, journal->files, path, -1, sha256, err);
+    return journal_is_sha256(sha256) ||
+           wr_fail(err, "%s: its SHA-256 must be 64 lower-case hex digits", path);
+}
+
+bool wr_journal_keep_file(WrJournal *journal, const char *path, const char *sha256, WrError *err)
+{
+    uint64_t size;
+    if (!can_keep(journal, path, sha256, err)) return false;
+    int from = wr_file_open(path, WR_FILE_MAX, &size, err);
+    return from >= 0 && keep_copy(journal, path, from, size >= COPY_ASIDE, sha256, err);
 }
 
 bool wr_journal_keep_bytes(WrJournal *journal, const char *path, const void *bytes, size_t length,
                            const char *sha256, WrError *err)
 {
-    if (!journal->path) return wr_fail(err, "%s", journal->reason);
+    if (!can_keep(journal, path, sha256, err)) return false;
     int from = wr_fd_in_memory(path, bytes, length, err);
-    if (from < 0) return false;
-    bool good = journal_keep(journal->options.folder, journal->files, path, from, sha256, err);
-    wr_fd_close(from);
-    return good;
+    return from >= 0 && keep_copy(journal, path, from, false, sha256, err);
 }
 
 bool wr_journal_keep_named(WrJournal *journal, const char *path, WrError *err)
@@ -1065,6 +1181,7 @@ static void free_journal(WrJournal *journal)
     wr_free(journal->temporary);
     wr_free(journal->files);
     wr_text_fini(&journal->line);
+    wr_array_free(&journal->copies);
     wr_free(journal);
 }
 
@@ -1076,6 +1193,7 @@ void wr_journal_finish(WrJournal *journal)
     if (journal->fd >= 0 && wr_fd_info(journal->fd, &mine) && wr_path_info(journal->path, &named) &&
         mine.inode == named.inode && mine.device == named.device)
         wr_path_remove(journal->path);
+    cancel_copies(journal, NULL);
     if (journal->path) wr_journal_clear_files(journal->files, NULL, NULL);
     free_journal(journal);
 }
@@ -1083,6 +1201,7 @@ void wr_journal_finish(WrJournal *journal)
 void wr_journal_leave(WrJournal *journal)
 {
     if (!journal) return;
+    settle_copies(journal, true);
     if (!journal->broken && journal->unsynced) wr_journal_sync(journal, NULL);
     free_journal(journal);
 }

@@ -351,6 +351,64 @@ static void a_copy_of_another_content_is_refused(void **state)
     wr_free(folder), wr_free(file), wr_free(files);
 }
 
+/* A file so large that no command waits for its copy. */
+static char *make_large_file(const char *folder, const char *name, char hex[65])
+{
+    const size_t count = (size_t)9 << 19;
+    uint32_t *words = wr_alloc(count / 4, 4);
+    for (uint32_t i = 0; i < count / 4; i++) words[i] = i * 2654435761u;
+    char *path = in(folder, name);
+    write_bytes(path, words, count);
+    assert_true(wr_sha256_file(path, hex, NULL));
+    wr_free(words);
+    return path;
+}
+
+static void a_large_file_is_copied_while_work_goes_on(void **state)
+{
+    char hex[65], have[65];
+    char *folder = in(*state, "journals"), *file = make_large_file(*state, "large.exr", hex);
+    WrText copy = { 0 };
+    WrJournal *journal = begin_at(folder);
+    char *path = wr_strdup(wr_journal_path(journal));
+    assert_true(wr_journal_keep_file(journal, file, hex, NULL));
+    assert_true(wr_journal_command(journal, "noise", NULL));
+    assert_true(wr_journal_done(journal, WR_JOURNAL_OK, NULL, NULL));
+    wr_journal_leave(journal); /* waits for the copy */
+    assert_true(wr_journal_find_input_copy(path, hex, file, &copy, NULL));
+    assert_true(wr_sha256_file(wr_text_get(&copy), have, NULL));
+    assert_string_equal(have, hex);
+    journal = begin_at(folder);
+    assert_true(wr_journal_keep_file(journal, file, hex, NULL)); /* linked or copied */
+    char *files = files_of(wr_journal_path(journal));
+    wr_journal_finish(journal); /* nothing of an unfinished copy stays */
+    assert_false(exists(files));
+    wr_text_fini(&copy);
+    wr_free(folder), wr_free(file), wr_free(path), wr_free(files);
+}
+
+/* The copy of the document that a journal starts from turns out to be another file. */
+static void a_journal_of_a_changed_document_is_not_safe(void **state)
+{
+    char hex[65], old[65];
+    char *folder = in(*state, "journals"), *file = make_large_file(*state, "large.exr", hex);
+    memset(old, 'a', 64);
+    old[64] = '\0';
+    for (int large = 0; large < 2; large++) {
+        if (!large) write_bytes(file, "small", 5);
+        else wr_free(file), file = make_large_file(*state, "large.exr", hex);
+        WrJournalOptions options = { .folder = folder };
+        WrJournalStart start = { .kind = WR_JOURNAL_DOCUMENT, .path = file, .sha256 = old };
+        WrJournal *journal = wr_journal_begin(&options, &start);
+        assert_true(wr_journal_state(journal).safe);
+        assert_int_equal(wr_journal_keep_file(journal, file, old, NULL), large);
+        while (wr_journal_state(journal).safe) wr_journal_sync(journal, NULL);
+        assert_non_null(strstr(wr_journal_state(journal).reason, "changed"));
+        wr_journal_finish(journal);
+    }
+    wr_free(folder), wr_free(file);
+}
+
 static void a_damaged_copy_of_another_journal_is_not_shared(void **state)
 {
     char hex[65];
@@ -549,6 +607,8 @@ int main(void)
         PLACED(leftovers_of_killed_programs_are_removed_after_a_day),
         PLACED(kept_files_are_shared_and_go_with_their_last_journal),
         PLACED(a_copy_of_another_content_is_refused),
+        PLACED(a_large_file_is_copied_while_work_goes_on),
+        PLACED(a_journal_of_a_changed_document_is_not_safe),
         PLACED(a_damaged_copy_of_another_journal_is_not_shared),
         PLACED(a_restart_removes_what_no_replay_needs_any_more),
         cmocka_unit_test(a_trial_tells_true_from_false_and_leaves_memory_alone),
