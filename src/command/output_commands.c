@@ -87,7 +87,8 @@ bool wr_session_save(WrSession *session, const char *path, WrError *err)
     bool ora = strcmp(wr_path_ending(path, ending), "ora") == 0;
     WrText note = { 0 };
     bool good = ora ? wr_ora_save(session->state.document, wr_text_get(&text), path, &note, err)
-                    : wr_document_save(session->state.document, wr_text_get(&text), path, err);
+                    : wr_document_save(session->state.document, wr_text_get(&text), path,
+                                       session->options.pool, err);
     wr_text_fini(&text);
     if (note.length) wr_session_note(session, "%s", note.data);
     wr_text_fini(&note);

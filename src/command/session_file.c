@@ -820,9 +820,9 @@ static bool restart(WrSession *session, bool checked, WrError *err)
     WrJournalStart start = { .kind = WR_JOURNAL_SNAPSHOT,
                              .hash = wr_session_hash(session),
                              .path = session->state.path };
-    bool good =
-        wr_journal_snapshot_path(session->journal, &path, err) &&
-        wr_document_save(session->state.document, wr_text_get(&scene), wr_text_get(&path), err);
+    bool good = wr_journal_snapshot_path(session->journal, &path, err) &&
+                wr_document_save(session->state.document, wr_text_get(&scene), wr_text_get(&path),
+                                 session->options.pool, err);
     if (good && wr_progress_stopped())
         good = wr_fail(err, "cancelled"); /* the hash may be incomplete too */
     start.snapshot = wr_text_get(&path);

@@ -458,7 +458,7 @@ static bool check_pictures(const WrScene *scene, const char *path, WrError *err)
 }
 
 bool wr_document_save(const WrDocument *document, const char *scene_text, const char *path,
-                      WrError *err)
+                      WrPool *pool, WrError *err)
 {
     const int objects = wr_scene_object_count(document->scene);
     if (!wr_document_whole(document, NULL, err) || !check_pictures(document->scene, path, err))
@@ -479,6 +479,7 @@ bool wr_document_save(const WrDocument *document, const char *scene_text, const 
     for (int k = 0; k < WR_OBJECT_PICTURES; k++)
         for (int i = 0; i < objects; i++) add_picture(to, i, k);
     if (mesh) add_mesh(to);
+    to->parts[0].pool = pool;
     bool ok = wr_image_write(path, to->parts, to->count, err);
     for (int i = 0; i < to->texts.count; i++) wr_free(to->texts.data[i]);
     wr_array_free(&to->texts);
@@ -665,10 +666,18 @@ static bool find_parts(Loading *in, WrError *err)
 
 bool wr_document_all_at(const float *texels, size_t pitch, int columns, int rows, float level)
 {
-    for (int y = 0; y < rows; y++)
-        for (int x = 0; x < columns; x++)
-            if (memcmp(&texels[(size_t)y * pitch + (size_t)x], &level, sizeof level) != 0)
-                return false;
+    uint32_t want;
+    memcpy(&want, &level, sizeof want);
+    for (int y = 0; y < rows; y++, texels += pitch) {
+        uint32_t different = 0;
+#pragma omp simd reduction(| : different)
+        for (int x = 0; x < columns; x++) {
+            uint32_t bits;
+            memcpy(&bits, &texels[x], sizeof bits);
+            different |= bits ^ want;
+        }
+        if (different) return false;
+    }
     return true;
 }
 
@@ -687,9 +696,10 @@ static void store_strip(Loading *in, WrField *field, int y, int rows, const floa
 /* Clamps coverage, masks and selections to 0..1. */
 static void clamp_strip(float *strip, size_t count)
 {
+#pragma omp simd
     for (size_t i = 0; i < count; i++) {
-        if (strip[i] < 0.0f) strip[i] = 0.0f;
-        if (strip[i] > 1.0f && strip[i] <= 3.4e38f) strip[i] = 1.0f;
+        const float value = strip[i], above = value < 0.0f ? 0.0f : value;
+        strip[i] = above > 1.0f && above <= 3.4e38f ? 1.0f : above;
     }
 }
 

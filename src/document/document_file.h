@@ -43,6 +43,7 @@
 typedef struct WrDocument WrDocument;
 typedef struct WrScene WrScene;
 typedef struct WrError WrError;
+typedef struct WrPool WrPool;
 typedef struct WrField WrField;
 typedef struct WrImage WrImage;
 typedef struct WrImageRows WrImageRows;
@@ -101,9 +102,9 @@ bool wr_document_wrap_find(const char *word, WrWrap *wrap_u, WrWrap *wrap_v);
 bool wr_document_all_at(const float *texels, size_t pitch, int columns, int rows, float level);
 
 /* Saves by an atomic replacement (base/file.h). scene_text: one canonical command a line. Saving a loaded
-   document produces the same bytes. */
+   document produces the same bytes, with any number of threads. pool: that compress; NULL: the caller's. */
 bool wr_document_save(const WrDocument *document, const char *scene_text, const char *path,
-                      WrError *err);
+                      WrPool *pool, WrError *err);
 
 typedef struct WrLoaded {
     WrDocument *document; /* the scene is the default one: run scene_text to restore it */

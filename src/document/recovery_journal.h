@@ -155,7 +155,7 @@ const char *wr_journal_path(const WrJournal *journal); /* of NAME.wj; "" without
    extension of its name, for wr_journal_find_input_copy. If the content differs from the hash the copy is refused. A
    failure does not harm the journal: a replay then depends on the file itself; but if the journal starts from
    a document of that hash, and the content differs, it is not safe any more. A file of 4 MB or more is opened
-   here and copied by a thread, for which the functions that close or restart the journal wait: true then says
+   here and copied by a thread, for which the functions that close or restart the journal wait: true then means
    only that the copy has begun. */
 bool wr_journal_keep_file(WrJournal *journal, const char *path, const char *sha256, WrError *err);
 

@@ -5,6 +5,7 @@
 #include "image/exr.h"
 
 #include "base/memory.h"
+#include "base/pool.h"
 #include "system/fd.h"
 
 #include <errno.h>
@@ -328,16 +329,31 @@ static bool reader_read(WrCodecReader *reader, int part, int y, int rows, int ch
 #define WORTH 0.85
 #define LEVEL 1 /* of libdeflate; about 1 % larger than zlib's 4 in a third of the time */
 
+#define PACKERS (WR_IMAGE_STRIP / CHUNK_ROWS) /* chunks of a strip, packed at once */
+
+/* Compresses every PACKERS-th chunk of a part. */
+typedef struct Packer {
+    struct libdeflate_compressor *deflater;
+    /* A chunk's values if they must be sorted, the bytes to compress, those compressed, and the values of the last
+       compressed chunk, of `room` bytes each. */
+    uint8_t *memory, *bytes, *packed, *before;
+    size_t packed_size, before_size; /* before_size 0: none */
+    /* of the present chunk: */
+    int rows;
+    const uint8_t *values;
+    size_t size;
+    bool smaller; /* `packed` is stored in place of `values` */
+} Packer;
+
 struct WrCodecWriter {
     exr_context_t file;
     WrByteSink sink;
     int error; /* errno of the sink's first failure */
     int part;
     const WrImageOut *parts;
-    struct libdeflate_compressor *deflater;
-    /* A chunk's values, the bytes to compress, those compressed, and the values of the last packed chunk. */
-    uint8_t *values, *bytes, *packed, *before;
-    size_t room, packed_size, before_size; /* before_size 0: none */
+    size_t room;
+    int packers;
+    Packer packer[PACKERS];
 };
 
 static int64_t write_at(exr_const_context_t file, void *to, const void *bytes, uint64_t size,
@@ -391,6 +407,17 @@ static bool writer_check(const WrCodecWriter *writer, exr_result_t code, char *r
     return code == EXR_ERR_SUCCESS || fail_code(reason, code);
 }
 
+static bool begin_packer(Packer *packer, size_t room)
+{
+    packer->deflater = libdeflate_alloc_compressor(LEVEL);
+    packer->memory = wr_try_alloc_unset(room, 4, "rows of a picture", NULL);
+    if (!packer->deflater || !packer->memory) return false;
+    packer->bytes = packer->memory + room;
+    packer->packed = packer->bytes + room;
+    packer->before = packer->packed + room;
+    return true;
+}
+
 static bool create(WrCodecWriter *writer, int count, char *reason)
 {
     const exr_context_initializer_t start = { .size = sizeof start,
@@ -403,12 +430,11 @@ static bool create(WrCodecWriter *writer, int count, char *reason)
     for (int i = 0; i < count && !code; i++) code = add_part(writer, &writer->parts[i]);
     if (!code) code = exr_write_header(writer->file);
     if (!writer_check(writer, code, reason)) return false;
-    writer->deflater = libdeflate_alloc_compressor(LEVEL);
-    writer->values = wr_try_alloc(writer->room, 4, "rows of a picture", NULL);
-    if (!writer->deflater || !writer->values) return fail(reason, WR_CODEC_NO_MEMORY);
-    writer->bytes = writer->values + writer->room;
-    writer->packed = writer->bytes + writer->room;
-    writer->before = writer->packed + writer->room;
+    const int threads = wr_pool_threads(writer->parts[0].pool);
+    writer->packers = threads < PACKERS ? threads : PACKERS;
+    for (int k = 0; k < writer->packers; k++)
+        if (!begin_packer(&writer->packer[k], writer->room))
+            return fail(reason, WR_CODEC_NO_MEMORY);
     return true;
 }
 
@@ -416,8 +442,10 @@ static bool writer_finish(WrCodecWriter *writer, bool keep, char *reason)
 {
     const exr_result_t code = exr_finish(&writer->file);
     const bool good = !keep || writer_check(writer, code, reason);
-    if (writer->deflater) libdeflate_free_compressor(writer->deflater);
-    wr_free(writer->values);
+    for (int k = 0; k < writer->packers; k++) {
+        if (writer->packer[k].deflater) libdeflate_free_compressor(writer->packer[k].deflater);
+        wr_free(writer->packer[k].memory);
+    }
     wr_free(writer);
     return good;
 }
@@ -444,50 +472,75 @@ static void plan_rows(const WrImageOut *part, const float *pixels, int rows, uin
 }
 
 /* True if compressing a few pieces of the chunk saves enough. */
-static bool is_worth(WrCodecWriter *writer, const uint8_t *values, size_t bytes)
+static bool is_worth(Packer *packer)
 {
-    uint8_t *piece = writer->packed;
+    uint8_t *piece = packer->packed;
     size_t length = 0;
     for (int k = 0; k < TRIAL_PIECES; k++, length += TRIAL)
-        memcpy(piece + length, values + (bytes / TRIAL_PIECES * (size_t)k & ~(size_t)3), TRIAL);
-    zip_order(piece, length, writer->bytes);
-    return libdeflate_zlib_compress(writer->deflater, writer->bytes, length, piece,
+        memcpy(piece + length,
+               packer->values + (packer->size / TRIAL_PIECES * (size_t)k & ~(size_t)3), TRIAL);
+    zip_order(piece, length, packer->bytes);
+    return libdeflate_zlib_compress(packer->deflater, packer->bytes, length, piece,
                                     (size_t)(WORTH * (double)length)) > 0;
 }
 
-/* Compresses a chunk to writer->packed; returns its size, or 0 if it stays as it is. */
-static size_t pack(WrCodecWriter *writer, const uint8_t *values, size_t bytes)
+/* Compresses the present chunk; false if it stays as it is. */
+static bool pack_smaller(Packer *packer)
 {
-    if (bytes == writer->before_size && memcmp(values, writer->before, bytes) == 0)
-        return writer->packed_size;
-    writer->before_size = 0;
-    if (bytes >= 4 * TRIAL_PIECES * TRIAL && !is_worth(writer, values, bytes)) return 0;
-    zip_order(values, bytes, writer->bytes);
-    writer->packed_size =
-        libdeflate_zlib_compress(writer->deflater, writer->bytes, bytes, writer->packed, bytes - 1);
-    if (writer->packed_size == 0) return 0;
-    memcpy(writer->before, values, bytes);
-    writer->before_size = bytes;
-    return writer->packed_size;
+    const size_t size = packer->size;
+    if (size == packer->before_size && memcmp(packer->values, packer->before, size) == 0)
+        return true;
+    packer->before_size = 0;
+    if (size >= 4 * TRIAL_PIECES * TRIAL && !is_worth(packer)) return false;
+    zip_order(packer->values, size, packer->bytes);
+    packer->packed_size =
+        libdeflate_zlib_compress(packer->deflater, packer->bytes, size, packer->packed, size - 1);
+    if (packer->packed_size == 0) return false;
+    memcpy(packer->before, packer->values, size);
+    packer->before_size = size;
+    return true;
 }
 
+static void pack(int index, int worker, void *ctx)
+{
+    WrCodecWriter *writer = ctx;
+    Packer *packer = &writer->packer[index];
+    (void)worker;
+    if (writer->parts[writer->part].channels == CHANNELS) {
+        plan_rows(&writer->parts[writer->part], (const float *)(const void *)packer->values,
+                  packer->rows, packer->memory);
+        packer->values = packer->memory;
+    }
+    packer->smaller = pack_smaller(packer);
+}
+
+/* Packs as many chunks at once as there are packers, and writes them in their order: the file's bytes do not depend on
+   the number of threads. */
 static bool writer_write(WrCodecWriter *writer, int y, int rows, const void *pixels, char *reason)
 {
     const WrImageOut *part = &writer->parts[writer->part];
     const size_t row = (size_t)part->width * (size_t)part->channels * sizeof(float);
     const uint8_t *from = pixels;
     exr_result_t code = EXR_ERR_SUCCESS;
-    for (int done = 0; done < rows && !code; done += CHUNK_ROWS) {
-        const int count = rows - done < CHUNK_ROWS ? rows - done : CHUNK_ROWS;
-        const size_t bytes = (size_t)count * row;
-        const uint8_t *values = from + (size_t)done * row;
-        if (part->channels == CHANNELS) {
-            plan_rows(part, (const float *)(const void *)values, count, writer->values);
-            values = writer->values;
+    for (const int end = y + rows; y < end && !code;) {
+        int count = 0;
+        for (int at = y; at < end && count < writer->packers; count++) {
+            Packer *packer = &writer->packer[count];
+            packer->rows = end - at < CHUNK_ROWS ? end - at : CHUNK_ROWS;
+            packer->size = (size_t)packer->rows * row;
+            packer->values = from;
+            from += packer->size;
+            at += packer->rows;
         }
-        const size_t packed = pack(writer, values, bytes);
-        code = exr_write_scanline_chunk(writer->file, writer->part, y + done,
-                                        packed ? writer->packed : values, packed ? packed : bytes);
+        if (!wr_pool_run(writer->parts[0].pool, count, pack, writer))
+            return fail(reason, "cancelled");
+        for (int k = 0; k < count && !code; k++) {
+            const Packer *packer = &writer->packer[k];
+            code = exr_write_scanline_chunk(writer->file, writer->part, y,
+                                            packer->smaller ? packer->packed : packer->values,
+                                            packer->smaller ? packer->packed_size : packer->size);
+            y += packer->rows;
+        }
     }
     return writer_check(writer, code, reason);
 }

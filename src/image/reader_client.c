@@ -180,10 +180,12 @@ struct WrReader {
     int count;
     const char **names; /* of all channels of all parts */
     WR_ARRAY(Attribute) attributes;
-    const char *shared; /* memory written by the child */
+    const char *shared; /* memory written by the child: two chunks of rows */
     size_t shared_bytes;
-    bool lacks; /* the child needs the library, which was not loaded */
-    bool dead;  /* the child has ended; the reason is in `end` */
+    int last_part, last_end; /* the part, and the row below those read last */
+    WrWireRead ahead;        /* chunk that was requested in advance; rows 0: none */
+    bool lacks;              /* the child needs the library, which was not loaded */
+    bool dead;               /* the child has ended; the reason is in `end` */
     WrError end;
 };
 
@@ -319,6 +321,21 @@ static bool receive_by(WrReader *reader, double deadline, WrWireKind kind, Answe
 static bool receive(WrReader *reader, WrWireKind kind, Answer *answer, WrError *err)
 {
     return receive_by(reader, deadline_of(reader), kind, answer, err);
+}
+
+/* Receives and ignores a reply. */
+static void discard_reply(WrReader *reader)
+{
+    Answer ignored;
+    if (reader->dead) return;
+    receive_whole(reader, deadline_of(reader), &ignored);
+    wr_free(ignored.bytes);
+}
+
+static void forget_ahead(WrReader *reader)
+{
+    if (reader->ahead.rows > 0) discard_reply(reader);
+    reader->ahead.rows = 0;
 }
 
 /* ---- opening ---- */
@@ -479,6 +496,7 @@ const char *wr_reader_attribute(WrReader *reader, int part, const char *name)
     }
     WrWireText want = { .part = part };
     Answer answer;
+    forget_ahead(reader);
     if (reader->dead || strlen(name) >= sizeof want.name) return NULL;
     strcpy(want.name, name);
     if (!wr_wire_send(reader->channel, WR_WIRE_TEXT, &want, sizeof want, -1) ||
@@ -509,7 +527,8 @@ static int share(WrReader *reader, size_t bytes, WrError *err)
     return fd;
 }
 
-/* Rows are transferred in chunks, two at a time: one is decoded while the other is copied. */
+/* Rows are transferred in chunks, two at a time: one is decoded while the other is copied. If a part is read downwards, the
+   chunk below is decoded while the caller works on its rows. */
 typedef struct Rows {
     int part, y, rows, channels;
     size_t row;  /* bytes */
@@ -524,26 +543,49 @@ static int chunk_rows(const Rows *rows, int chunk)
     return left < rows->step ? left : rows->step;
 }
 
-static bool ask(WrReader *reader, const Rows *rows, int chunk, WrError *err)
+static WrWireRead chunk_at(const Rows *rows, int chunk)
 {
-    int fd = chunk == 0 ? share(reader, 2 * rows->slot, err) : -1;
-    if (fd == -2) return false;
-    WrWireRead want = { .part = rows->part,
-                        .y = rows->y + chunk * rows->step,
-                        .rows = chunk_rows(rows, chunk),
-                        .channels = rows->channels,
-                        .at = (uint64_t)(chunk & 1) * rows->slot,
-                        .bytes = fd >= 0 ? reader->shared_bytes : 0 };
+    return (WrWireRead){ .part = rows->part,
+                         .y = rows->y + chunk * rows->step,
+                         .rows = chunk_rows(rows, chunk),
+                         .channels = rows->channels,
+                         .at = (uint64_t)(chunk & 1) * rows->slot };
+}
+
+static void ask(const WrReader *reader, WrWireRead want, int fd)
+{
+    want.bytes = fd >= 0 ? reader->shared_bytes : 0;
     /* If the child has ended, its last messages are read later. */
     wr_wire_send(reader->channel, WR_WIRE_READ, &want, sizeof want, fd);
-    if (fd >= 0) wr_fd_close(fd);
-    return true;
+}
+
+/* True if this chunk was requested already. */
+static bool is_ahead(const WrReader *reader, const WrWireRead *want)
+{
+    const WrWireRead *ahead = &reader->ahead;
+    return ahead->part == want->part && ahead->y == want->y && ahead->rows == want->rows &&
+           ahead->channels == want->channels;
+}
+
+/* Requests the chunk below these rows, if it is likely to be read next. */
+static void look_ahead(WrReader *reader, const Rows *rows)
+{
+    const bool downwards =
+        rows->y == 0 || (rows->part == reader->last_part && rows->y == reader->last_end);
+    Rows next = *rows;
+    next.y += rows->rows;
+    reader->last_part = rows->part;
+    reader->last_end = next.y;
+    const int left = reader->parts[rows->part].height - next.y;
+    if (next.rows > left) next.rows = left;
+    if (!downwards || left <= 0) return;
+    reader->ahead = chunk_at(&next, 0);
+    ask(reader, reader->ahead, -1);
 }
 
 bool wr_reader_read(WrReader *reader, int part, int y, int rows, int channels, float *out,
                     WrError *err)
 {
-    if (reader->dead) return wr_fail(err, "%s", wr_error_message(&reader->end));
     Rows all = { .part = part, .y = y, .rows = rows, .channels = channels };
     all.row = (size_t)reader->parts[part].width * (size_t)channels * sizeof(float);
     all.step = CHUNK / all.row >= WR_IMAGE_STRIP ? WR_IMAGE_STRIP
@@ -551,13 +593,18 @@ bool wr_reader_read(WrReader *reader, int part, int y, int rows, int channels, f
                                                  : 1;
     all.count = (rows + all.step - 1) / all.step;
     all.slot = all.row * (size_t)all.step;
-    int asked = 0, done = 0;
+    const WrWireRead first = chunk_at(&all, 0);
+    int asked = is_ahead(reader, &first) ? 1 : 0, done = 0, fd = -1;
+    if (asked) reader->ahead.rows = 0;
+    else forget_ahead(reader);
+    if (reader->dead) return wr_fail(err, "%s", wr_error_message(&reader->end));
+    if (!asked && (fd = share(reader, 2 * all.slot, err)) == -2) return false;
     bool good = true;
     while (good && done < all.count) {
-        while (good && asked < all.count && asked - done < 2)
-            good = ask(reader, &all, asked++, err);
+        for (; asked < all.count && asked - done < 2; asked++)
+            ask(reader, chunk_at(&all, asked), asked == 0 ? fd : -1);
         Answer answer;
-        good = good && receive(reader, WR_WIRE_DONE, &answer, err);
+        good = receive(reader, WR_WIRE_DONE, &answer, err);
         if (!good) break;
         wr_free(answer.bytes);
         memcpy((char *)out + (size_t)done * all.slot,
@@ -565,12 +612,9 @@ bool wr_reader_read(WrReader *reader, int part, int y, int rows, int channels, f
                all.row * (size_t)chunk_rows(&all, done));
         done++;
     }
-    /* Discards the outstanding reply. */
-    if (!good && asked - done > 1 && !reader->dead) {
-        Answer ignored;
-        receive_whole(reader, deadline_of(reader), &ignored);
-        wr_free(ignored.bytes);
-    }
+    if (fd >= 0) wr_fd_close(fd);
+    if (!good && asked - done > 1) discard_reply(reader);
+    if (good) look_ahead(reader, &all);
     return good;
 }
 
@@ -579,6 +623,7 @@ bool wr_reader_digest(WrReader *reader, int part, int y, int rows, int channels,
 {
     WrWireDigest want = { part, y, rows, channels, *digest };
     Answer answer;
+    forget_ahead(reader);
     if (reader->dead) return wr_fail(err, "%s", wr_error_message(&reader->end));
     wr_wire_send(reader->channel, WR_WIRE_DIGEST, &want, sizeof want, -1);
     if (!receive(reader, WR_WIRE_DIGEST, &answer, err)) return false;

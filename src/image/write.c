@@ -213,7 +213,7 @@ typedef struct Writing {
     const WrCodec *library;
     WrCodecWriter *writer;
     float *values; /* scratch: a strip as returned by a reader */
-    int packed;    /* rows that the format compresses together */
+    int packed;    /* rows that are compressed together, or at once by several threads */
 } Writing;
 
 /* Expected digest of the strip when read back. */
@@ -262,7 +262,8 @@ static bool write_strip(Writing *to, int y, int rows, const void *pixels, size_t
         const char *from = (const char *)pixels + (size_t)first * row;
         if (wr_progress_stopped()) return wr_fail(err, "cancelled");
         if (!to->library->write(to->writer, y + first, count, from, reason))
-            return fail_writing(to, reason, err);
+            return wr_progress_stopped() ? wr_fail(err, "cancelled")
+                                         : fail_writing(to, reason, err);
     }
     return to->spool.fd < 0 || spooled(to, wr_spool_move(&to->spool, &to->sink), err);
 }
@@ -317,16 +318,17 @@ static bool write_file(const char *path, WrByteSink sink, int file, const char *
                        const WrImageOut *parts, int count, WrHash *digests, WrError *err)
 {
     char why[WR_FILE_WHY];
+    const bool plain = wr_exr_writes(format, parts, count);
     Writing to = { .path = path,
                    .file = file,
                    .sink = sink,
                    .spool = { .fd = -1 },
-                   .library =
-                       wr_exr_writes(format, parts, count) ? &wr_exr_codec : wr_codec(format, err),
-                   .packed = parts[0].levels ? WR_IMAGE_TILE : packed_rows(format) };
+                   .library = plain ? &wr_exr_codec : wr_codec(format, err),
+                   .packed = plain             ? WR_IMAGE_STRIP
+                             : parts[0].levels ? WR_IMAGE_TILE
+                                               : packed_rows(format) };
     if (!to.library) return false;
-    if (to.library != &wr_exr_codec && wr_oiio_by_name(format, parts, count) &&
-        !wr_spool_open(&to.spool))
+    if (!plain && wr_oiio_by_name(format, parts, count) && !wr_spool_open(&to.spool))
         return fail_write(err, path, -1, wr_file_why(errno, why));
     bool ok = write_parts(&to, format, parts, count, digests, err);
     if (ok && to.spool.fd >= 0) ok = spooled(&to, wr_spool_end(&to.spool, &to.sink), err);
@@ -343,6 +345,7 @@ static bool write_target(WrFileTarget *target, const char *path, const WrImageFo
     bool good = write_file(path, wr_file_sink(target), target->fd, format->library, parts, count,
                            digests, err);
     wr_progress_set(whole);
+    if (good) wr_fd_begin_sync(target->fd); /* while it is read back */
     return good && (wr_image_verify(path, target->fd, format, parts, count, digests, &inner) ||
                     fail_write(err, path, target->fd, wr_error_message(&inner)));
 }

@@ -277,6 +277,11 @@ void wr_fd_close_range(int from, int to)
     close_range((unsigned)from, to < 0 ? ~0U : (unsigned)to, 0);
 }
 
+void wr_fd_begin_sync(int fd)
+{
+    sync_file_range(fd, 0, 0, SYNC_FILE_RANGE_WRITE);
+}
+
 int wr_fd_copy_blocks(int from, int to)
 {
     bool any = false;

@@ -236,7 +236,7 @@ static bool time_file(File *file, WrError *err)
     snprintf(path, sizeof path, "%s/bench.exr", folder);
     wr_document_field(document);
     double start = wr_clock_seconds();
-    bool good = wr_document_save(document, "", path, err);
+    bool good = wr_document_save(document, "", path, NULL, err);
     file->save_seconds = wr_clock_seconds() - start;
     wr_document_free(document);
     WrLoaded loaded = { 0 };

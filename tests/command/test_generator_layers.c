@@ -307,7 +307,7 @@ static void a_line_that_is_not_known_leaves_the_heights(void **state)
         WrHash seen = wr_field_hash(wr_document_field(document));
         WrError err;
         wr_layer_set_line(&document->layers[1], lines[i], (WrHash){ 0, 0 });
-        if (!wr_document_save(document, "", "odd.exr", &err)) fail_msg("%s", err.text);
+        if (!wr_document_save(document, "", "odd.exr", NULL, &err)) fail_msg("%s", err.text);
         wr_document_free(document);
         Said said;
         WrSession *other = listening(&said);

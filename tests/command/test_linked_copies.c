@@ -517,7 +517,7 @@ static void a_file_with_a_cycle_can_be_edited(void **state)
         for (int i = 0; i < 2; i++)
             wr_layer_set_line(&document->layers[1 + i], pairs[k][i], (WrHash){ 7, 7 });
         WrError err;
-        if (!wr_document_save(document, "", "cycle.exr", &err)) fail_msg("%s", err.text);
+        if (!wr_document_save(document, "", "cycle.exr", NULL, &err)) fail_msg("%s", err.text);
         wr_document_free(document);
         Said said;
         WrSession *other = listening(&said);

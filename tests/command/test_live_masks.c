@@ -35,7 +35,7 @@ static WrSession *of_function(Function *f, WrWrap wrap)
     WrDocument *document = wr_document_new();
     wr_document_start_over(document, field);
     WrError err;
-    if (!wr_document_save(document, "", "f.exr", &err)) fail_msg("%s", err.text);
+    if (!wr_document_save(document, "", "f.exr", NULL, &err)) fail_msg("%s", err.text);
     wr_document_free(document);
     must_run(s, "open f.exr");
     must_run(s, "layer add top");
@@ -651,7 +651,7 @@ static void terms_that_are_not_known_leave_the_mask(void **state)
         const WrHash seen = wr_field_hash(wr_document_field(document));
         WrError err;
         wr_layer_set_mask_line(&document->layers[1], lines[i], (WrHash){ 5, 6 });
-        if (!wr_document_save(document, "", "odd.exr", &err)) fail_msg("%s", err.text);
+        if (!wr_document_save(document, "", "odd.exr", NULL, &err)) fail_msg("%s", err.text);
         wr_document_free(document);
         Said said;
         WrSession *other = listening(&said);

@@ -398,7 +398,8 @@ static void a_document_holds_no_commands_but_of_its_scene(void **state)
         WrError err = { "" };
         WrSession *session = wr_session_new(&(WrSessionOptions){ .outputs = true });
         const WrDocument *document = wr_session_document(session);
-        if (!wr_document_save(document, lines[i], "hostile.exr", &err)) fail_msg("%s", err.text);
+        if (!wr_document_save(document, lines[i], "hostile.exr", NULL, &err))
+            fail_msg("%s", err.text);
         assert_false(wr_session_open(session, "hostile.exr", &err));
         if (!strstr(err.text, "no command of a scene")) fail_msg("%s: %s", lines[i], err.text);
         wr_session_free(session);

@@ -419,7 +419,7 @@ static void strange_files_do_no_harm(void **state)
             for (int i = 0; i < document->layer_count; i++)
                 document->layers[i].values = wr_strdup(values[(v + i) % 6]);
             WrError err;
-            if (!wr_document_save(document, "", "odd.exr", &err)) fail_msg("%s", err.text);
+            if (!wr_document_save(document, "", "odd.exr", NULL, &err)) fail_msg("%s", err.text);
             wr_document_free(document);
             WrSession *other = wr_session_new(&(WrSessionOptions){ .outputs = true });
             must_run(other, "open odd.exr");

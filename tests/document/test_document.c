@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "base/pool.h"
 #include "document/document.h"
 #include "document/document_file.h"
 #include "field/field.h"
@@ -167,7 +168,7 @@ static void check_save_load_save(const WrDocument *document, const char *scene)
     WrError err = { "" };
     WrLoaded loaded;
     int64_t replaced = -1;
-    if (!wr_document_save(document, scene, "one.exr", &err)) fail_msg("%s", err.text);
+    if (!wr_document_save(document, scene, "one.exr", NULL, &err)) fail_msg("%s", err.text);
     assert_true(wr_document_recognise("one.exr"));
     if (!wr_document_load("one.exr", &loaded, &replaced, &err)) fail_msg("%s", err.text);
     assert_int_equal(replaced, 0);
@@ -183,7 +184,9 @@ static void check_save_load_save(const WrDocument *document, const char *scene)
         wr_scene_free(loaded.document->scene);
         loaded.document->scene = with;
     }
-    assert_true(wr_document_save(loaded.document, loaded.scene_text, "two.exr", &err));
+    WrPool *pool = wr_pool_new(3);
+    assert_true(wr_document_save(loaded.document, loaded.scene_text, "two.exr", pool, &err));
+    wr_pool_free(pool);
     char *one, *two;
     size_t length_one, length_two;
     read_bytes("one.exr", &one, &length_one);
@@ -252,7 +255,7 @@ static void any_reader_of_exr_sees_the_relief_first(void **state)
     const char *names[] = { "a", "b" };
     WrDocument *document = make_document(2, names, 90, 40, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC);
     WrError err;
-    assert_true(wr_document_save(document, "", "relief.exr", &err));
+    assert_true(wr_document_save(document, "", "relief.exr", NULL, &err));
     WrImage *image = wr_image_read("relief.exr", &err);
     assert_non_null(image);
     const WrField *f = wr_document_field(document);
@@ -275,7 +278,7 @@ static void an_almost_empty_large_table_stays_small_in_memory(void **state)
     WrLoaded loaded;
     int64_t replaced;
     getrusage(RUSAGE_SELF, &before);
-    assert_true(wr_document_save(document, "", "large.exr", &err));
+    assert_true(wr_document_save(document, "", "large.exr", NULL, &err));
     assert_true(wr_document_load("large.exr", &loaded, &replaced, &err));
     getrusage(RUSAGE_SELF, &after);
 #ifndef __SANITIZE_ADDRESS__ /* which delays the reuse of freed memory */
@@ -394,7 +397,7 @@ static void truncated_and_foreign_files_are_not_documents(void **state)
     size_t length;
     const char *names[] = { "base" };
     WrDocument *document = make_document(1, names, 60, 60, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC);
-    assert_true(wr_document_save(document, "", "whole.exr", &err));
+    assert_true(wr_document_save(document, "", "whole.exr", NULL, &err));
     read_bytes("whole.exr", &bytes, &length);
     for (int cut = 1; cut < 20; cut++) {
         assert_true(wr_file_write("cut.exr", bytes, length * (size_t)cut / 20, &err));
@@ -424,7 +427,7 @@ static void a_full_disk_keeps_the_old_document(void **state)
         char *before, *after;
         size_t length, length_after;
         struct rlimit old, small;
-        assert_true(wr_document_save(document, "", "kept.exr", &err));
+        assert_true(wr_document_save(document, "", "kept.exr", NULL, &err));
         read_bytes("kept.exr", &before, &length);
         const size_t missing[] = { length, length / 3, 4096, 500, 100, 9, 1, 0 };
         getrlimit(RLIMIT_FSIZE, &old);
@@ -432,7 +435,7 @@ static void a_full_disk_keeps_the_old_document(void **state)
             small = old;
             small.rlim_cur = length - missing[i];
             setrlimit(RLIMIT_FSIZE, &small);
-            bool ok = wr_document_save(document, "", "kept.exr", &err);
+            bool ok = wr_document_save(document, "", "kept.exr", NULL, &err);
             setrlimit(RLIMIT_FSIZE, &old);
             if (ok != (missing[i] == 0)) fail_msg("%zu bytes are missing", missing[i]);
             char said[160];

@@ -351,7 +351,7 @@ static void a_copy_of_another_content_is_refused(void **state)
     wr_free(folder), wr_free(file), wr_free(files);
 }
 
-/* A file so large that no command waits for its copy. */
+/* A file that is copied by a thread. */
 static char *make_large_file(const char *folder, const char *name, char hex[65])
 {
     const size_t count = (size_t)9 << 19;

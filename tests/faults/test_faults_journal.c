@@ -35,7 +35,7 @@ static bool restart(WrJournal *journal, const WrDocument *document, int count)
     WrText path = { 0 };
     WrError err;
     bool good = wr_journal_snapshot_path(journal, &path, &err) &&
-                wr_document_save(document, "", wr_text_get(&path), &err);
+                wr_document_save(document, "", wr_text_get(&path), NULL, &err);
     WrJournalStart start = { .kind = WR_JOURNAL_SNAPSHOT,
                              .hash = { (uint64_t)count, 1 },
                              .snapshot = wr_text_get(&path) };

@@ -60,7 +60,7 @@ wr_fuzz(gih ${tip_sources} LIBRARIES -lsleef)
 wr_fuzz(font image/font_load.c image/font_outline.c base/error.c base/message.c base/memory.c base/text.c
         LIBRARIES ${SHAPING_CFLAGS} -lfreetype -lharfbuzz -lfribidi -lz)
 
-wr_fuzz(exr image/exr.c base/cpu.c base/error.c base/message.c base/file.c base/hash.c base/memory.c base/progress.c base/text.c
+wr_fuzz(exr image/exr.c base/cpu.c base/error.c base/message.c base/file.c base/hash.c base/memory.c base/pool.c base/progress.c base/text.c
         LIBRARIES -isystem ${EXR_FOLDER} ${EXR_CORE} -ldeflate)
 
 wr_fuzz(raw generate/terrain_raw.c base/error.c base/message.c base/memory.c base/progress.c base/text.c)

@@ -292,6 +292,56 @@ static void parts_names_attributes_and_many_channels_come_back(void **state)
     assert_non_null(strstr(err.text, "need EXR"));
 }
 
+/* Rows are decoded before they are requested; in any order of reads, they are the file's. */
+static void rows_of_two_parts_come_in_any_order(void **state)
+{
+    (void)state;
+    int first[] = { 37, 3, 1000 }, second[] = { 37, 3, -700 };
+    WrImageOut parts[2] = { { .width = 37,
+                              .height = 331,
+                              .channels = 3,
+                              .type = WR_PIXEL_F32,
+                              .part_name = "F",
+                              .attributes = &(WrImageAttribute){ "wrinkle:version", "1" },
+                              .attribute_count = 1,
+                              .rows = counting_rows,
+                              .ctx = first },
+                            { .width = 37,
+                              .height = 290,
+                              .channels = 3,
+                              .type = WR_PIXEL_F32,
+                              .part_name = "G",
+                              .rows = counting_rows,
+                              .ctx = second } };
+    WrError err = { "" };
+    if (!wr_image_write("rows.exr", parts, 2, &err)) fail_msg("%s", err.text);
+    WrImageFile *file = wr_image_file_open("rows.exr", &err);
+    assert_non_null(file);
+    float *values = malloc((size_t)37 * 3 * 331 * sizeof *values);
+    uint32_t random = 1;
+    for (int i = 0, part = 0, y = 0, rows = 1; i < 400; i++) {
+        random = random * 1664525u + 1013904223u;
+        const int what = (int)(random >> 24);
+        const bool below = what < 160; /* the next rows, as many; else others */
+        if (what & 16) assert_null(wr_image_file_attribute(file, part, i % 2 ? "a" : "b"));
+        if (below) y += rows;
+        else rows = 1 + (int)(random >> 10) % 140, y = (int)(random >> 5) % 200;
+        if (what % 8 == 0) rows = 64;
+        if (what % 8 <= 1) part = what & 1;
+        if (what > 250) y = 0;
+        const int *shape = part ? second : first, height = parts[part].height;
+        if (y >= height) y = 0;
+        if (rows > height - y) rows = height - y;
+        if (!wr_image_file_read_rows(file, part, y, rows, values, &err)) fail_msg("%s", err.text);
+        const int row = shape[0] * shape[1];
+        for (int k = 0; k < rows * row; k++)
+            if (values[k] != (float)(shape[2] + y * row + k))
+                fail_msg("part %d, rows %d to %d, value %d", part, y, y + rows, k);
+    }
+    free(values);
+    wr_image_file_close(file);
+}
+
 typedef struct Zeros {
     size_t row; /* bytes */
 } Zeros;
@@ -878,6 +928,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(alpha_is_never_multiplied_into_colours),
         cmocka_unit_test(jpeg_comes_back_nearly),
         cmocka_unit_test(parts_names_attributes_and_many_channels_come_back),
+        cmocka_unit_test(rows_of_two_parts_come_in_any_order),
         cmocka_unit_test(small_formats_keep_attributes_in_their_description),
         cmocka_unit_test(the_same_picture_is_the_same_bytes_a_second_later),
         cmocka_unit_test(truncated_files_are_refused_at_every_length),
