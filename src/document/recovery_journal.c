@@ -810,7 +810,7 @@ static void cancel_copies(WrJournal *journal, const char *except)
 {
     for (int i = 0; i < journal->copies.count; i++)
         if (!except || strcmp(journal->copies.data[i]->sha256, except) != 0)
-            journal->copies.data[i]->cancel = 1;
+            __atomic_store_n(&journal->copies.data[i]->cancel, 1, __ATOMIC_RELAXED);
     settle_copies(journal, true);
 }
 
