@@ -517,12 +517,12 @@ static bool link_sibling(const char *folder, const char *target, const char *nam
     return found;
 }
 
-/* A copy to be kept: of the content of `from`, or of the file at `path` if that is -1. */
+/* A copy to be kept, of the content of `from`. */
 typedef struct Copy {
     char *folder, *files; /* all journals, and the files of this one */
     char *path;           /* for messages and the extension */
     char sha256[65];
-    int from; /* owned */
+    int from; /* descriptor at the beginning of the content; owned */
     bool good;
     bool changed; /* the content is not that of sha256 */
     /* of a copy made by a thread of its own: */
