@@ -105,9 +105,9 @@ done
 say "$count samples have the same documents, heights, exact pictures and exports"
 
 # ---- the quick tests ----
-# Not in QEMU: tests of filters and limits of the kernel (recover: of memory), of /proc/PID/exe (image), by valgrind
+# Not in QEMU: tests of filters and limits of the kernel (large, recover: of memory), of /proc/PID/exe (image), by valgrind
 # (instructions), of a program that cannot be started (film: QEMU reports it as one that ended with 127).
-left_out='sandbox|reader_limits|reader_process|recover|image|instructions|film'
+left_out='sandbox|reader_limits|reader_process|large|recover|image|instructions|film'
 unset WRINKLE_STATE # tests have their own
 ctest --test-dir "$build" -L 'quick|golden' -E "^($left_out)\$" --parallel "$(nproc)" --timeout 7200 --output-on-failure >"$work/log" 2>&1 ||
     fail "$(grep -A 30 'tests passed' "$work/log")"
