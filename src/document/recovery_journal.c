@@ -779,7 +779,8 @@ static void retry(WrJournal *journal)
 
 #define COPY_ASIDE ((uint64_t)4 << 20) /* bytes of a file for which no command waits */
 
-static void take_copy(WrJournal *journal, const Copy *copy)
+/* The journal is not safe if the document that it starts from was another file. */
+static void check_start(WrJournal *journal, const Copy *copy)
 {
     if (!copy->changed || strcmp(copy->sha256, journal->start_sha256) != 0) return;
     WrText text = { 0 };
@@ -788,7 +789,7 @@ static void take_copy(WrJournal *journal, const Copy *copy)
     wr_text_fini(&text);
 }
 
-/* Takes the results of copies that have ended; of all, if it waits. */
+/* Checks and frees the copies that have ended. wait: all, each when it has ended. */
 static void settle_copies(WrJournal *journal, bool wait)
 {
     int left = 0;
@@ -799,7 +800,7 @@ static void settle_copies(WrJournal *journal, bool wait)
             continue;
         }
         wr_thread_join(copy->thread);
-        take_copy(journal, copy);
+        check_start(journal, copy);
         free_copy(copy);
     }
     journal->copies.count = left;
@@ -825,7 +826,7 @@ static bool keep_copy(WrJournal *journal, const char *path, int from, bool aside
     }
     make_copy(copy, err);
     const bool good = copy->good;
-    take_copy(journal, copy);
+    check_start(journal, copy);
     free_copy(copy);
     return good;
 }

@@ -181,8 +181,8 @@ typedef struct WrImageOut {
     WrRowSource rows;
     WrRowSeen seen; /* NULL: no callback */
     void *ctx;
-    WrPool *
-        pool; /* threads that compress a PNG or a document; of the first part; NULL: the caller's */
+    /* threads that compress a PNG or a document, in the first part; NULL: the caller's */
+    WrPool *pool;
     bool reports; /* `rows` reports the progress itself, because it is most of the work */
     bool half;    /* all floats are halves, and are stored as such: EXR */
     /* EXR: the parts are the mip levels of one tiled image, each half as large as the one before

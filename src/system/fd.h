@@ -99,8 +99,8 @@ int wr_fd_copy_blocks(int from, int to);
 /* Frees the space of bytes that are no longer needed; they become 0. Does nothing where unsupported. */
 void wr_fd_punch_hole(int fd, int64_t at, int64_t length);
 
-void wr_fd_begin_sync(
-    int fd); /* the system begins to write the content to the disk, if it can; returns at once */
+/* Starts writing the content to the disk and returns at once. Does nothing where unsupported. */
+void wr_fd_begin_sync(int fd);
 bool wr_fd_sync(int fd);       /* content and metadata are on the disk */
 bool wr_fd_sync_bytes(int fd); /* content and the metadata needed to find it */
 

@@ -321,14 +321,14 @@ static void rows_of_two_parts_come_in_any_order(void **state)
     uint32_t random = 1;
     for (int i = 0, part = 0, y = 0, rows = 1; i < 400; i++) {
         random = random * 1664525u + 1013904223u;
-        const int what = (int)(random >> 24);
-        const bool below = what < 160; /* the next rows, as many; else others */
-        if (what & 16) assert_null(wr_image_file_attribute(file, part, i % 2 ? "a" : "b"));
+        const int draw = (int)(random >> 24); /* 0..255 */
+        const bool below = draw < 160;        /* goes on below the last rows */
+        if (draw & 16) assert_null(wr_image_file_attribute(file, part, i % 2 ? "a" : "b"));
         if (below) y += rows;
         else rows = 1 + (int)(random >> 10) % 140, y = (int)(random >> 5) % 200;
-        if (what % 8 == 0) rows = 64;
-        if (what % 8 <= 1) part = what & 1;
-        if (what > 250) y = 0;
+        if (draw % 8 == 0) rows = 64;
+        if (draw % 8 <= 1) part = draw & 1;
+        if (draw > 250) y = 0;
         const int *shape = part ? second : first, height = parts[part].height;
         if (y >= height) y = 0;
         if (rows > height - y) rows = height - y;
