@@ -177,12 +177,6 @@ bool wr_journal_restart(WrJournal *journal, const WrJournalStart *start, WrError
 /* The snapshot could not be written: delays the next request (10 s, doubling to 5 minutes). */
 void wr_journal_put_off(WrJournal *journal);
 
-/* ---- files ---- */
-
-typedef struct WrJournalRead WrJournalRead;
-
-/* Files of journals: the folder with its locks and neighbouring files, and the encoding of lines. */
-
 /* ---- encoding of one line of a journal: escapes, checksums, the header ---- */
 
 /* A parsed header; strings point into its line. */
@@ -198,6 +192,10 @@ typedef struct WrJournalSeal {
     int format;   /* of the header, 1..WR_JOURNAL_FORMAT; 0: unknown */
     WrHash chain; /* format 1: the checksum stored in the line before */
 } WrJournalSeal;
+
+bool wr_journal_is_sha256(const char *text); /* 64 lower-case hex digits */
+/* True for a plain file name: not empty, no slash, no leading dot. */
+bool wr_journal_is_name(const char *text);
 
 /* Appends the header line with its line end. */
 void wr_journal_print_header(WrText *line, const WrJournalHeader *header);
@@ -233,12 +231,11 @@ int wr_journal_open(const char *path, WrError *err);
 /* Locks without waiting. False: another program has the lock, or `path` no longer names this file. */
 bool wr_journal_lock(int fd, const char *path, WrLock how);
 
-/* wr_journal_keep_named for the journal whose files are in `files`. */
-
 /* Removes the files of NAME.files/ except those named keep_a or (before its extension) keep_b, either NULL; also
    the folder if it is then empty. */
 void wr_journal_clear_files(const char *files, const char *keep_a, const char *keep_b);
 
+typedef struct WrJournalRead WrJournalRead;
 /* wr_journal_read for an open, unread file; `path` is used for messages and for the snapshot's path. The caller
    closes fd. */
 bool wr_journal_read_fd(int fd, const char *path, WrJournalRead *out, WrError *err);

@@ -49,7 +49,7 @@ function(wr_fuzz name)
     set_tests_properties(fuzz_${name} PROPERTIES LABELS fuzz)
 endfunction()
 
-wr_fuzz(journal document/recovery_journal.c document/recover.c base/error.c base/message.c
+wr_fuzz(journal document/recovery_journal.c document/recovery_lines.c document/recover.c base/error.c base/message.c
         base/cpu.c base/file.c base/hash.c base/memory.c base/progress.c base/text.c)
 
 set(tip_sources brush/tip.c base/error.c base/message.c base/exactmath.c
