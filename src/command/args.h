@@ -22,26 +22,26 @@
     {                                                                                              \
         .name = "radii", .type = WR_ARG_TUPLE, .required = true, .components = 2,                  \
         .shape = "ru,rv", .low = 0, .high = WR_SELECT_REACH,                                       \
-        .help = "half its width and height, in parts of the cell as u and v"                       \
+        .help = "half its width and height, as fractions of the cell"                              \
     }
 /* Centre of an ellipse. */
 #define WR_ARG_MIDDLE                                                                              \
     .name = "at", .type = WR_ARG_TUPLE, .required = true, .components = 2, .shape = "u,v",         \
-    .low = -WR_SELECT_REACH, .high = WR_SELECT_REACH, .help = "its middle"
+    .low = -WR_SELECT_REACH, .high = WR_SELECT_REACH, .help = "its centre"
 /* The connected region of similar height around a point. */
 #define WR_ARGS_FLOOD(of)                                                                          \
-    { PLACE("u,v"), .also = "at", .type = WR_ARG_TUPLE,     .components = 2,                       \
-      .low = -1e6,  .high = 1e6,  .help = "where it begins" },                                     \
+    { PLACE("u,v"), .also = "at", .type = WR_ARG_TUPLE,         .components = 2,                   \
+      .low = -1e6,  .high = 1e6,  .help = "start of the region" },                                 \
         { .name = "tolerance",                                                                     \
           .type = WR_ARG_NUMBER,                                                                   \
           .low = 0,                                                                                \
           .high = WR_BIG_HEIGHT,                                                                   \
           .fallback = NUMBERS(0.01),                                                               \
           .unit = "height units",                                                                  \
-          .help = "how far " of " may be from the one at u,v" },                                   \
+          .help = "largest difference between " of " and the one at u,v" },                        \
     {                                                                                              \
         .name = "diagonal", .type = WR_ARG_CHOICE, .words = wr_off_on, .fallback_text = "off",     \
-        .help = "on: texels that meet at a corner are connected too"                               \
+        .help = "on: texels that touch at a corner are connected too"                              \
     }
 /* Channel and part of a picture file (WrImageRequest). */
 #define WR_ARGS_OF_FILE                                                                            \
@@ -49,11 +49,12 @@
       .also = "channel",                                                                           \
       .type = WR_ARG_TEXT,                                                                         \
       .shape = "NAME",                                                                             \
-      .help = "of an EXR file: a channel (Depth.Z) or a layer of them (diffuse); left out, its "   \
-              "first colours or grey, else its first channel" },                                   \
+      .help = "for an EXR file: a channel (Depth.Z) or a layer of channels (diffuse); left out, "  \
+              "the first with colours or grey, else the first channel" },                          \
     {                                                                                              \
         .name = "part", .type = WR_ARG_TEXT, .shape = "N or NAME",                                 \
-        .help = "of a file with several, or a frame of an animation; left out, the first"          \
+        .help = "for a file with several parts: number or name; or the frame of an animation; "    \
+                "left out, the first"                                                              \
     }
 /* WrCommand.form callback for a list of forms. */
 #define WR_FORMS(function, list)                                                                   \
@@ -89,7 +90,7 @@ extern const WrArgSpec wr_args_brush[]; /* the last row has name NULL */
     {                                                                                              \
         .name = "scale", .type = WR_ARG_TUPLE, .components = 2, .shape = "su,sv",                  \
         .low = -WR_PLACE_SCALE, .high = WR_PLACE_SCALE, .fallback = NUMBERS(1, 1),                 \
-        .help = "how much larger along u and v, before it is turned; below 0 mirrors"              \
+        .help = "scale factors along u and v, applied before the turn; negative values mirror"     \
     }
 
 /* ---- the brush ---- */
@@ -101,36 +102,36 @@ extern const WrArgSpec wr_args_brush[]; /* the last row has name NULL */
       .low = -WR_BIG_HEIGHT,                                                                       \
       .high = WR_BIG_HEIGHT,                                                                       \
       .fallback = NUMBERS(0.1),                                                                    \
-      .help = "how much the centre changes" },                                                     \
+      .help = "change at the centre of the brush" },                                               \
         { .name = "mode",                                                                          \
           .type = WR_ARG_CHOICE,                                                                   \
           .choice = wr_brush_mode_name,                                                            \
           .explain = wr_brush_mode_explain,                                                        \
           .fallback_text = "raise",                                                                \
-          .help = "what it does" },                                                                \
+          .help = "brush mode" },                                                                  \
         { .name = "to",                                                                            \
           .type = WR_ARG_NUMBER,                                                                   \
           .low = -WR_BIG_HEIGHT,                                                                   \
           .high = WR_BIG_HEIGHT,                                                                   \
           .fallback = NUMBERS(0),                                                                  \
-          .help = "a height, for the modes that go by one" },                                      \
+          .help = "target height of the modes that have one" },                                    \
         { .name = "opacity",                                                                       \
           .type = WR_ARG_NUMBER,                                                                   \
           .low = 0,                                                                                \
           .high = 1,                                                                               \
           .fallback = NUMBERS(1),                                                                  \
-          .help = "how much of the whole counts" },                                                \
+          .help = "opacity of the whole stroke" },                                                 \
         { .name = "reach",                                                                         \
           .type = WR_ARG_NUMBER,                                                                   \
           .low = 0,                                                                                \
           .high = WR_FIELD_MAX,                                                                    \
           .fallback = NUMBERS(0),                                                                  \
           .unit = "texels",                                                                        \
-          .help = "how far the modes that look around see; 0: an eighth of the radius, at least "  \
-                  "1" },                                                                           \
+          .help = "radius of the neighbourhood, for the modes that have one; 0: an eighth of the " \
+                  "brush's radius, at least 1" },                                                  \
     {                                                                                              \
         .name = "source", .type = WR_ARG_TUPLE, .components = 2, .shape = "du,dv", .low = -1e6,    \
-        .high = 1e6, .help = "clone: the heights come from u + du, v + dv"                         \
+        .high = 1e6, .help = "clone: the heights are copied from u + du, v + dv"                   \
     }
 
 /* A point of a shape or a ramp. */

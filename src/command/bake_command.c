@@ -479,7 +479,7 @@ static void map_explain(int i, WrText *text)
 
 #define DETAILED                                                                                   \
     PLACE("FILE"), .type = WR_ARG_PATH,                                                            \
-                   .help = "the detailed mesh, at the place and in the unit of the object's own"
+                   .help = "the detailed mesh, with the position and unit of the object's mesh"
 
 static const WrArgSpec args_bake[] = {
     { DETAILED },
@@ -488,26 +488,26 @@ static const WrArgSpec args_bake[] = {
       .choice = map_name,
       .explain = map_explain,
       .fallback_text = "height",
-      .help = "the quantity" },
+      .help = "map to bake" },
     { .name = "cage",
       .type = WR_ARG_TEXT,
       .shape = "auto|DISTANCE",
       .check = check_cage,
-      .help = "distance from the object, outwards and inwards, within which rays meet the detailed "
-              "mesh. auto, or left out: just enough for all of it" },
+      .help = "largest distance of the detailed mesh from the object, outwards and inwards. auto, "
+              "or left out: just enough for all of it" },
     { .name = "samples",
       .type = WR_ARG_NUMBER,
       .low = 1,
       .high = WR_BAKE_SAMPLES_MAX,
       .whole = true,
       .fallback = NUMBERS(1),
-      .help = "rays along each side of a texel, of which the mean is taken" },
+      .help = "rays per texel along each side; their mean is stored" },
     { .name = "size",
       .type = WR_ARG_SIZE,
       .low = 1,
       .high = WR_FIELD_MAX,
       .unit = "texels",
-      .help = "of the picture. Left out, as the table" },
+      .help = "size of the picture; left out, the table's" },
     { .name = "padding",
       .type = WR_ARG_NUMBER,
       .low = 0,
@@ -515,15 +515,14 @@ static const WrArgSpec args_bake[] = {
       .whole = true,
       .fallback = NUMBERS(8),
       .unit = "texels",
-      .help = "how far it is continued about the islands of (u,v), and into holes" },
+      .help = "width of the margin added around the islands of (u,v), and into holes" },
     { .name = "crease",
       .type = WR_ARG_NUMBER,
       .high = WR_CREASE_NONE,
       .fallback = &wr_projection_default.crease_deg,
       .unit = "degrees",
-      .help = "of the detailed mesh: below 180 its normals are made anew: faces that meet at more "
-              "than this have "
-              "separate ones, others smooth ones; 180: those of the file" },
+      .help = "crease angle of the detailed mesh: below 180, its normals are computed again, "
+              "smooth except where faces meet at a larger angle; 180: the file's normals" },
     { .name = "match",
       .type = WR_ARG_CHOICE,
       .words = matches,
@@ -532,7 +531,7 @@ static const WrArgSpec args_bake[] = {
               "ending _low or _high" },
     { .name = "sha256",
       .type = WR_ARG_SHA256,
-      .help = "of the file: another content is then an error" },
+      .help = "SHA-256 of the file; a file with other content is an error" },
     { 0 }
 };
 
@@ -541,21 +540,21 @@ const WrCommand wr_command_bake = {
     .kind = WR_CLASS_EDIT,
     .args = args_bake,
     .run = run_bake,
-    .help = "relief and other maps of a detailed mesh, for the object's mesh",
-    .details =
-        "From each texel's point on the object a ray starts at the cage distance outside, along "
-        "the interpolated normal, and runs inwards to the first triangle of the detailed mesh that "
-        "shows its front. Heights are divided by `bump height=`, so that bump and displacement are "
-        "as high as the mesh. Pictures lie once over the object's (u,v). The slopes of heights and "
-        "normals add up: bake one of the two. A note reports the rays that missed or met only "
-        "backs.",
+    .help = "bake relief and other maps of a detailed mesh for the object's mesh",
+    .details = "For each texel, a ray starts outside the object at the cage distance along the "
+               "interpolated normal, and runs inwards to the first front-facing triangle of the "
+               "detailed mesh. Heights are divided by `bump height=`, so that bump and "
+               "displacement are as high as the mesh. Baked pictures cover the object's (u,v) "
+               "once. Slopes of heights and of normals add up, so bake only one of the two. A note "
+               "reports the rays that missed or hit only back faces.",
     .example = "bake stone-high.ply map=normal size=2048x2048 samples=2"
 };
 
 static const WrArgSpec args_bake_tiles[] = {
     { DETAILED },
     { PLACE("OUT"), .type = WR_ARG_PATH,
-      .help = "the files: <UDIM> in it becomes each tile's number, the ending chooses the format" },
+      .help = "path of the files; <UDIM> is replaced by each tile's number, and the extension "
+              "chooses the format" },
     { 0 }
 };
 
@@ -565,13 +564,10 @@ const WrCommand wr_command_bake_tiles = {
     .args = args_bake_tiles,
     .more = args_bake + 1,
     .run = run_bake_tiles,
-    .help =
-        "relief and other maps of a detailed mesh, a file for each UDIM tile of the object's mesh",
-    .details =
-        "As `bake`, but the document stays as it is. All tiles of the mesh's own (u,v) are baked, "
-        "whichever shows the table. Heights are in the table's unit; in formats of integers the "
-        "codes "
-        "of all tiles have the same range, which is in the files' labels. Normals have green up. "
-        "All files are replaced, or none.",
+    .help = "bake maps of a detailed mesh, one file for each UDIM tile of the object's mesh",
+    .details = "Like `bake`, but the document does not change. Every tile of the mesh's own (u,v) "
+               "is baked, not only the one that shows the table. Heights are in the table's unit; "
+               "in integer formats all tiles share one range, which is stored in the files' "
+               "metadata. Normals have green up. Either all files are replaced or none.",
     .example = "bake-tiles stone-high.ply stone_normal.<UDIM>.png map=normal size=2048x2048"
 };

@@ -129,30 +129,29 @@ static const WrArgSpec args_sculpt[] = {
       .rows_low = 1,
       .rows_high = WR_POINTS_MAX,
       .shape = "x,y,z[,pressure[,tilt_x,tilt_y[,seconds[,turn]]]];...",
-      .help = "the pen's samples in order, in the mesh's own coordinates: of each, the nearest "
-              "point of the surface counts" },
+      .help = "the pen's samples in order, in the mesh's own coordinates; each is moved to the "
+              "nearest point of the surface" },
     { .name = "eye",
       .type = WR_ARG_TUPLE,
       .components = 3,
       .low = -WR_LENGTH_MAX,
       .high = WR_LENGTH_MAX,
       .shape = "x,y,z",
-      .help = "a place in the mesh's coordinates: faces turned away from it are not painted. Left "
-              "out, all are" },
+      .help = "viewpoint in the mesh's coordinates: faces turned away from it are not painted; "
+              "left out, all faces are painted" },
     { .name = "mirror_axes",
       .type = WR_ARG_CHOICE,
       .words = mirror_axes,
       .fallback_text = "none",
-      .help = "drawn again as in mirrors that stand across these axes of the mesh" },
+      .help = "repeats the stroke mirrored across these axes of the mesh" },
     { .name = "mirror_at",
       .type = WR_ARG_TUPLE,
       .components = 3,
       .low = -WR_LENGTH_MAX,
       .high = WR_LENGTH_MAX,
       .shape = "x,y,z",
-      .help =
-          "where they cross, in the mesh's coordinates; left out: 0,0,0 if the mesh is about it, "
-          "else its centre" },
+      .help = "point where the mirrors cross, in the mesh's coordinates; left out, 0,0,0 if that "
+              "is inside the mesh's bounding sphere, else the mesh's centre" },
     { 0 }
 };
 
@@ -267,20 +266,21 @@ static const char *const project_targets[] = { "active", "new", NULL };
 static const WrArgSpec args_project[] = {
     { PLACE("LAYER"), .type = WR_ARG_LAYER,
       .help = "the layer that is projected: its heights, 0..1, are the coverage" },
-    { MESH_POINT("eye", "the projector's place, in the mesh's coordinates"), .required = true },
-    { MESH_POINT("at", "where the layer's middle is, before the eye"), .required = true },
+    { MESH_POINT("eye", "position of the projector, in the mesh's coordinates"), .required = true },
+    { MESH_POINT("at", "position of the layer's centre"), .required = true },
     { MESH_POINT("up", "the direction of the layer's upper side"), .fallback = NUMBERS(0, 1, 0) },
     { .name = "width",
       .type = WR_ARG_NUMBER,
       .required = true,
       .low = WR_LENGTH_MIN,
       .high = WR_LENGTH_MAX,
-      .help = "of the layer at at=, in the mesh's unit; its height follows from the table's size" },
+      .help = "width of the projected layer at at=, in the mesh's unit; its height follows from "
+              "the table's proportions" },
     { .name = "parallel",
       .type = WR_ARG_CHOICE,
       .words = wr_off_on,
       .fallback_text = "off",
-      .help = "on: by parallel rays in the direction from eye to at" },
+      .help = "on: parallel rays in the direction from eye to at" },
     { .name = "into",
       .type = WR_ARG_CHOICE,
       .words = project_targets,
@@ -298,8 +298,8 @@ const WrCommand wr_command_dab = {
     .args = args_dab,
     .more = wr_args_brush,
     .run = run_dab,
-    .help = "touch the table once with a brush",
-    .details = "With tip= it is a stamp. Given arguments replace the preset's own.",
+    .help = "paint one dab",
+    .details = "With tip= it is a stamp. Given arguments replace those of the preset.",
     .example = "dab 0.5,0.5 radius=40 strength=0.3"
 };
 
@@ -310,16 +310,14 @@ const WrCommand wr_command_stroke = {
     .more = wr_args_brush,
     .run = run_stroke,
     .streams = true,
-    .help = "draw a brush along a path",
+    .help = "paint a stroke along a path",
     .details =
-        "The modes up to erode make a texel anew from the height that it had when the stroke "
-        "began and the largest coverage it ever had, so crossing one's own stroke does not "
-        "double "
-        "it; flow= below 1, presets and buildup=on add the dabs up instead. smooth, level, pinch "
-        "and smear change the heights under them, dab by dab. Samples are joined along the shorter "
-        "way "
-        "round. Given arguments replace the preset's own. Symmetry draws the whole "
-        "stroke again: mirrors, turns, and a lattice over the cell.",
+        "The modes from raise to erode compute each texel from its height before the stroke and "
+        "its largest coverage during the stroke, so a stroke that crosses itself does not double "
+        "there; with flow= below 1, a preset or buildup=on the dabs add up instead. smooth, level, "
+        "pinch and smear change the current heights, dab by dab. Consecutive samples are joined "
+        "along the shorter way around the table. Given arguments replace those of the preset. "
+        "Symmetry repeats the whole stroke: mirrored, rotated, or on a lattice over the cell.",
     .example = "stroke points=0.1,0.5;0.9,0.5,0.4 radius=12 mode=lower"
 };
 
@@ -329,11 +327,11 @@ const WrCommand wr_command_project = {
     .args = args_project,
     .run = run_project,
     .on_mesh = true,
-    .help = "lay a layer onto the object's mesh as seen from a place",
+    .help = "project a layer onto the object's mesh",
     .details =
-        "Text, shapes, stamps and pictures of a layer are laid onto the visible faces of the mesh "
-        "as by a slide projector, across the seams of (u,v), and change the active layer by mode= "
-        "and strength=. Faces that are turned away, or hidden by others, stay.",
+        "Text, shapes, stamps and pictures of a layer are projected onto the visible faces of the "
+        "mesh as by a slide projector, across the seams of (u,v), and change the active layer by "
+        "mode= and strength=. Faces that are turned away or hidden by others do not change.",
     .example = "project lettering eye=0,0,5 at=0,0,1 width=1.5 strength=0.2 into=new"
 };
 
@@ -345,15 +343,14 @@ const WrCommand wr_command_sculpt = {
     .run = run_sculpt,
     .streams = true,
     .on_mesh = true,
-    .help = "draw a brush along a path on the object's mesh",
-    .details =
-        "As `stroke`, but on the surface: a dab reaches the texels within the radius by the way "
-        "over the faces, so it goes on across the seams of (u,v) and does not come through a "
-        "wall. The brush's texels have the mean size that texels have on the mesh. With tip= it "
-        "lays a stamp on the surface. A texel that several places of the mesh share changes at "
-        "all of them; a note says so. clone copies from another place of the table. mirror_axes= "
-        "repeats each dab on the other side; where the mesh has no surface within the dab's "
-        "radius there, it is left out. No mirror=, radial= or repeat=.",
+    .help = "paint a stroke on the object's mesh",
+    .details = "Like `stroke`, but on the surface: the radius is measured along the faces, so a "
+               "dab continues across the seams of (u,v) and does not reach through a wall. The "
+               "radius is in texels of the mean size of texels on the mesh. With tip= it lays a "
+               "stamp on the surface. A texel that several places of the mesh share changes at all "
+               "of them; a note reports it. clone copies from another place in the table. "
+               "mirror_axes= repeats each dab on the other side, unless the mesh has no surface "
+               "within the dab's radius there. mirror=, radial= and repeat= have no effect.",
     .example = "sculpt points=0,0,1;0.3,0,0.95,0.6 radius=12 eye=0,0,5"
 };
 
@@ -664,21 +661,21 @@ static const char *const paints[] = { "outline", "fill", NULL };
 #define TURN                                                                                       \
     {                                                                                              \
         .name = "turn", .type = WR_ARG_NUMBER, .low = -360, .high = 360, .fallback = NUMBERS(0),   \
-        .unit = "degrees", .help = "turns the shape anticlockwise about its middle"                \
+        .unit = "degrees", .help = "turns the shape anticlockwise about its centre"                \
     }
 
 #define PAINT                                                                                      \
     {                                                                                              \
         .name = "paint", .type = WR_ARG_CHOICE, .words = paints, .fallback_text = "outline",       \
-        .help = "draw its outline with the brush, or apply the mode to its inside"                 \
+        .help = "draw the outline with the brush, or apply the mode to the inside"                 \
     }
 
 WR_ROWS(shape_forms);
 static const WrForm shape_forms[] = {
     [WR_ROW(SHAPE_RECTANGLE)] = { .name = "rectangle",
-                                  .help = "between two corners",
+                                  .help = "rectangle between two corners",
                                   .args = { POINT("a", "a corner"),
-                                            POINT("b", "the corner across"),
+                                            POINT("b", "the opposite corner"),
                                             { .name = "corner",
                                               .type = WR_ARG_NUMBER,
                                               .low = 0,
@@ -690,28 +687,26 @@ static const WrForm shape_forms[] = {
                                             TURN,
                                             PAINT } },
     [WR_ROW(SHAPE_ELLIPSE)] = { .name = "ellipse",
-                                .help = "about a point",
+                                .help = "ellipse about a point",
                                 .args = { { WR_ARG_MIDDLE, .also = "middle" },
                                           WR_ARG_RADII,
                                           TURN,
                                           PAINT } },
-    [WR_ROW(SHAPE_POLYGON)] = { .name = "polygon",
-                                .help = "through points, closed; inside is where a ray meets it an "
-                                        "odd number of times",
-                                .args = { POINTS(3, WR_SELECT_POINTS, "its corners in order"),
-                                          PAINT } },
+    [WR_ROW(
+        SHAPE_POLYGON)] = { .name = "polygon",
+                            .help = "closed polygon through points, filled by the even-odd rule",
+                            .args = { POINTS(3, WR_SELECT_POINTS, "corners in order"), PAINT } },
     [WR_ROW(
         SHAPE_PATH)] = { .name = "path",
-                         .help = "cubic Bezier curves, each from the end of the one before",
+                         .help = "path of cubic Bezier curves",
                          .args = { POINTS(4, 3 * 4096 + 1,
                                           "the start, then for each curve two handles and its end"),
                                    { .name = "closed",
                                      .type = WR_ARG_CHOICE,
                                      .words = wr_off_on,
                                      .fallback_text = "off",
-                                     .help = "on: the outline goes straight back from the end to "
-                                             "the start; a fill "
-                                             "always does" },
+                                     .help = "on: a straight line closes the outline; a fill is "
+                                             "always closed" },
                                    PAINT } },
 };
 WR_ROWS_END(shape_forms, SHAPE_FORMS);
@@ -730,14 +725,11 @@ const WrCommand wr_command_shape = {
     .generates = true,
     .has_handles = true,
     .help = "draw or fill a rectangle, an ellipse, a polygon or a path",
-    .details =
-        "An outline is drawn as a stroke with the brush at full pressure; a closed one meets "
-        "itself without doubling. A fill covers the inside, smooth at its edge, with what the "
-        "mode does to texels that a stroke covers wholly; the brush's radius does not matter, "
-        "and "
-        "modes that move heights cannot fill. Shapes wrap round periodic edges and keep their "
-        "form "
-        "in a cell that is not square.",
+    .details = "An outline is a stroke of the brush at full pressure; where it meets itself it "
+               "does not double. A fill applies the mode at full coverage to the inside, with an "
+               "antialiased edge; the brush's radius has no effect, and modes that move heights "
+               "along the path cannot fill. Shapes wrap around periodic edges and keep their "
+               "proportions in a cell that is not square.",
     .example = "shape ellipse at=0.5,0.5 radii=0.3,0.2 paint=fill strength=0.5"
 };
 
@@ -837,34 +829,34 @@ static const WrArgSpec args_flood[] = { WR_ARGS_FLOOD("the composite's heights")
     }
 
 #define RAMP_ARGS                                                                                  \
-    POINT("from", "where the height is low"), POINT("to", "where it is high"),                     \
+    POINT("from", "point of the low height"), POINT("to", "point of the high height"),             \
         HEIGHT("low", 0, "the height at from"), HEIGHT("high", 1, "the height at to"),             \
         { .name = "fold",                                                                          \
           .type = WR_ARG_CHOICE,                                                                   \
           .words = wr_off_on,                                                                      \
           .fallback_text = "off",                                                                  \
-          .help = "on: it leads back down again, so that nothing jumps" },                         \
+          .help = "on: the ramp falls again to its start, so that it has no steps" },              \
     {                                                                                              \
         .name = "blend", .type = WR_ARG_CHOICE, .choice = ramp_blend, .fallback_text = "replace",  \
-        .help = "how it joins the heights that are there"                                          \
+        .help = "how the ramp is combined with the present heights"                                \
     }
 
 /* In the order of WrRampKind. */
 static const WrForm ramp_forms[] = {
     { .name = "linear",
-      .help = "along the way; low before from, high after to. On periodic axes it jumps half a "
-              "table away from the middle of the way; fold=on leads from to on round the table "
-              "back to from instead, along u and v each",
+      .help = "along a line: low before from, high after to. On periodic axes there is a step half "
+              "a table away from the line's middle; with fold=on the ramp continues past to, "
+              "around the table, and falls back to from instead, along u and v separately",
       .args = { RAMP_ARGS } },
     { .name = "radial",
-      .help = "by the distance from from, round all edges; high beyond to, or with fold=on a ring "
-              "that is low again at twice the distance. Nothing jumps",
+      .help = "by the distance from from, across periodic edges: high beyond to, or with fold=on a "
+              "ring that is low again at twice the distance. It has no steps",
       .args = { RAMP_ARGS } },
     { .name = "cone",
       .help =
-          "by the angle about from, anticlockwise from the direction of to, where it jumps, as "
-          "it does half a table away; fold=on rises for half a turn and falls for the other, and "
-          "beyond a quarter of the table mirrors itself, so that nothing jumps",
+          "by the angle about from, anticlockwise from the direction of to. There are steps in "
+          "that direction and half a table away; with fold=on it rises for half a turn, falls for "
+          "the other half, and is mirrored beyond a quarter of the table, so that it has no steps",
       .args = { RAMP_ARGS } },
 };
 _Static_assert(sizeof ramp_forms / sizeof *ramp_forms == WR_RAMP_KINDS, "one a kind");
@@ -883,10 +875,10 @@ const WrCommand wr_command_flood = {
     .kind = WR_CLASS_EDIT,
     .args = args_flood,
     .run = run_flood,
-    .help = "fill a connected part of about one height",
-    .details = "The part is found in the composite, goes on across periodic edges, and has no "
-               "soft edge; "
-               "`select flood` selects it instead, to be feathered or grown.",
+    .help = "fill a connected region of similar height",
+    .details =
+        "The region is found in the composite, continues across periodic edges, and has a hard "
+        "edge. `select flood` selects it instead, so that it can be feathered or grown.",
     .example = "flood 0.5,0.5 tolerance=0.05 mode=to to=1 strength=10"
 };
 
@@ -897,5 +889,5 @@ const WrCommand wr_command_ramp = { .name = "ramp",
                                     .run = run_ramp,
                                     .generates = true,
                                     .has_handles = true,
-                                    .help = "heights that lead from one place to another",
+                                    .help = "fill with a ramp between two points",
                                     .example = "ramp linear from=0.1,0.5 to=0.6,0.5 fold=on" };

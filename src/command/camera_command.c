@@ -213,44 +213,46 @@ static const char *camera_word(int i)
 #define ASPECT                                                                                     \
     {                                                                                              \
         .name = "aspect", .type = WR_ARG_NUMBER, .low = 1e-4, .high = 1e4, .fallback = NUMBERS(1), \
-        .help = "of the picture: so many times as wide as high"                                    \
+        .help = "aspect ratio of the picture, width over height"                                   \
     }
 #define VIEW_NAME                                                                                  \
     {                                                                                              \
-        PLACE("NAME"), .type = WR_ARG_NAME, .help = "of the view"                                  \
+        PLACE("NAME"), .type = WR_ARG_NAME, .help = "name of the view"                             \
     }
 
 WR_ROWS(camera_forms);
 static const WrForm camera_forms[] = {
-    [WR_ROW(FORM_PERSPECTIVE)] = { .name = "perspective", .help = "nearer is larger" },
-    [WR_ROW(FORM_ORTHOGRAPHIC)] = { .name = "orthographic", .help = "all distances alike" },
+    [WR_ROW(FORM_PERSPECTIVE)] = { .name = "perspective", .help = "perspective projection" },
+    [WR_ROW(FORM_ORTHOGRAPHIC)] = { .name = "orthographic", .help = "parallel projection" },
     [WR_ROW(FORM_FROM)] = { .name = "from",
-                            .help = "to one of the six sides, as far away as it is; a scene's only "
-                                    "object stands by its own axes then",
+                            .help = "look at one of the six sides, from the present distance; the "
+                                    "only object of a scene is turned back to its own axes",
                             .args = { { PLACE("SIDE"), .type = WR_ARG_CHOICE, .choice = side_word,
                                         .help = "front is the world's +z, right its +x, top its "
                                                 "+y" } } },
     [WR_ROW(FORM_ORBIT)] = { .name = "orbit",
-                             .help = "round its target",
+                             .help = "move the camera around its target",
                              .args = { { PLACE("right,up"), .type = WR_ARG_TUPLE, .components = 2,
                                          .low = -1e9, .high = 1e9, .unit = "degrees",
-                                         .help = "the camera goes to its right about the world's "
-                                                 "y axis, and up, never over the top" } } },
+                                         .help = "to the right about the world's y axis, and "
+                                                 "upwards, at most to the pole" } } },
     [WR_ROW(FORM_PAN)] = { .name = "pan",
-                           .help = "sideways with its target; it no longer fits by itself",
+                           .help = "move the camera and its target sideways; switches fit= off",
                            .args = { { PLACE("right,up"), .type = WR_ARG_TUPLE, .components = 2,
                                        .low = -1e6, .high = 1e6,
-                                       .help = "in heights of the picture, at its target" },
+                                       .help = "in picture heights, at the target" },
                                      ASPECT } },
     [WR_ROW(FORM_DOLLY)] = { .name = "dolly",
-                             .help = "nearer its target or farther; it no longer fits by itself",
+                             .help =
+                                 "move the camera towards its target or away; switches fit= off",
                              .args = { { PLACE("factor"), .type = WR_ARG_NUMBER, .low = 1e-6,
                                          .high = 1e6,
-                                         .help = "so many times as far; orthographic, so many "
-                                                 "times as large a view" },
+                                         .help = "factor of the distance, or of the view's height "
+                                                 "if orthographic" },
                                        ASPECT } },
     [WR_ROW(FORM_FILL)] = { .name = "fill",
-                            .help = "along its view to where the objects just fill the picture",
+                            .help =
+                                "move the camera along its view until the objects fill the picture",
                             .args = { ASPECT,
                                       { .name = "turn",
                                         .type = WR_ARG_TUPLE,
@@ -260,13 +262,12 @@ static const WrForm camera_forms[] = {
                                         .high = 1e9,
                                         .fallback = NUMBERS(0, 0),
                                         .unit = "degrees",
-                                        .help = "of the turntable: all that it shows between "
-                                                "fits" } } },
-    [WR_ROW(FORM_SAVE)] = { .name = "save",
-                            .help = "keep a view under a name; other values stay as they are now" },
+                                        .help = "turn of the turntable, in degrees: everything it "
+                                                "shows within that turn fits" } } },
+    [WR_ROW(FORM_SAVE)] = { .name = "save", .help = "save the present view under a name" },
+    [WR_ROW(FORM_USE)] = { .name = "use", .help = "go to a saved view", .args = { VIEW_NAME } },
     [WR_ROW(
-        FORM_USE)] = { .name = "use", .help = "go to a view that was kept", .args = { VIEW_NAME } },
-    [WR_ROW(FORM_FORGET)] = { .name = "forget", .help = "keep it no more", .args = { VIEW_NAME } },
+        FORM_FORGET)] = { .name = "forget", .help = "delete a saved view", .args = { VIEW_NAME } },
 };
 WR_ROWS_END(camera_forms, CAMERA_FORMS);
 
@@ -274,12 +275,12 @@ static bool form_camera(int i, WrForm *out)
 {
     static const WrArgSpec name = VIEW_NAME;
     static const WrArgSpec kind = {
-        .name = "kind", .type = WR_ARG_CHOICE, .choice = camera_word, .help = "of camera"
+        .name = "kind", .type = WR_ARG_CHOICE, .choice = camera_word, .help = "projection"
     };
     static const WrArgSpec turn = { .name = "turn",
                                     .type = WR_ARG_TEXT,
                                     .shape = "x,y,z or " OWN,
-                                    .help = "of a scene's only object, as `rotate` has it" };
+                                    .help = "rotation of the scene's only object, as in `rotate`" };
     if (i >= CAMERA_FORMS) return false;
     *out = camera_forms[i];
     if (i <= FORM_ORTHOGRAPHIC) return wr_scene_args("camera", out->name, out->args) > 0;
@@ -298,11 +299,11 @@ const WrCommand wr_command_camera = {
     .form = form_camera,
     .run = run_camera,
     .print = print_all,
-    .help = "where the picture is taken from",
-    .details = "Only given arguments change. A view is no edit: undo leaves it as it is, `view "
-               "back` goes back. To save or forget a view is an edit: the document keeps it. With "
-               "fit=on all stays in the picture however it turns; `camera fill` leaves no more "
-               "margin than 2 %, and narrower pictures than it was told of see the whole as well "
-               "(frame=).",
+    .help = "set the camera",
+    .details =
+        "Only given arguments change. Moving the camera is not an edit: undo does not change it, "
+        "`view back` goes back. Saving or forgetting a view is an edit, stored in the document. "
+        "With fit=on everything stays in the picture however it turns. `camera fill` leaves a "
+        "margin of at most 2 %; pictures narrower than its aspect= still show all of it (frame=).",
     .example = "camera perspective eye=0,1,4 fov=30"
 };

@@ -115,13 +115,14 @@ static bool form_filter(int i, WrForm *out)
     if (!op->name) return false;
     *out = (WrForm){ .name = op->name, .help = op->help };
     WrArgSpec *next = out->args + op_args(op, out->args);
-    *next++ = (WrArgSpec){ .name = "layer",
-                           .type = WR_ARG_LAYER,
-                           .help = "a filter layer, which becomes this one; left out, a new one "
-                                   "above the active layer" };
+    *next++ = (WrArgSpec){
+        .name = "layer",
+        .type = WR_ARG_LAYER,
+        .help = "a filter layer to be changed; left out, a new one above the active layer"
+    };
     *next = (WrArgSpec){ .name = "name",
                          .type = WR_ARG_NAME,
-                         .help = "of a new one; default: the operation's name" };
+                         .help = "name of a new layer; left out, the operation's name" };
     return true;
 }
 
@@ -132,12 +133,13 @@ const WrCommand wr_command_filter = {
     .form = form_filter,
     .run = run_filter,
     .prework = WR_PREWORK_COMPOSITE,
-    .help = "a layer that is an operation over the layers below: blur, levels and the like",
-    .details = "It holds no heights: what it makes of the joined layers below it follows whatever "
-               "is done to them, and joins them by its blend (`mix` at first), its opacity and its "
-               "mask, which `layer set` and `layer mask` change. A new one has the selection as "
-               "its mask. Edits of its heights are refused, "
-               "those of its mask are not. `layer merge` and `layer flatten` make heights of it.",
+    .help = "add a filter layer: an operation on the layers below, such as blur or levels",
+    .details =
+        "A filter layer has no heights of its own. Its operation runs on the composite of the "
+        "layers below, again after each change of them, and the result is blended by the layer's "
+        "blend mode (`mix` at first), opacity and mask; `layer set` and `layer mask` change these. "
+        "The mask of a new filter layer is the selection. Its mask can be edited, its heights "
+        "cannot. `layer merge` and `layer flatten` turn it into heights.",
     .example = "filter blur sigma=3"
 };
 
@@ -242,7 +244,7 @@ static bool form_adjust(int i, WrForm *out)
                                     .type = WR_ARG_CHOICE,
                                     .words = layer_choices,
                                     .fallback_text = "active",
-                                    .help = "which layers it changes" };
+                                    .help = "layers that change" };
     return true;
 }
 
@@ -256,10 +258,8 @@ const WrCommand wr_command_adjust = {
     .run = run_adjust,
     .prework = WR_PREWORK_TABLES,
     .help = "change a whole table: blur, levels, resize and the like",
-    .details =
-        "They act on the active layer inside the selection; those that change the table's size "
-        "act "
-        "on all layers, masks and the selection, locked or not. Where texels move, a layer's "
-        "coverage and mask move along.",
+    .details = "Operations act on the active layer inside the selection; those that change the "
+               "table's size act on all layers, masks and the selection, even on locked ones. "
+               "Where texels move, the layer's coverage and mask move too.",
     .example = "adjust blur sigma=3"
 };

@@ -501,12 +501,13 @@ static int add_checksums(const WrGenerator *g, WrArgSpec *out)
             if (strcmp(g->params[i].name, others[k][0]) == 0)
                 out[count++] = (WrArgSpec){ .name = others[k][1],
                                             .type = WR_ARG_SHA256,
-                                            .help = "of that file" };
+                                            .help = "SHA-256 of that file" };
     }
     if (any)
-        out[count++] = (WrArgSpec){ .name = "sha256",
-                                    .type = WR_ARG_SHA256,
-                                    .help = "of the file: another content is then an error" };
+        out[count++] =
+            (WrArgSpec){ .name = "sha256",
+                         .type = WR_ARG_SHA256,
+                         .help = "SHA-256 of the file; a file with other content is an error" };
     return count;
 }
 
@@ -518,21 +519,21 @@ static int add_shared(const WrGenerator *g, WrArgSpec *out)
                                 .type = WR_ARG_CHOICE,
                                 .choice = blend_name,
                                 .fallback_text = g->blend,
-                                .help = "how it joins the present heights" };
+                                .help = "how the result is combined with the present heights" };
     out[count++] = (WrArgSpec){ .name = wr_generator_argument(g, "radius"),
                                 .type = WR_ARG_NUMBER,
                                 .low = 0,
                                 .high = WR_BIG_HEIGHT,
                                 .fallback = radius,
                                 .unit = "table units",
-                                .help = "of the smooth ways to join" };
+                                .help = "radius of the smooth blends" };
     out[count++] = (WrArgSpec){ .name = wr_generator_argument(g, "offset"),
                                 .type = WR_ARG_NUMBER,
                                 .low = -WR_BIG_HEIGHT,
                                 .high = WR_BIG_HEIGHT,
                                 .fallback = offset,
                                 .unit = "table units",
-                                .help = "added to its heights first" };
+                                .help = "added to the result before it is combined" };
     return count + add_checksums(g, out + count);
 }
 
@@ -600,11 +601,10 @@ const WrCommand wr_command_pattern = {
     .run = run_generate,
     .generates = true,
     .prework = WR_PREWORK_TABLES,
-    .help = "bricks, tiles, cloth, cells and other regular things",
-    .details =
-        "They close at the table's edges, and origin= rolls them. The result joins the "
-        "active "
-        "layer inside the selection, as blend= says: replace, unless the row has another way.",
+    .help = "generate bricks, tiles, cloth, cells and other patterns",
+    .details = "Patterns tile at the table's edges; origin= shifts them. The result is combined "
+               "with the active layer inside the selection by blend=: replace, unless the list "
+               "below gives another default.",
     .example = "pattern bricks across=4 rows=10 joint=5"
 };
 
@@ -616,12 +616,11 @@ const WrCommand wr_command_noise = {
     .run = run_generate,
     .generates = true,
     .prework = WR_PREWORK_TABLES,
-    .help = "sums of value, gradient or simplex noise",
+    .help = "generate sums of value, gradient or simplex noise",
     .details =
-        "Heights become level + amplitude N, N the sum of octaves of ratio^-i noise, octave i "
-        "with "
-        "cells step^i cells, rounded, so that every octave closes at the table's edges. Octaves "
-        "that would alias are left out. `wrinkle inspect --noise` prints N at any point.",
+        "Heights become level + amplitude N, where N is the sum of octaves of ratio^-i noise. "
+        "Octave i has cells step^i cells, rounded, so that every octave tiles. Octaves that would "
+        "alias are left out. `wrinkle inspect --noise` prints N at any point.",
     .example = "noise perlin cells=6 octaves=5 amplitude=0.3"
 };
 
@@ -633,8 +632,8 @@ const WrCommand wr_command_formula = {
     .run = run_generate,
     .generates = true,
     .prework = WR_PREWORK_TABLES,
-    .help = "a polynomial or a Fourier series, texel by texel",
-    .details = "It is the function of `analytic`, as heights that can be painted on.",
+    .help = "generate a polynomial or a Fourier series",
+    .details = "The function of `analytic`, as heights that can be painted on.",
     .example = "formula fourier terms=3,0,0.5;0,5,0.25,90,0"
 };
 
@@ -645,9 +644,9 @@ const WrCommand wr_command_text = {
     .run = run_generate,
     .generates = true,
     .prework = WR_PREWORK_TABLES,
-    .help = "letters of any font and script, in relief",
-    .details = "They are added to the active layer, where they cover it, unless blend= is "
-               "given. In quotes \\\\n begins a new line. Overlapping letters are one shape.",
+    .help = "write letters of any font and script in relief",
+    .details = "The letters are added to the active layer unless blend= is given. \\\\n in quotes "
+               "starts a new line. Overlapping letters are one shape.",
     .example = "text Wrinkle font=serif size=90 profile=round bevel=6"
 };
 
@@ -658,10 +657,9 @@ const WrCommand wr_command_rim = {
     .run = run_generate,
     .generates = true,
     .prework = WR_PREWORK_TABLES,
-    .help = "bevel, round, ridge, outline or emboss an edge by the distance from it",
-    .details =
-        "The edge is that of the selection, where it is half selected; of the layer's mask; or "
-        "where the layer's heights cross a level. The result is not limited to the selection.",
+    .help = "bevel, round, ridge, outline or emboss along an edge",
+    .details = "The edge is where the selection or the layer's mask is 1/2, or where the layer's "
+               "heights cross a level. The result is not limited to the selection.",
     .example = "rim kind=round width=8"
 };
 
@@ -673,10 +671,10 @@ const WrCommand wr_command_solid = {
     .run = run_generate,
     .generates = true,
     .prework = WR_PREWORK_TABLES,
-    .help = "solids, letters and meshes seen from above by a Z-buffer",
-    .details = "They stand in the ground, which hides what is below height 0, and join the active "
-               "layer by max unless blend= is given. across= and rows= make lattices of "
-               "them, crossing the table's edges exactly.",
+    .help = "add solids, letters and meshes seen from above (Z-buffer)",
+    .details = "Solids stand on the ground, which hides everything below height 0, and are "
+               "combined with the active layer by max unless blend= is given. across= and rows= "
+               "place copies on a lattice that tiles exactly.",
     .example = "solid sphere across=8 rows=8 radius=16"
 };
 
@@ -688,9 +686,9 @@ const WrCommand wr_command_terrain = {
     .run = run_generate,
     .generates = true,
     .prework = WR_PREWORK_TABLES,
-    .help = "mountains, real elevations, and what weather makes of them",
-    .details = "fractal and elevation make ground; hydraulic, thermal and terraces change what "
-               "lies in the active layer. Weather only moves ground: the mean height stays.",
+    .help = "generate mountains, load real elevations, erode them",
+    .details = "fractal and elevation make ground; hydraulic, thermal and terraces change the "
+               "active layer. Erosion only moves ground: the mean height stays.",
     .example = "terrain hydraulic rain=2"
 };
 
@@ -702,8 +700,8 @@ const WrCommand wr_command_picture = {
     .run = run_generate,
     .generates = true,
     .prework = WR_PREWORK_TABLES,
-    .help = "heights from pictures and from normal maps",
-    .details = "photo takes the light of a picture, made seamless; normals finds the heights "
-               "that a normal map belongs to, and whether its green points up or down.",
+    .help = "convert pictures and normal maps to heights",
+    .details = "photo uses the brightness of a picture, made seamless; normals integrates a normal "
+               "map, and detects whether its green points up or down.",
     .example = "picture normals rock_normal.png height=0.1"
 };

@@ -205,17 +205,17 @@ void wr_session_lines(const WrSession *session, WrLineSink *sink, void *ctx)
         .high = 1e9, .fallback = NUMBERS(1), .help = help_                                         \
     }
 
-static const WrArgSpec args_undo[] = { STEPS("how many steps back"), { 0 } };
+static const WrArgSpec args_undo[] = { STEPS("number of steps; left out, 1"), { 0 } };
 
-static const WrArgSpec args_redo[] = { STEPS("how many steps forward"), { 0 } };
+static const WrArgSpec args_redo[] = { STEPS("number of steps; left out, 1"), { 0 } };
 
 static const WrForm view_forms[] = {
     { .name = "back",
-      .help = "to views before this one",
-      .args = { STEPS("how many views back") } },
+      .help = "number of views to go back",
+      .args = { STEPS("number of views; left out, 1") } },
     { .name = "forward",
-      .help = "to those that were gone back from",
-      .args = { STEPS("how many views forward") } },
+      .help = "number of views to go forward",
+      .args = { STEPS("number of views; left out, 1") } },
 };
 
 WR_FORMS(form_view, view_forms)
@@ -227,7 +227,7 @@ static const WrArgSpec args_history[] = {
       .low = 0,
       .high = 1e15,
       .unit = "bytes",
-      .help = "memory that old states may take; left out, it stays (at first 1 GiB)" },
+      .help = "memory for old states; left out, unchanged (at first 1 GiB)" },
     { 0 }
 };
 
@@ -237,7 +237,7 @@ static const WrArgSpec args_script[] = {
       .type = WR_ARG_TEXT,
       .shape = "N|N,N..N",
       .check = wr_check_steps,
-      .help = "only these, for `macro`; left out, all in force" },
+      .help = "steps to write, for `macro`; left out, all that are not undone" },
     { 0 }
 };
 
@@ -249,29 +249,28 @@ const WrCommand wr_command_script = {
     .args = args_script,
     .run = run_script,
     .help = "write the history as a script",
-    .details = "The script makes the same document, bit for bit; undone steps are not in it, "
-               "and of the views only those that it takes.",
+    .details = "The script makes the same document, bit for bit. Undone steps are left out, and so "
+               "are views that the steps do not need.",
     .example = "script bricks.wrinkle"
 };
 
-const WrCommand wr_command_undo = {
-    .name = "undo",
-    .kind = WR_CLASS_HISTORY,
-    .args = args_undo,
-    .run = run_undo,
-    .steps = -1,
-    .help = "go back to before the last commands",
-    .details = "Every edit and every scene command is one step. How it is looked at stays, but "
-               "for a step that opened a document.",
-    .example = "undo 2"
-};
+const WrCommand wr_command_undo = { .name = "undo",
+                                    .kind = WR_CLASS_HISTORY,
+                                    .args = args_undo,
+                                    .run = run_undo,
+                                    .steps = -1,
+                                    .help = "undo the last commands",
+                                    .details =
+                                        "Every edit and every scene command is one step. The view "
+                                        "does not change, except when the step opened a document.",
+                                    .example = "undo 2" };
 
 const WrCommand wr_command_redo = { .name = "redo",
                                     .kind = WR_CLASS_HISTORY,
                                     .args = args_redo,
                                     .run = run_redo,
                                     .steps = 1,
-                                    .help = "redo the last undone command",
+                                    .help = "redo the last undone commands",
                                     .example = "redo" };
 
 const WrCommand wr_command_view = {
@@ -281,9 +280,9 @@ const WrCommand wr_command_view = {
     .form = form_view,
     .run = run_view,
     .of_views = true,
-    .help = "go back and forth through how it was looked at",
+    .help = "go back and forward through earlier views",
     .details = "Every `camera` and every `rotate` that changes something is one view; the last "
-               "thousand are kept. The edits stay as they are.",
+               "thousand are kept. Edits are not affected.",
     .example = "view back 2"
 };
 
@@ -292,7 +291,7 @@ const WrCommand wr_command_history = {
     .kind = WR_CLASS_HISTORY,
     .args = args_history,
     .run = run_history,
-    .help = "how much memory undo may take",
-    .details = "The oldest states go first; the last step can always be undone.",
+    .help = "set the memory limit of undo",
+    .details = "The oldest states are dropped first; the last step can always be undone.",
     .example = "history budget=2e9"
 };

@@ -27,28 +27,27 @@ extern const char *const wr_mask_sources[];
     { .name = "from",                                                                              \
       .type = WR_ARG_CHOICE,                                                                       \
       .words = wr_mask_sources,                                                                    \
-      .help =                                                                                      \
-          "what is selected, no mask, a mask that shows all or nothing, where the composite's "    \
-          "height or slope lies in a range, or the present mask turned over" },                    \
+      .help = "content of the mask: the selection; no mask; a mask that shows all or nothing; a "  \
+              "range of the composite's height or slope; the inverse of the present mask" },       \
         { .name = "low",                                                                           \
           .type = WR_ARG_NUMBER,                                                                   \
           .low = -WR_BIG_HEIGHT,                                                                   \
           .high = WR_BIG_HEIGHT,                                                                   \
-          .help = "of height and slope: lower end, a height or degrees" },                         \
+          .help = "for height and slope: lower end of the range, a height or degrees" },           \
         { .name = "high",                                                                          \
           .type = WR_ARG_NUMBER,                                                                   \
           .low = -WR_BIG_HEIGHT,                                                                   \
           .high = WR_BIG_HEIGHT,                                                                   \
-          .help = "upper end" },                                                                   \
+          .help = "upper end of the range" },                                                      \
         { .name = "soft",                                                                          \
           .type = WR_ARG_NUMBER,                                                                   \
           .low = 0,                                                                                \
           .high = WR_BIG_HEIGHT,                                                                   \
-          .help = "over how much it fades beyond the ends; left out, not at all" },                \
+          .help = "width of the fade beyond both ends; left out, no fade" },                       \
     {                                                                                              \
         .name = "live", .type = WR_ARG_TEXT, .shape = "\"KIND NAME=VALUE ...; ...\"",              \
         .check = wr_check_mask_line, .choice = wr_mask_kind, .explain = wr_mask_kind_explain,      \
-        .help = "instead of from=: terms that the mask keeps, and follows as the layers below "    \
+        .help = "instead of from=: terms of a live mask, which is updated when the layers below "  \
                 "change; off makes it a plain mask. Kinds of terms"                                \
     }
 
@@ -60,16 +59,16 @@ extern const char *const wr_mask_sources[];
           .low = -1e6,                                                                             \
           .high = 1e6,                                                                             \
           .shape = "u,v",                                                                          \
-          .help = "where its middle lies; left out, in the middle of the table" },                 \
+          .help = "position of its centre; left out, the centre of the table" },                   \
         { .name = "size",                                                                          \
           .type = WR_ARG_NUMBER,                                                                   \
           .low = 0,                                                                                \
           .high = WR_FIELD_MAX,                                                                    \
           .unit = "texels",                                                                        \
-          .help = "how wide it becomes; left out, a texel for a pixel" },                          \
+          .help = "width; left out, one texel per pixel" },                                        \
     {                                                                                              \
         .name = "sha256", .type = WR_ARG_SHA256,                                                   \
-        .help = "of the file: another content is then an error"                                    \
+        .help = "SHA-256 of the file; a file with other content is an error"                       \
     }
 
 /* ---- Masks of layers: from the selection, heights or slopes; filled; inverted ---- */
@@ -912,7 +911,7 @@ static const char *const layer_parts[] = { "heights", "mask", NULL };
 
 #define LAYERS_N                                                                                   \
     {                                                                                              \
-        PLACE("N"), .type = WR_ARG_LAYER, .several = true, .help = "the layer, or several"         \
+        PLACE("N"), .type = WR_ARG_LAYER, .several = true, .help = "the layer or layers"           \
     }
 
 #define LAYER_FROM(help_)                                                                          \
@@ -922,157 +921,150 @@ static const char *const layer_parts[] = { "heights", "mask", NULL };
     }
 
 #define LAYER_SETTINGS                                                                             \
-    { .name = "blend",                                                                             \
-      .type = WR_ARG_CHOICE,                                                                       \
-      .choice = blend_name,                                                                        \
-      .help = "how it joins the layers below" },                                                   \
-        { .name = "opacity",                                                                       \
-          .type = WR_ARG_NUMBER,                                                                   \
-          .low = 0,                                                                                \
-          .high = 1,                                                                               \
-          .help = "how much of it shows" },                                                        \
+    { .name = "blend", .type = WR_ARG_CHOICE, .choice = blend_name, .help = "blend mode" },        \
+        { .name = "opacity", .type = WR_ARG_NUMBER, .low = 0, .high = 1, .help = "opacity" },      \
     {                                                                                              \
         .name = "radius", .type = WR_ARG_NUMBER, .low = 0, .high = WR_BIG_HEIGHT,                  \
-        .unit = "height units", .help = "of the smooth blends: how near heights must be to melt"   \
+        .unit = "height units",                                                                    \
+        .help = "for the smooth blends: height difference within which they round the crease"      \
     }
 
 WR_ROWS(layer_forms);
 static const WrForm layer_forms[] = {
     [WR_ROW(
         LAYER_ADD)] = { .name = "add",
-                        .help = "a new layer, active; empty, or made by a generator",
+                        .help = "add an empty layer or a generator layer, and make it active",
                         .args = { { .name = "NAME",
                                     .type = WR_ARG_NAME,
                                     .positional = true,
-                                    .help = "left out, \"layer 2\" and so on" },
-                                  LAYER_FROM("makes it a generator layer: the command line that "
-                                             "its heights come from, such as \"text Hello "
-                                             "size=60\""),
+                                    .help = "name; left out, \"layer 2\" and so on" },
+                                  LAYER_FROM("command of a generator layer, which makes its "
+                                             "heights, such as \"text Hello size=60\""),
                                   LAYER_SETTINGS,
                                   { .name = "above",
                                     .type = WR_ARG_LAYER,
-                                    .help = "where it goes; left out, above the active one" },
+                                    .help = "layer below the new one; left out, the active layer" },
                                   { .name = "in",
                                     .type = WR_ARG_LAYER,
-                                    .help = "or a group: it becomes its topmost layer" } } },
+                                    .help = "group in which it becomes the topmost layer" } } },
     [WR_ROW(LAYER_DELETE)] = { .name = "delete",
-                               .help = "remove layers, groups with theirs",
+                               .help = "delete layers; a group with its layers",
                                .args = { LAYERS_N } },
     [WR_ROW(LAYER_USE)] = { .name = "use",
-                            .help = "edits go to this layer from now on",
+                            .help = "make a layer the active one, which is edited",
                             .args = { LAYER_N,
                                       { .name = "part",
                                         .type = WR_ARG_CHOICE,
                                         .words = layer_parts,
-                                        .help =
-                                            "what of it strokes, fills, generators and `adjust` "
-                                            "change; left out, as it was" } } },
-    [WR_ROW(LAYER_MOVE)] = { .name = "move",
-                             .help = "bring layers, groups with theirs, to another place in the "
-                                     "stack",
-                             .args = { LAYERS_N,
-                                       { .name = "to",
-                                         .type = WR_ARG_NUMBER,
-                                         .whole = true,
-                                         .low = 1,
-                                         .high = WR_LAYERS_MAX,
-                                         .help = "its new number; of several, which then follow "
-                                                 "each other, the lowest one's" },
-                                       { .name = "in",
-                                         .type = WR_ARG_LAYER,
-                                         .shape = "N|none",
-                                         .help = "the group that it goes into, or none; without "
-                                                 "to= it becomes the topmost layer there, or comes "
-                                                 "to lie above the group that it leaves" } } },
+                                        .help = "part that strokes, fills, generators and `adjust` "
+                                                "change; left out, unchanged" } } },
+    [WR_ROW(
+        LAYER_MOVE)] = { .name = "move",
+                         .help =
+                             "move layers to another place in the stack; a group with its layers",
+                         .args = { LAYERS_N,
+                                   { .name = "to",
+                                     .type = WR_ARG_NUMBER,
+                                     .whole = true,
+                                     .low = 1,
+                                     .high = WR_LAYERS_MAX,
+                                     .help = "new number; for several layers, that of the lowest, "
+                                             "and the others follow it" },
+                                   { .name = "in",
+                                     .type = WR_ARG_LAYER,
+                                     .shape = "N|none",
+                                     .help = "group to move it into, or none; without to=, it "
+                                             "becomes the topmost layer there, or is placed above "
+                                             "the group that it leaves" } } },
     [WR_ROW(LAYER_RENAME)] = { .name = "rename",
-                               .help = "give a layer another name",
+                               .help = "rename a layer",
                                .args = { LAYER_N,
                                          { PLACE("NAME"), .type = WR_ARG_NAME,
                                            .help = "the new name" } } },
-    [WR_ROW(LAYER_SET)] = { .name = "set",
-                            .help = "only given arguments change",
-                            .args = { LAYERS_N,
-                                      LAYER_SETTINGS,
-                                      { .name = "change",
-                                        .type = WR_ARG_TEXT,
-                                        .shape = "\"NAME=VALUE ...\"",
-                                        .help = "of a generator layer: values of its command line "
-                                                "that change" },
-                                      LAYER_FROM("of a generator layer: its new command line"),
-                                      { .name = "name",
-                                        .type = WR_ARG_NAME,
-                                        .help = "the new name, as for `layer rename`" },
-                                      { .name = "visible",
-                                        .type = WR_ARG_CHOICE,
-                                        .words = wr_off_on,
-                                        .help = "whether it is in the composite" },
-                                      { .name = "collapsed",
-                                        .type = WR_ARG_CHOICE,
-                                        .words = wr_off_on,
-                                        .help = "of a group: whether the list in the window omits "
-                                                "its layers" },
-                                      { .name = "lock",
-                                        .type = WR_ARG_CHOICE,
-                                        .words = wr_off_on,
-                                        .help = "whether edits are refused" } } },
+    [WR_ROW(
+        LAYER_SET)] = { .name = "set",
+                        .help = "change the settings of layers; only given arguments change",
+                        .args = { LAYERS_N,
+                                  LAYER_SETTINGS,
+                                  { .name = "change",
+                                    .type = WR_ARG_TEXT,
+                                    .shape = "\"NAME=VALUE ...\"",
+                                    .help = "for a generator layer: arguments of its command to "
+                                            "change" },
+                                  LAYER_FROM("for a generator layer: its new command"),
+                                  { .name = "name",
+                                    .type = WR_ARG_NAME,
+                                    .help = "the new name, as for `layer rename`" },
+                                  { .name = "visible",
+                                    .type = WR_ARG_CHOICE,
+                                    .words = wr_off_on,
+                                    .help = "on: it is part of the composite" },
+                                  { .name = "collapsed",
+                                    .type = WR_ARG_CHOICE,
+                                    .words = wr_off_on,
+                                    .help =
+                                        "for a group: on hides its layers in the window's list" },
+                                  { .name = "lock",
+                                    .type = WR_ARG_CHOICE,
+                                    .words = wr_off_on,
+                                    .help = "on: the layer cannot be edited" } } },
     [WR_ROW(LAYER_RASTERIZE)] = { .name = "rasterize",
-                                  .help =
-                                      "make generator layers and groups plain layers, which can be "
-                                      "painted on",
+                                  .help = "convert generator layers and groups to plain layers, "
+                                          "which can be painted on",
                                   .args = { LAYERS_N } },
     [WR_ROW(
         LAYER_DUPLICATE)] = { .name = "duplicate",
-                              .help =
-                                  "a copy above it, active; of several, copies above the highest",
+                              .help = "copy a layer above itself, or several above the highest, "
+                                      "and make the copy active",
                               .args = { LAYERS_N,
                                         { .name = "linked",
                                           .type = WR_ARG_CHOICE,
                                           .words = wr_off_on,
                                           .fallback_text = "off",
-                                          .help = "on: it follows the heights and the coverage "
-                                                  "of the layer; its other settings are its "
-                                                  "own" } } },
+                                          .help = "on: the copy follows the layer's heights and "
+                                                  "coverage; its other settings are its own" } } },
     [WR_ROW(LAYER_MERGE)] = { .name = "merge",
-                              .help = "join a layer and the one below, or several neighbours; the "
-                                      "composite changes by "
-                                      "rounding at most: not at "
-                                      "all onto layer 1, else by 2^-21 of the largest height that "
-                                      "meets there",
+                              .help = "merge a layer with the one below, or several neighbours. "
+                                      "The composite changes only by rounding: not at all onto "
+                                      "layer 1, else by up to 2^-21 of the largest height involved",
                               .args = { LAYERS_N } },
-    [WR_ROW(LAYER_FLATTEN)] = { .name = "flatten",
-                                .help =
-                                    "one layer that holds the composite; hidden layers are lost" },
+    [WR_ROW(
+        LAYER_FLATTEN)] = { .name = "flatten",
+                            .help =
+                                "replace all layers by their composite; hidden layers are lost" },
     [WR_ROW(LAYER_CLEAR)] = { .name = "clear",
-                              .help = "heights 0, and nothing painted, inside the selection",
+                              .help = "set heights and coverage to 0 inside the selection",
                               .args = { { .name = "N",
                                           .type = WR_ARG_LAYER,
                                           .positional = true,
                                           .several = true,
-                                          .help = "left out, the active layer" } } },
+                                          .help = "layer; left out, the active one" } } },
     [WR_ROW(LAYER_SOLO)] = { .name = "solo",
                              .help = "show one layer alone, or all again",
                              .args = { { PLACE("N|off"), .type = WR_ARG_LAYER,
                                          .help = "the layer, or off" } } },
     [WR_ROW(LAYER_MASK)] = { .name = "mask",
-                             .help = "how much of a layer shows, texel by texel",
+                             .help = "set a layer's mask",
                              .args = { LAYER_N, WR_MASK_ARGS } },
     [WR_ROW(LAYER_PASTE)] = { .name = "paste",
-                              .help = "a picture as a new layer above the active one, which covers "
-                                      "what lies below; nothing is selected then",
+                              .help = "add a picture as a new layer above the active one, covering "
+                                      "those below; clears the selection",
                               .args = { WR_PASTE_ARGS } },
-    [WR_ROW(LAYER_GROUP)] = { .name = "group",
-                              .help = "a group of layers, active, which are joined by themselves "
-                                      "first; its blend is that of the lowest",
-                              .args = { { .name = "NAME",
-                                          .type = WR_ARG_NAME,
-                                          .positional = true,
-                                          .help = "left out, \"group 1\" and so on" },
-                                        { .name = "of",
-                                          .type = WR_ARG_LAYER,
-                                          .several = true,
-                                          .help = "the layers; left out, the active one" } } },
+    [WR_ROW(
+        LAYER_GROUP)] = { .name = "group",
+                          .help =
+                              "put layers into a new group, which is active. They are composited "
+                              "on their own first; the group's blend mode is that of the lowest",
+                          .args = { { .name = "NAME",
+                                      .type = WR_ARG_NAME,
+                                      .positional = true,
+                                      .help = "name; left out, \"group 1\" and so on" },
+                                    { .name = "of",
+                                      .type = WR_ARG_LAYER,
+                                      .several = true,
+                                      .help = "layers of the group; left out, the active one" } } },
     [WR_ROW(LAYER_UNGROUP)] = { .name = "ungroup",
-                                .help = "remove groups, but not their layers",
+                                .help = "remove groups and keep their layers",
                                 .args = { LAYERS_N } },
 };
 WR_ROWS_END(layer_forms, LAYER_FORMS);
@@ -1093,14 +1085,12 @@ const WrCommand wr_command_layer = {
     .form_word = "ACTION",
     .form = form_layer,
     .run = run_layer,
-    .help = "add, order, join and set layers",
+    .help = "add, order, merge and change layers",
     .details =
-        "Layers are named by their numbers, from 1 at the bottom, or by their names where only "
-        "one has it; \"the layer, or several\" takes a list, such as 2,4..6. Edits go to the "
-        "active "
-        "layer; where it is locked or not shown they are refused. A "
-        "generator layer keeps the command line of from=, a generator's, and is made again when "
-        "change= gives that line other values, or when the layers below change that it reads; "
-        "blend= and radius= of the line are the layer's.",
+        "A layer is given by its number, from 1 at the bottom, or by its name if no other layer "
+        "has it; several layers by a list, such as 2,4..6. Edits change the active layer; they are "
+        "refused if it is locked or hidden. A generator layer stores the command of from= and runs "
+        "it again when change= changes its arguments, or when a layer changes that it reads. "
+        "blend= and radius= of the command are the layer's settings.",
     .example = "layer add moss blend=max"
 };

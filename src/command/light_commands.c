@@ -89,19 +89,19 @@ static bool form_light(int i, WrForm *out)
 {
     if (i >= LIGHT_FORMS) return false;
     if (i == LIGHT_CLEAR) {
-        *out = (WrForm){ .name = "clear", .help = "no light at all" };
+        *out = (WrForm){ .name = "clear", .help = "remove all lights" };
         return true;
     }
     if (i == LIGHT_PRESET) {
         *out =
             (WrForm){ .name = "preset",
-                      .help = "lamps and surroundings together, in place of those that are there",
+                      .help = "a preset of lights and environment, which replaces the present ones",
                       .args = { { .name = "NAME",
                                   .type = WR_ARG_CHOICE,
                                   .positional = true,
                                   .required = true,
                                   .choice = light_preset_name,
-                                  .help = "of the preset" } } };
+                                  .help = "name of the preset" } } };
         return true;
     }
     *out = (WrForm){ .name = wr_light_kinds[i].name, .help = wr_light_kinds[i].help };
@@ -112,7 +112,7 @@ static bool form_light(int i, WrForm *out)
                      .low = 1,
                      .high = WR_LIGHTS_MAX,
                      .whole = true,
-                     .help = "replace this light, the first is 1; without it one is added" };
+                     .help = "number of the light to replace, from 1; left out, a light is added" };
     return true;
 }
 
@@ -262,11 +262,13 @@ static bool run_environment(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
-static const WrArgSpec args_file[] = { WR_ARGS_OF_FILE,
-                                       { .name = "sha256",
-                                         .type = WR_ARG_SHA256,
-                                         .help = "of the file: another content is then an error" },
-                                       { 0 } };
+static const WrArgSpec args_file[] = {
+    WR_ARGS_OF_FILE,
+    { .name = "sha256",
+      .type = WR_ARG_SHA256,
+      .help = "SHA-256 of the file; a file with other content is an error" },
+    { 0 }
+};
 
 static bool row_environment(WrForm *out)
 {
@@ -274,10 +276,9 @@ static bool row_environment(WrForm *out)
                                  .type = WR_ARG_PATH,
                                  .positional = true,
                                  .words = set_words,
-                                 .help =
-                                     "a picture by longitude and latitude, or " WR_ENVIRONMENT_SETS(
-                                         LISTED) "or off (a file of that name is ./sky). Left out: "
-                                                 "those that are there" } } };
+                                 .help = "an equirectangular picture, or " WR_ENVIRONMENT_SETS(
+                                     LISTED) "or off (a file of that name is ./sky). Left out: "
+                                             "those that are there" } } };
     return wr_scene_args("environment", NULL, out->args + 1) > 0;
 }
 
@@ -289,13 +290,12 @@ const WrCommand wr_command_environment = {
     .run = run_environment,
     .print = print_environment,
     .print_content = print_environment_content,
-    .help = "surroundings that light the objects from all sides",
-    .details =
-        "Beside the lights; `light clear` leaves them alone. A picture is twice as wide as high, "
-        "its middle is -z, its upper border straight up; float ones (EXR, HDR) are taken as "
-        "linear, 8-bit and 16-bit ones decoded from sRGB. Diffuse light of them is by spherical "
-        "harmonics of order 2. The picture is saved inside the document. Only given arguments "
-        "change.",
+    .help = "set the environment, which lights the objects from all sides",
+    .details = "The environment is independent of the lights: `light clear` does not remove it. A "
+               "picture is twice as wide as high; its centre is -z, its upper border straight up. "
+               "Float pictures (EXR, HDR) are linear, 8-bit and 16-bit ones are decoded from sRGB. "
+               "Its diffuse light is computed by spherical harmonics of order 2. The picture is "
+               "saved in the document. Only given arguments change.",
     .example = "environment sky turn=30 strength=0.8"
 };
 
@@ -339,11 +339,10 @@ static bool form_background(int i, WrForm *out)
 {
     WR_ROWS(help);
     static const char *const help[WR_BACKGROUND_KINDS] = {
-        [WR_ROW(WR_BACKGROUND_PLAIN)] = "one colour",
-        [WR_ROW(WR_BACKGROUND_GRADIENT)] = "one colour goes over into another, from top to bottom",
-        [WR_ROW(WR_BACKGROUND_NONE)] = "none: files that hold alpha have it, such as PNG",
-        [WR_ROW(WR_BACKGROUND_SURROUNDINGS)] =
-            "the surroundings (`environment`), as the camera sees them",
+        [WR_ROW(WR_BACKGROUND_PLAIN)] = "a plain colour",
+        [WR_ROW(WR_BACKGROUND_GRADIENT)] = "a vertical gradient",
+        [WR_ROW(WR_BACKGROUND_NONE)] = "transparent in files with alpha, such as PNG",
+        [WR_ROW(WR_BACKGROUND_SURROUNDINGS)] = "the environment",
     };
     WR_ROWS_END(help, WR_BACKGROUND_KINDS);
     if (i >= WR_BACKGROUND_KINDS) return false;
@@ -359,11 +358,12 @@ const WrCommand wr_command_background = {
     .form = form_background,
     .run = run_background,
     .print = print_background,
-    .help = "the background behind the objects",
-    .details = "Of 8-bit pictures, and in the window. Only given arguments change. EXR and TIFF "
-               "hold coverage in its place. Files without alpha, such as JPEG, have the plain "
-               "colour where there is none, and so has a scene without surroundings. An "
-               "orthographic camera shows one direction of them.",
+    .help = "set the background behind the objects",
+    .details =
+        "Used in the window and in 8-bit pictures; EXR and TIFF files store coverage instead. "
+        "Files without alpha, such as JPEG, show the plain colour in place of a transparent "
+        "background, and a scene without an environment in place of the environment. An "
+        "orthographic camera shows one direction of the environment. Only given arguments change.",
     .example = "background gradient top=0.12,0.16,0.24 bottom=0.5,0.47,0.42"
 };
 
@@ -472,14 +472,14 @@ static bool run_tone(WrSession *session, WrCall *call, WrError *err)
 
 static bool row_tone(WrForm *out)
 {
-    *out =
-        (WrForm){ .args = { { .name = "clip|soft",
-                              .type = WR_ARG_CHOICE,
-                              .positional = true,
-                              .choice = tone_word,
-                              .help = "light beyond 1 is white, or from 1/2 on it bends over and "
-                                      "never quite becomes white, so that highlights keep their "
-                                      "form" } } };
+    *out = (WrForm){
+        .args = { { .name = "clip|soft",
+                    .type = WR_ARG_CHOICE,
+                    .positional = true,
+                    .choice = tone_word,
+                    .help = "clip: light above 1 is white; soft: light above 1/2 is compressed and "
+                            "never becomes quite white, so that highlights keep their shape" } }
+    };
     return wr_scene_args("tone", NULL, out->args + 1) > 0;
 }
 
@@ -487,20 +487,21 @@ static const WrArgSpec args_view[] = {
     { .name = "view",
       .type = WR_ARG_TEXT,
       .shape = "NAME",
-      .help = "of a colour configuration (OpenColorIO), such as Filmic: makes the codes from the "
-              "light in place of clip, soft and sRGB; off: none" },
+      .help = "view of an OpenColorIO configuration, such as Filmic, in place of clip or soft and "
+              "sRGB; off: none" },
     { .name = "display",
       .type = WR_ARG_TEXT,
       .shape = "NAME",
-      .help = "of the view; left out, the configuration's default" },
+      .help = "display of the view; left out, the configuration's default" },
     { .name = "ocio",
       .type = WR_ARG_TEXT,
       .shape = "FILE",
-      .help = "the configuration, config.ocio; left out, $OCIO" },
+      .help = "configuration file, config.ocio; left out, $OCIO" },
     { .name = "space",
       .type = WR_ARG_TEXT,
       .shape = "NAME",
-      .help = "the configuration's colour space of the light; left out, its role scene_linear" },
+      .help = "colour space of the rendered light in the configuration; left out, its role "
+              "scene_linear" },
     { 0 }
 };
 
@@ -511,11 +512,10 @@ const WrCommand wr_command_tone = {
     .more = args_view,
     .run = run_tone,
     .print = print_tone,
-    .help = "exposure, and tone mapping of light too bright for a picture",
-    .details =
-        "Of 8-bit pictures, and in the window; EXR and TIFF keep light as it is. The "
-        "background is developed with the rest. Heights, normals and other maps never pass "
-        "through a view. A document stores the names of its view; when it or a script is opened, "
-        "only the configuration in $OCIO is read. Only given arguments change.",
+    .help = "set exposure and tone mapping",
+    .details = "Used in the window and in 8-bit pictures; EXR and TIFF files store unchanged "
+               "light. The background is tone mapped too. Views never affect heights, normals and "
+               "other maps. A document stores the names of its view; when a document or script is "
+               "opened, only the configuration in $OCIO is read. Only given arguments change.",
     .example = "tone soft exposure=-0.5"
 };

@@ -459,8 +459,7 @@ static bool run_link(WrSession *session, WrCall *call, WrError *err)
 }
 
 static const WrArgSpec args_link[] = {
-    { PLACE(SOURCE), .type = WR_ARG_LAYER,
-      .help = "the layer or group that is copied, above or below" },
+    { PLACE(SOURCE), .type = WR_ARG_LAYER, .help = "the layer or group to copy, above or below" },
     { .name = "shift",
       .type = WR_ARG_TUPLE,
       .components = 2,
@@ -468,14 +467,14 @@ static const WrArgSpec args_link[] = {
       .low = -4,
       .high = 4,
       .fallback = NUMBERS(0, 0),
-      .help = "to the right and up, in widths and heights of the table" },
-    WR_TRANSFORM_ARGS("anticlockwise, about the table's middle"),
+      .help = "offset to the right and up, in widths and heights of the table" },
+    WR_TRANSFORM_ARGS("rotation about the table's centre, anticlockwise"),
     { .name = "factor",
       .type = WR_ARG_NUMBER,
       .low = -WR_BIG_HEIGHT,
       .high = WR_BIG_HEIGHT,
       .fallback = NUMBERS(1),
-      .help = "of each height" },
+      .help = "factor of the heights" },
     { 0 }
 };
 
@@ -487,10 +486,9 @@ const WrCommand wr_command_link = {
     .generates = true,
     .links = true,
     .help = "copy the heights and the coverage of another layer or group",
-    .details =
-        "As the line of a generator layer it is a linked copy, which is made again when that layer "
-        "changes: `layer duplicate linked=on` makes one. The values are those of `transform` "
-        "without a selection. Of several layers of that name the nearest below counts, else the "
-        "nearest above.",
+    .details = "As the command of a generator layer it is a linked copy, updated when that layer "
+               "changes; `layer duplicate linked=on` makes one. The arguments are those of "
+               "`transform` without a selection. If several layers have the name, the nearest "
+               "below is used, else the nearest above.",
     .example = "link base shift=0.5,0 factor=0.5"
 };

@@ -260,8 +260,8 @@ static WrField *by_mask(MaskJob *job, const WrCall *term, WrError *err)
     }
 #define RANGE_ARGS(least, most, low_, high_, soft_, measure)                                       \
     NUMBER_ARG("low", least, most, low_, "lower end of the range of " measure),                    \
-        NUMBER_ARG("high", least, most, high_, "upper end"),                                       \
-        NUMBER_ARG("soft", 0, WR_BIG_HEIGHT, soft_, "over how much it fades beyond the ends")
+        NUMBER_ARG("high", least, most, high_, "upper end of the range"),                          \
+        NUMBER_ARG("soft", 0, WR_BIG_HEIGHT, soft_, "width of the fade beyond both ends")
 #define OF_ARG(help_)                                                                              \
     {                                                                                              \
         .name = OF, .type = WR_ARG_LAYER, .help = help_                                            \
@@ -270,11 +270,11 @@ static WrField *by_mask(MaskJob *job, const WrCall *term, WrError *err)
 #define SCALE_ARG                                                                                  \
     {                                                                                              \
         .name = "scale", .type = WR_ARG_NUMBER, .low = 0, .above = true, .high = 256,              \
-        .fallback = NUMBERS(2), .unit = "texels", .help = "size of the features that count"        \
+        .fallback = NUMBERS(2), .unit = "texels", .help = "scale of the features, as a blur"       \
     }
 #define NOISE_ARGS                                                                                 \
     WHOLE_ARG("cells", 1, 8192, 8, "of the noise, across the table"),                              \
-        WHOLE_ARG("octaves", 1, WR_OCTAVES_MAX, 5, "how many, at most"),                           \
+        WHOLE_ARG("octaves", 1, WR_OCTAVES_MAX, 5, "largest number of octaves"),                   \
         WHOLE_ARG("seed", 0, 4294967295.0, 1, "any number: another noise")
 
 static const char *const sides[] = { "convex", "concave", NULL };
@@ -321,20 +321,20 @@ static const MaskKind kinds[] = {
       .scene = true,
       .reach = slope_reach },
     { .form = { .name = "direction",
-                .help = "where it slopes down towards an azimuth; level places face none",
+                .help = "where the surface faces an azimuth; level places face none",
                 .args = { NUMBER_ARG("angle", -360, 360, 90,
                                      "the azimuth, degrees anticlockwise from u, v up"),
                           RANGE_ARGS(0, 180, 0, 45, 45, "degrees away from it"), SURFACE_ARG } },
       .make = by_direction,
       .reach = slope_reach },
     { .form = { .name = "curvature",
-                .help = "where it bends: minus the mean curvature of the heights blurred by scale, "
-                        "times scale",
+                .help = "mean curvature of the heights blurred by scale, times scale; above 0 on "
+                        "ridges",
                 .args = { { .name = "side",
                             .type = WR_ARG_CHOICE,
                             .words = sides,
                             .fallback_text = "convex",
-                            .help = "which sign is above 0: ridges and edges, or grooves" },
+                            .help = "convex: ridges and edges; concave: grooves" },
                           SCALE_ARG,
                           RANGE_ARGS(-WR_BIG_HEIGHT, WR_BIG_HEIGHT, 0.1, 1000, 0.1, "curvatures"),
                           SURFACE_ARG } },
@@ -342,8 +342,8 @@ static const MaskKind kinds[] = {
       .scene = true,
       .reach = bend_reach },
     { .form = { .name = "occlusion",
-                .help = "where the visible part of the sky lies in a range; below 1 in hollows and "
-                        "on steep sides",
+                .help = "where the visible share of the sky lies in a range; below 1 in hollows "
+                        "and on steep sides",
                 .args = { { .name = "reach",
                             .type = WR_ARG_NUMBER,
                             .whole = true,
@@ -351,14 +351,14 @@ static const MaskKind kinds[] = {
                             .high = WR_OCCLUSION_FARTHEST,
                             .fallback = NUMBERS(32),
                             .unit = "texels",
-                            .help = "how far heights cast shade" },
+                            .help = "distance within which heights hide the sky" },
                           RANGE_ARGS(0, 1, 0, 0.6, 0.3, "parts of the sky"),
                           SURFACE_ARG } },
       .make = by_occlusion,
       .scene = true,
       .reach = sky_reach },
     { .form = { .name = "wear",
-                .help = "worn edges: curvature, as in that kind, plus noise",
+                .help = "worn edges: curvature, as above, plus noise",
                 .args = { SCALE_ARG,
                           NUMBER_ARG("rough", 0, 1000, 0.1, "how much the noise adds or takes"),
                           NOISE_ARGS,
@@ -368,7 +368,7 @@ static const MaskKind kinds[] = {
       .scene = true,
       .reach = bend_reach },
     { .form = { .name = "noise",
-                .help = "where noise of 0 to 1 lies in a range",
+                .help = "where noise, 0 to 1, lies in a range",
                 .args = { NOISE_ARGS, RANGE_ARGS(0, 1, 0.55, 1, 0.1, "the noise") } },
       .make = by_noise },
     { .form = { .name = "mask",
@@ -376,7 +376,7 @@ static const MaskKind kinds[] = {
                 .args = { { .name = OF,
                             .type = WR_ARG_LAYER,
                             .required = true,
-                            .help = "that layer" } } },
+                            .help = "the layer" } } },
       .make = by_mask },
 };
 
@@ -393,12 +393,12 @@ static const WrArgSpec term_args[] = { { .name = "op",
                                          .type = WR_ARG_CHOICE,
                                          .words = joins,
                                          .fallback_text = "multiply",
-                                         .help = "how it joins the terms before it" },
+                                         .help = "how it is combined with the terms before it" },
                                        { .name = "invert",
                                          .type = WR_ARG_CHOICE,
                                          .words = wr_off_on,
                                          .fallback_text = "off",
-                                         .help = "on: 1 - its value" },
+                                         .help = "on: 1 minus its value" },
                                        { 0 } };
 
 /* A term has the syntax of a command with this row, without the command's name. */

@@ -51,19 +51,20 @@ static const char *preset_choice(int i)
 
 static bool row_material(WrForm *out)
 {
-    *out = (WrForm){ .args = { { .name = "preset",
-                                 .type = WR_ARG_CHOICE,
-                                 .choice = preset_choice,
-                                 .help = "all of it at once, before the other arguments" },
-                               { .name = "model",
-                                 .type = WR_ARG_CHOICE,
-                                 .choice = model_choice,
-                                 .help = "how light is reflected" },
-                               { .name = "energy",
-                                 .type = WR_ARG_CHOICE,
-                                 .choice = energy_choice,
-                                 .help = "kept: never more light than came; published: as the "
-                                         "model's source has it" } } };
+    *out = (WrForm){
+        .args = { { .name = "preset",
+                    .type = WR_ARG_CHOICE,
+                    .choice = preset_choice,
+                    .help = "preset of all arguments, applied before the others" },
+                  { .name = "model",
+                    .type = WR_ARG_CHOICE,
+                    .choice = model_choice,
+                    .help = "reflection model" },
+                  { .name = "energy",
+                    .type = WR_ARG_CHOICE,
+                    .choice = energy_choice,
+                    .help = "kept: conserves energy; published: as in the model's source" } }
+    };
     return wr_scene_args("material", NULL, out->args + 3) > 0;
 }
 
@@ -74,7 +75,7 @@ const WrCommand wr_command_material = {
     .run = run_material,
     .print = print_material,
     .of_object = true,
-    .help = "the reflectance of the surface",
+    .help = "set the material of the surface",
     .details = "Only given arguments change.",
     .example = "material model=ggx diffuse=1 specular=1 roughness=0.4"
 };

@@ -62,7 +62,7 @@ static const WrArgSpec model_args[] = { { .name = "NAME",
                                           .positional = true,
                                           .required = true,
                                           .choice = model_name,
-                                          .help = "of the model" },
+                                          .help = "name of the model" },
                                         { 0 } };
 
 const WrCommand wr_command_model = {
@@ -70,9 +70,9 @@ const WrCommand wr_command_model = {
     .kind = WR_CLASS_EDIT,
     .args = model_args,
     .run = run_model,
-    .help = "a stock model as the object's surface",
-    .details = "A mesh about 2 units across, with the table on all of its sides by box projection, "
-               "replicated once, and turned so that its shape shows. It stands in the scene as "
-               "`surface mesh` and `rotate`, which can change it.",
+    .help = "use a stock model as the object's surface",
+    .details = "A mesh about 2 units in size, with the table on all sides by box projection, "
+               "replicated once, and rotated to show its shape. The scene stores it as `surface "
+               "mesh` and `rotate`, which can change it.",
     .example = "model mug"
 };

@@ -380,16 +380,17 @@ static const struct {
     bool renames;  /* name= */
     bool settings; /* position, size and so on */
 } object_forms[] = {
-    [WR_ROW(FORM_ADD)] = { "add", "one more, a plane as in an empty document; it is chosen", true,
-                           .settings = true },
-    [WR_ROW(FORM_COPY)] = { "copy", "one more, like the chosen one; it is chosen then", true,
+    [WR_ROW(FORM_ADD)] = { "add",
+                           "add an object, a plane as in an empty document, and make it active",
+                           true, .settings = true },
+    [WR_ROW(FORM_COPY)] = { "copy", "duplicate the active object, and make the copy active", true,
                             .settings = true },
-    [WR_ROW(FORM_CHOOSE)] = { "choose", "commands are about this one from now on", true },
-    [WR_ROW(FORM_SET)] = { "set", "only given arguments change, of the chosen one", .renames = true,
-                           .settings = true },
-    [WR_ROW(FORM_HIDE)] = { "hide", "leave it out of pictures; NAME left out, the chosen one" },
-    [WR_ROW(FORM_SHOW)] = { "show", "bring it back into pictures" },
-    [WR_ROW(FORM_REMOVE)] = { "remove", "take one away" },
+    [WR_ROW(FORM_CHOOSE)] = { "choose", "make an object active; commands apply to it", true },
+    [WR_ROW(FORM_SET)] = { "set", "change the active object; only given arguments change",
+                           .renames = true, .settings = true },
+    [WR_ROW(FORM_HIDE)] = { "hide", "hide an object; NAME left out, the active one" },
+    [WR_ROW(FORM_SHOW)] = { "show", "show a hidden object" },
+    [WR_ROW(FORM_REMOVE)] = { "remove", "remove an object" },
 };
 WR_ROWS_END(object_forms, OBJECT_FORMS);
 
@@ -400,37 +401,36 @@ static void take_three(WrArgSpec *size)
     size->counts = TUPLE_OF(1) | TUPLE_OF(3);
     size->low = -size->high;
     size->shape = "s or x,y,z";
-    size->help =
-        "times its surface's own size; heights grow with it. Three: along its axes; below 0 "
-        "mirrored, 0 flat";
+    size->help = "scale of the surface; heights scale with it. Three numbers: along its axes; "
+                 "below 0 mirrored, 0 flat";
 }
 
 static bool form_object(int i, WrForm *out)
 {
-    static const WrArgSpec name = { PLACE("NAME"), .type = WR_ARG_NAME,
-                                    .help =
-                                        "of the object; where it may be left out, the chosen one" };
-    static const WrArgSpec rename = { .name = "name", .type = WR_ARG_NAME, .help = "its new name" };
+    static const WrArgSpec name = {
+        PLACE("NAME"), .type = WR_ARG_NAME,
+        .help = "name of the object; if optional and left out, the active one"
+    };
+    static const WrArgSpec rename = { .name = "name", .type = WR_ARG_NAME, .help = "new name" };
     static const WrArgSpec turn = { .name = "turn",
                                     .type = WR_ARG_TEXT,
                                     .shape = "x,y,z or " OWN,
-                                    .help =
-                                        "degrees about the world's x, then y, then z axis; own: "
-                                        "the pose in which its surface first shows itself" };
+                                    .help = "rotation about the world's x, then y, then z axis, in "
+                                            "degrees; own: the surface's default pose" };
     static const WrArgSpec layer = { .name = "layer",
                                      .type = WR_ARG_LAYER,
-                                     .help = "whose heights alone are its table; " ALL
-                                             ": all layers as they are joined" };
-    static const WrArgSpec table = {
-        .name = "table",
-        .type = WR_ARG_PATH,
-        .help = "a document or a picture whose heights are to be its table: "
-                "it becomes a layer, hidden from all others"
+                                     .help = "layer whose heights are its table; " ALL
+                                             ": the composite" };
+    static const WrArgSpec table = { .name = "table",
+                                     .type = WR_ARG_PATH,
+                                     .help =
+                                         "a document or picture whose heights are its table; it is "
+                                         "added as a layer, hidden for all other objects" };
+    static const WrArgSpec sha256 = {
+        .name = "sha256",
+        .type = WR_ARG_SHA256,
+        .help = "SHA-256 of the table's file; a file with other content is an error"
     };
-    static const WrArgSpec sha256 = { .name = "sha256",
-                                      .type = WR_ARG_SHA256,
-                                      .help =
-                                          "of the table's file: another content is then an error" };
     int count = 0;
     if (i >= OBJECT_FORMS) return false;
     *out = (WrForm){ .name = object_forms[i].name, .help = object_forms[i].help };
@@ -461,12 +461,12 @@ const WrCommand wr_command_object = {
     .print = print_object,
     .in_object = true,
     .of_object = true,
-    .help = "several objects in one scene",
-    .details = "Each has surface, bump, replication, material, colour picture, place and size of "
-               "its own; lights, camera and dials are the scene's. An object without a name is "
-               "called object 1, object 2 and so on. Of several objects `object set turn=` turns "
-               "one, and `camera` looks from elsewhere; the turntable turns all about the "
-               "world's y axis.",
+    .help = "add, select and change objects of the scene",
+    .details =
+        "Each object has its own surface, bump, replication, material, pictures, position and "
+        "size; lights, camera and dials belong to the scene. An object without a name is called "
+        "object 1, object 2 and so on. `object set turn=` rotates one of several objects, `camera` "
+        "moves the viewpoint; the turntable turns all objects about the world's y axis.",
     .example = "object add bricks at=1.2,0,0 size=0.8"
 };
 
@@ -566,35 +566,35 @@ static bool run_ground(WrSession *session, WrCall *call, WrError *err)
 
 WR_ROWS(ground_forms);
 static const WrForm ground_forms[] = {
-    [WR_ROW(FORM_ON)] = { .name = "on",
-                          .help = "lay it, or lay it anew",
-                          .args = { { .name = "height",
-                                      .type = WR_ARG_NUMBER,
-                                      .low = -1e9,
-                                      .high = 1e9,
-                                      .unit = "scene units",
-                                      .help = "its y; left out: where the lowest of the objects "
-                                              "that are shown stands now" },
-                                    { .name = "size",
-                                      .type = WR_ARG_NUMBER,
-                                      .low = 1e-9,
-                                      .high = 1e9,
-                                      .unit = "scene units",
-                                      .help = "of its sides; left out: as it is, at first 12 times "
-                                              "the text on it" },
-                                    { .name = "colour",
-                                      .type = WR_ARG_TUPLE,
-                                      .components = 3,
-                                      .shape = "r,g,b",
-                                      .high = 1e6,
-                                      .help = "linear; left out: as it is" },
-                                    { .name = "endless",
-                                      .type = WR_ARG_CHOICE,
-                                      .words = wr_off_on,
-                                      .help = "it goes on to the horizon, where it fades; left "
-                                              "out: as it is, at first on "
-                                              "unless size= is given" } } },
-    [WR_ROW(FORM_OFF)] = { .name = "off", .help = "take it away" },
+    [WR_ROW(
+        FORM_ON)] = { .name = "on",
+                      .help = "add the ground, or change it",
+                      .args = { { .name = "height",
+                                  .type = WR_ARG_NUMBER,
+                                  .low = -1e9,
+                                  .high = 1e9,
+                                  .unit = "scene units",
+                                  .help =
+                                      "its y; left out, the lowest point of the visible objects" },
+                                { .name = "size",
+                                  .type = WR_ARG_NUMBER,
+                                  .low = 1e-9,
+                                  .high = 1e9,
+                                  .unit = "scene units",
+                                  .help = "length of its sides; left out, unchanged, at first 12 "
+                                          "times the radius of the objects on it" },
+                                { .name = "colour",
+                                  .type = WR_ARG_TUPLE,
+                                  .components = 3,
+                                  .shape = "r,g,b",
+                                  .high = 1e6,
+                                  .help = "colour, linear; left out, unchanged" },
+                                { .name = "endless",
+                                  .type = WR_ARG_CHOICE,
+                                  .words = wr_off_on,
+                                  .help = "on: it continues to the horizon, where it fades; left "
+                                          "out, unchanged, at first on unless size= is given" } } },
+    [WR_ROW(FORM_OFF)] = { .name = "off", .help = "remove the ground" },
 };
 WR_ROWS_END(ground_forms, GROUND_FORMS);
 
@@ -607,11 +607,10 @@ const WrCommand wr_command_ground = {
     .form = form_ground,
     .run = run_ground,
     .print = print_nothing,
-    .help = "a floor under the objects",
-    .details = "It is an object of the name " GROUND
-               ": a plane that looks up, goes on to the horizon and stands still "
-               "(`object set still=on`) while the turntable turns the others. The chosen object "
-               "stays the chosen one; choose the ground to give it a surface or bumps of its own. "
-               "Seen from below a plane that stands still is left out of the picture.",
+    .help = "add a floor under the objects",
+    .details = "The ground is an object named " GROUND
+               ": a horizontal plane that extends to the horizon and does not turn with the "
+               "turntable (`object set still=on`). The active object does not change; make the "
+               "ground active to give it another surface or relief. It is invisible from below.",
     .example = "ground on colour=0.3,0.25,0.2"
 };

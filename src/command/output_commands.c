@@ -162,53 +162,56 @@ static bool form_export(int i, WrForm *out)
 }
 
 static const WrArgSpec args_export[] = {
-    { PLACE("FILE"), .type = WR_ARG_PATH, .help = "the format goes by its ending" }, { 0 }
+    { PLACE("FILE"), .type = WR_ARG_PATH, .help = "output file; its extension chooses the format" },
+    { 0 }
 };
 
 static const WrArgSpec args_render[] = {
     { PLACE("FILE"), .type = WR_ARG_PATH,
-      .help = "exr and tiff hold linear float with coverage, others 8-bit sRGB" },
+      .help =
+          "output file; exr and tiff store linear floats with coverage, other formats 8-bit sRGB" },
     { .name = "size",
       .type = WR_ARG_SIZE,
       .low = 1,
       .high = 16384,
       .fallback = NUMBERS(512, 512),
       .unit = "pixels",
-      .help = "of the picture" },
+      .help = "size of the picture" },
     { .name = "turn",
       .type = WR_ARG_NUMBER,
       .low = -1e6,
       .high = 1e6,
       .fallback = NUMBERS(0),
       .unit = "degrees",
-      .help = "of the object about the world's y axis" },
+      .help = "turn of the objects about the world's y axis" },
     { .name = "frames",
       .type = WR_ARG_NUMBER,
       .low = 1,
       .high = 100000,
       .whole = true,
-      .help = "of a turntable: one film, gif, apng, webp or mp4, or files where "
-              "#### in FILE becomes the frame's number; frame F is turned by F steps more" },
+      .help = "number of frames of a turntable: a film (gif, apng, webp or mp4), or files with "
+              "#### in FILE replaced by the frame number; each frame is turned by step= more than "
+              "the one before" },
     { .name = "step",
       .type = WR_ARG_NUMBER,
       .low = -1e6,
       .high = 1e6,
       .fallback = NUMBERS(0),
       .unit = "degrees",
-      .help = "a frame; left out: one turn over all of them" },
+      .help = "turn per frame; left out, one full turn over all frames" },
     { .name = "fps",
       .type = WR_ARG_NUMBER,
       .low = 0.1,
       .high = 240,
       .fallback = NUMBERS(25),
-      .help = "of a film, frames a second" },
+      .help = "frames per second of a film" },
     { .name = "loop",
       .type = WR_ARG_NUMBER,
       .low = 0,
       .high = 65535,
       .whole = true,
       .fallback = NUMBERS(0),
-      .help = "how often a film is played; 0: for ever" },
+      .help = "repetitions of a film; 0: endless" },
     { 0 }
 };
 
@@ -228,7 +231,7 @@ const WrCommand wr_command_export = { .name = "export",
                                       .args = args_export,
                                       .run = run_export,
                                       .of_variants = true,
-                                      .help = "write the table for other programs",
+                                      .help = "export the table for other programs",
                                       .example = "export height bricks.png" };
 
 const WrCommand wr_command_render = { .name = "render",
@@ -236,7 +239,7 @@ const WrCommand wr_command_render = { .name = "render",
                                       .args = args_render,
                                       .run = run_render,
                                       .of_variants = true,
-                                      .help = "write a picture of the scene, or a turntable",
+                                      .help = "render a picture of the scene, or a turntable",
                                       .example = "render bricks.png size=640x480" };
 
 /* ---- The command maps: a set of map files for another program ---- */
@@ -326,31 +329,32 @@ static bool row_maps(WrForm *out)
                                               .type = o->named ? WR_ARG_NAME : WR_ARG_TEXT,
                                               .shape = o->values,
                                               .check = check_word,
-                                              .help = "of those maps that have it" };
+                                              .help = "settings of the maps that have them" };
         }
     return true;
 }
 
 static const WrArgSpec args_maps[] = {
-    { PLACE("SET"), .type = WR_ARG_NAME, .help = "blender, unreal and so on, or one of your own" },
-    { PLACE("FOLDER"), .type = WR_ARG_PATH, .help = "that is there; all files or none" },
+    { PLACE("SET"), .type = WR_ARG_NAME,
+      .help = "set of maps: blender, unreal and so on, or one of your own" },
+    { PLACE("FOLDER"), .type = WR_ARG_PATH,
+      .help = "existing folder; either all files are written or none" },
     { .name = "contact",
       .type = WR_ARG_NAME,
-      .help = "a picture beside them that shows all, each with its name: contact.png" },
+      .help = "on: also write contact.png, an overview of all maps with their names" },
     { .name = "material",
       .type = WR_ARG_NAME,
       .shape = "FORMAT,... or all or none",
-      .help = "material files beside them, NAME.mtlx, NAME.usda, NAME.gltf: mtlx (MaterialX), usda "
-              "(USD), gltf; left out: those of the set" },
+      .help = "material files to write beside the maps: mtlx (MaterialX), usda (USD), gltf; left "
+              "out, those of the set" },
     { .name = "name",
       .type = WR_ARG_NAME,
-      .help = "of the cell, in the files' names; left out: the document's" },
+      .help = "name of the cell in the file names; left out, the document's" },
     { .name = "udim",
       .type = WR_ARG_NAME,
       .shape = "NUMBER or none",
-      .help =
-          "tile, in the files' names before their endings, NAME_normal.1002.png; left out: that of "
-          "the object's mesh (`surface mesh udim=`)" },
+      .help = "UDIM tile in the file names, NAME_normal.1002.png; left out, that of the object's "
+              "mesh (`surface mesh udim=`)" },
     { 0 }
 };
 
@@ -361,10 +365,10 @@ const WrCommand wr_command_maps = {
     .args = args_maps,
     .run = run_maps,
     .of_variants = true,
-    .help = "write the set of maps for another program",
+    .help = "export a set of maps for another program",
     .details = "Sets: " WR_MAP_SET_NAMES
-               ", and those of your own, files NAME.set in the folder sets of your settings. Each "
-               "file is read back; then all take their places, or none.",
+               ", and your own, files NAME.set in the folder sets of your settings. Each file is "
+               "read back; either all files are written or none.",
     .example = "maps unreal . name=bricks"
 };
 
@@ -424,34 +428,36 @@ static const size_t most_word = WR_SHEET_WORD, most_folder = WR_SHEET_FOLDER,
 
 static const WrArgSpec args_sheet[] = {
     { PLACE("SET"), .type = WR_ARG_NAME, .shape = "SET or KIND", .check = check_length,
-      .check_ctx = &most_word, .help = "of `maps`, or a kind of `export`" },
+      .check_ctx = &most_word, .help = "a set of `maps`, or a kind of `export`" },
     { .name = "folder",
       .type = WR_ARG_PATH,
       .shape = "FOLDER",
       .check = check_length,
       .check_ctx = &most_folder,
-      .help = "left out: the document's" },
+      .help = "folder; left out, the document's" },
     { .name = "name",
       .type = WR_ARG_NAME,
       .shape = "NAME",
       .check = check_length,
       .check_ctx = &most_name,
-      .help = "of the cell in the files' names; left out: the document's" },
+      .help = "name of the cell in the file names; left out, the document's" },
     { .name = "depth",
       .type = WR_ARG_CHOICE,
       .words = depths,
       .fallback_text = "set",
-      .help = "bits of a number, or as the set has it" },
+      .help = "bits per channel; set: as the set defines" },
     { .name = "size",
       .type = WR_ARG_CHOICE,
       .words = sizes,
       .fallback_text = "table",
-      .help = "texels: the table's, half or a quarter of that, the nearest powers of two" },
+      .help =
+          "size in texels: the table's, half or a quarter of it, or the nearest powers of two" },
     { .name = "range",
       .type = WR_ARG_CHOICE,
       .words = ranges,
       .fallback_text = "set",
-      .help = "of heights in codes: as the set has it, the table's, 0 to 1, 0 in the middle" },
+      .help = "range of heights in integer formats: as the set defines, the table's, 0 to 1, or "
+              "symmetric about 0" },
     { 0 }
 };
 
@@ -461,7 +467,7 @@ const WrCommand wr_command_sheet = {
     .args = args_sheet,
     .run = run_sheet,
     .print = print_sheet,
-    .help = "last settings of the window's export sheet",
-    .details = "The document keeps it; nothing is written by it: `maps` does that.",
+    .help = "store the settings of the window's export dialog",
+    .details = "The document stores them. This writes no files; `maps` does.",
     .example = "sheet unreal folder=out name=bricks depth=16"
 };

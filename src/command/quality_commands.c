@@ -108,32 +108,31 @@ static const WrArgSpec args_tolerance[] = {
       .type = WR_ARG_CHOICE,
       .positional = true,
       .choice = tolerance_off,
-      .help = "the dials hold as they are set" },
+      .help = "no tolerance: the dials are used as set" },
     { .name = "rms",
       .type = WR_ARG_NUMBER,
       .low = 0,
       .above = true,
       .high = 1e6,
       .unit = "linear intensity",
-      .help = "root mean square error over the object's pixels, at most" },
+      .help = "largest root mean square error over the object's pixels" },
     { .name = "max",
       .type = WR_ARG_NUMBER,
       .low = 0,
       .above = true,
       .high = 1e6,
       .unit = "linear intensity",
-      .help = "error of any channel of any pixel, at most" },
+      .help = "largest error of any channel of any pixel" },
     { .name = "time",
       .type = WR_ARG_TEXT,
       .shape = "8ms or 0.5s",
       .check = check_duration,
-      .help = "of a frame: the least error that it buys; 0.1ms to 3600s" },
+      .help = "time per frame, 0.1ms to 3600s: the smallest error within it" },
     { .name = "chosen",
       .type = WR_ARG_TEXT,
       .shape = "dials as save writes them",
       .check = check_chosen,
-      .help = "what was chosen for the last picture: used again for the same table, scene, size "
-              "and turn" },
+      .help = "choice for the last picture, used again for the same table, scene, size and turn" },
     { 0 }
 };
 
@@ -174,11 +173,10 @@ const WrCommand wr_command_tolerance = {
     .run = run_tolerance,
     .print = print_tolerance,
     .print_end = true,
-    .help = "the cheapest dials that keep to an error",
-    .details = "One of the four. Each picture is rendered with the cheapest slopes, normal and "
-               "samples that should meet the tolerance, checked on some of its pixels, and "
-               "corrected once if it missed; `wrinkle explain` prints the choice, and whether it "
-               "was met. save "
-               "keeps the last picture's choice in chosen=.",
+    .help = "choose the cheapest dials within an error or a time",
+    .details = "Each picture is rendered with the cheapest slopes, normal formula and samples that "
+               "should meet the tolerance, checked on some of its pixels, and rendered once more "
+               "with better ones if it missed. `wrinkle explain` prints the choice, and whether "
+               "the tolerance was met. save stores the last picture's choice in chosen=.",
     .example = "tolerance rms=0.004"
 };

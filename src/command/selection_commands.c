@@ -220,7 +220,7 @@ static bool run_select(WrSession *session, WrCall *call, WrError *err)
 #define JOIN                                                                                       \
     {                                                                                              \
         .name = "mode", .type = WR_ARG_CHOICE, .words = wr_select_modes,                           \
-        .fallback_text = "replace", .help = "how it joins the present selection"                   \
+        .fallback_text = "replace", .help = "how it is combined with the present selection"        \
     }
 
 #define TEXELS(most, help_)                                                                        \
@@ -243,22 +243,24 @@ static bool run_select(WrSession *session, WrCall *call, WrError *err)
 
 WR_ROWS(select_forms);
 static const WrForm select_forms[] = {
-    [WR_ROW(SELECT_ALL)] = { .name = "all",
-                             .help = "everything, as a selection that can be changed" },
-    [WR_ROW(SELECT_NONE)] = { .name = "none", .help = "no selection: edits act everywhere" },
-    [WR_ROW(SELECT_INVERT)] = { .name = "invert",
-                                .help = "the inverse of the selection; without a selection, all" },
+    [WR_ROW(SELECT_ALL)] = { .name = "all", .help = "select everything" },
+    [WR_ROW(SELECT_NONE)] = { .name = "none",
+                              .help = "remove the selection: edits act everywhere" },
+    [WR_ROW(
+        SELECT_INVERT)] = { .name = "invert",
+                            .help =
+                                "invert the selection; without a selection, select everything" },
     [WR_ROW(SELECT_RECT)] = { .name = "rect",
-                              .help =
-                                  "a rectangle; a corner beyond 0 or 1 crosses the table's edge",
-                              .args = { POINT("from", "a corner"), POINT("to", "the corner across"),
-                                        JOIN } },
+                              .help = "select a rectangle; corners below 0 or above 1 cross the "
+                                      "table's edge",
+                              .args = { POINT("from", "a corner"),
+                                        POINT("to", "the opposite corner"), JOIN } },
     [WR_ROW(
         SELECT_ELLIPSE)] = { .name = "ellipse",
-                             .help = "an ellipse, its sides along u and v",
+                             .help = "select an ellipse with axes along u and v",
                              .args = { { WR_ARG_MIDDLE, .also = "centre" }, WR_ARG_RADII, JOIN } },
     [WR_ROW(SELECT_LASSO)] = { .name = "lasso",
-                               .help = "a polygon",
+                               .help = "select a polygon",
                                .args = { { .name = "points",
                                            .type = WR_ARG_LIST,
                                            .required = true,
@@ -268,52 +270,50 @@ static const WrForm select_forms[] = {
                                            .rows_high = WR_SELECT_POINTS,
                                            .low = -WR_SELECT_REACH,
                                            .high = WR_SELECT_REACH,
-                                           .help = "its corners in order" },
+                                           .help = "corners in order" },
                                          JOIN } },
     [WR_ROW(SELECT_HEIGHT)] = { .name = "height",
-                                .help = "where the composited height lies in a range",
+                                .help = "select a range of the composite's height",
                                 .args = { HEIGHT("low", "lower end"),
-                                          HEIGHT("high", "upper end"),
+                                          HEIGHT("high", "upper end of the range"),
                                           { .name = "soft",
                                             .type = WR_ARG_NUMBER,
                                             .low = 0,
                                             .high = WR_BIG_HEIGHT,
                                             .fallback = NUMBERS(0),
                                             .unit = "height units",
-                                            .help = "over how much it fades beyond the ends" },
+                                            .help = "width of the fade beyond both ends" },
                                           JOIN } },
     [WR_ROW(SELECT_SLOPE)] = { .name = "slope",
-                               .help = "where the composite's slope lies in a range",
+                               .help = "select a range of the composite's slope",
                                .args = { ANGLE("low", 0, "lower end"),
-                                         ANGLE("high", 90, "upper end"),
-                                         ANGLE("soft", 0, "over how much it fades beyond the ends"),
+                                         ANGLE("high", 90, "upper end of the range"),
+                                         ANGLE("soft", 0, "width of the fade beyond both ends"),
                                          { .name = "relief",
                                            .type = WR_ARG_NUMBER,
                                            .low = 0,
                                            .above = true,
                                            .high = 1e30,
                                            .unit = "texels",
-                                           .help = "how tall a height of 1 is; left out, as the "
-                                                   "scene's height makes it "
-                                                   "on a cell that is one scene unit wide" },
+                                           .help = "relief of height 1; left out, that of the "
+                                                   "scene on a cell one scene unit wide" },
                                          JOIN } },
     [WR_ROW(SELECT_FLOOD)] = { .name = "flood",
-                               .help =
-                                   "a connected part of the composite that is of about one height, "
-                                   "without soft edge",
+                               .help = "select a connected region of similar height in the "
+                                       "composite, with a hard edge",
                                .args = { WR_ARGS_FLOOD("heights"), JOIN } },
     [WR_ROW(SELECT_MASK)] = { .name = "mask",
-                              .help = "the mask of a layer",
+                              .help = "select by the mask of a layer",
                               .args = { { PLACE("N"), .type = WR_ARG_LAYER, .help = "the layer" },
                                         JOIN } },
     [WR_ROW(SELECT_GROW)] = { .name = "grow",
-                              .help = "move its edge outwards",
-                              .args = { TEXELS(WR_FIELD_MAX, "how far") } },
+                              .help = "move the selection's edge outwards",
+                              .args = { TEXELS(WR_FIELD_MAX, "distance") } },
     [WR_ROW(SELECT_SHRINK)] = { .name = "shrink",
-                                .help = "move its edge inwards",
-                                .args = { TEXELS(WR_FIELD_MAX, "how far") } },
+                                .help = "move the selection's edge inwards",
+                                .args = { TEXELS(WR_FIELD_MAX, "distance") } },
     [WR_ROW(SELECT_FEATHER)] = { .name = "feather",
-                                 .help = "blur its edge",
+                                 .help = "blur the selection's edge",
                                  .args = { TEXELS(1024, "standard deviation of the Gaussian") } },
 };
 WR_ROWS_END(select_forms, SELECT_FORMS);
@@ -328,9 +328,9 @@ const WrCommand wr_command_select = {
     .form_word = "WHAT",
     .form = form_select,
     .run = run_select,
-    .help = "choose where edits act",
-    .details = "Shapes wrap round periodic edges, and their edges are smooth. An edit under a "
-               "selection s leaves old + s (new - old), and where s is 0 every bit as it was.",
+    .help = "select where edits act",
+    .details = "Shapes wrap around periodic edges and are antialiased. An edit under a selection s "
+               "results in old + s (new - old); where s is 0, every bit stays the same.",
     .example = "select ellipse at=0.5,0.5 radii=0.3,0.2"
 };
 
@@ -456,12 +456,12 @@ static bool run_copy(WrSession *session, WrCall *call, WrError *err)
 }
 
 static const WrArgSpec args_copy[] = {
-    { PLACE("FILE"), .type = WR_ARG_PATH, .help = "an OpenEXR or TIFF file, which hold floats" },
+    { PLACE("FILE"), .type = WR_ARG_PATH, .help = "an OpenEXR or TIFF file" },
     { .name = "of",
       .type = WR_ARG_CHOICE,
       .words = sources,
       .fallback_text = "layer",
-      .help = "the active layer (its mask, where edits go there), or all that is shown" },
+      .help = "the active layer (or its mask, if that is being edited), or the composite" },
     { 0 }
 };
 
@@ -470,10 +470,9 @@ const WrCommand wr_command_copy = {
     .kind = WR_CLASS_OUTPUT,
     .args = args_copy,
     .run = run_copy,
-    .help = "write the heights that are selected into a file",
-    .details =
-        "The file is as large as the box round the selection; its alpha says how much of each "
-        "texel is selected. `picture paste` puts it anywhere, in any document.",
+    .help = "write the selected heights to a file",
+    .details = "The file has the size of the selection's bounding box; its alpha is the selection. "
+               "`picture paste` pastes it anywhere, in any document.",
     .example = "copy piece.exr"
 };
 
@@ -801,39 +800,39 @@ static const WrArgSpec args_transform[] = {
       .high = 4 * WR_FIELD_MAX,
       .fallback = NUMBERS(0, 0),
       .unit = "texels",
-      .help = "to the right and up" },
-    WR_TRANSFORM_ARGS("anticlockwise"),
+      .help = "offset to the right and up" },
+    WR_TRANSFORM_ARGS("rotation, anticlockwise"),
     { .name = "about",
       .type = WR_ARG_TUPLE,
       .components = 2,
       .shape = "u,v",
       .low = -WR_SELECT_REACH,
       .high = WR_SELECT_REACH,
-      .help = "the point that only moves; default: the middle of the selection" },
+      .help = "pivot of turn and scale; left out, the centre of the selection" },
     { .name = "blend",
       .type = WR_ARG_CHOICE,
       .choice = blend_name,
       .fallback_text = "replace",
-      .help = "how it joins the heights at its new place" },
+      .help = "how it is combined with the heights at its new place" },
     { .name = "leave",
       .type = WR_ARG_CHOICE,
       .words = wr_off_on,
       .fallback_text = "off",
-      .help = "on: it stays, and a copy of the selection or of the layer's content moves" },
+      .help = "on: a copy of the selected or the layer's content moves, and the original stays" },
     { .name = "filter",
       .type = WR_ARG_CHOICE,
       .words = wr_place_filters,
       .fallback_text = "catmull",
-      .help = "how heights are read between texels" },
+      .help = "interpolation between texels" },
     { .name = "layers",
       .type = WR_ARG_CHOICE,
       .words = layer_choices,
       .fallback_text = "active",
-      .help = "which layers it moves" },
+      .help = "layers that move" },
     { .name = "of",
       .type = WR_ARG_LAYER,
       .several = true,
-      .help = "these layers, in place of the active one" },
+      .help = "layers to move in place of the active one" },
     { 0 }
 };
 
@@ -842,11 +841,10 @@ const WrCommand wr_command_transform = {
     .kind = WR_CLASS_EDIT,
     .args = args_transform,
     .run = run_transform,
-    .help = "move, turn, scale and mirror the selection, or a whole layer",
-    .details = "Everything goes round periodic edges, and the selection goes along. Without a "
-               "selection the "
-               "whole layer moves, with its mask. Moves by whole texels, quarter turns and mirrors "
-               "keep every "
-               "height as it is; quarter turns come to lie on whole texels.",
+    .help = "move, rotate, scale and mirror the selection or a whole layer",
+    .details =
+        "Content wraps around periodic edges, and the selection moves with it. Without a selection "
+        "the whole layer moves, with its mask. Moves by whole texels, quarter turns and mirrors "
+        "keep every height unchanged; quarter turns are aligned to whole texels.",
     .example = "transform move=40,0 turn=30"
 };

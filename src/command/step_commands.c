@@ -548,13 +548,13 @@ static bool run_macro(WrSession *session, WrCall *call, WrError *err)
 #define STEPS                                                                                      \
     {                                                                                              \
         .name = "N", .positional = true, .type = WR_ARG_TEXT, .shape = "N|N,N..N",                 \
-        .check = wr_check_steps, .help = "numbers of steps, from 1, the oldest"                    \
+        .check = wr_check_steps, .help = "step numbers, counted from 1, the oldest"                \
     }
 
 WR_ROWS(step_forms);
 static const WrForm step_forms[] = {
     [WR_ROW(STEP_GO)] = { .name = "go",
-                          .help = "to the state after a step",
+                          .help = "go to the state after a step",
                           .args = { { .name = "N",
                                       .type = WR_ARG_NUMBER,
                                       .positional = true,
@@ -562,18 +562,18 @@ static const WrForm step_forms[] = {
                                       .whole = true,
                                       .low = 0,
                                       .high = 1e9,
-                                      .help = "the step's number; 0: the beginning" } } },
+                                      .help = "number of the step; 0: the beginning" } } },
     [WR_ROW(STEP_SET)] = { .name = "set",
-                           .help = "change a step",
+                           .help = "change the command of a step",
                            .args = { STEP("N", "the step's number, from 1, the oldest"),
                                      { .name = "change",
                                        .type = WR_ARG_TEXT,
                                        .shape = "\"NAME=VALUE ...\"",
-                                       .help = "values of its command line that change" },
+                                       .help = "arguments of its command to change" },
                                      { .name = "line",
                                        .type = WR_ARG_TEXT,
                                        .shape = "\"COMMAND ...\"",
-                                       .help = "its new command line" } } },
+                                       .help = "its new command" } } },
     [WR_ROW(STEP_OFF)] = { .name = "off",
                            .help = "switch steps off; they stay in the list",
                            .args = { STEPS } },
@@ -582,7 +582,7 @@ static const WrForm step_forms[] = {
                               .help = "remove steps from the list",
                               .args = { STEPS } },
     [WR_ROW(STEP_MOVE)] = { .name = "move",
-                            .help = "run a step earlier or later",
+                            .help = "move a step earlier or later in the list",
                             .args = { STEP("N", "the step's number, from 1, the oldest"),
                                       { .name = "to",
                                         .type = WR_ARG_NUMBER,
@@ -597,13 +597,15 @@ WR_ROWS_END(step_forms, STEP_FORMS);
 WR_FORMS(form_step, step_forms)
 
 static const WrArgSpec args_macro[] = {
-    { PLACE("FILE"), .type = WR_ARG_PATH, .help = "lines of commands, *.wrinkle" },
+    { PLACE("FILE"), .type = WR_ARG_PATH, .help = "file of commands, *.wrinkle" },
     { .name = "values",
       .type = WR_ARG_TEXT,
       .shape = "\"N: NAME=VALUE ...; N: ...\"",
       .check = check_values,
-      .help = "other values of its lines, which are counted from 1" },
-    { .name = "sha256", .type = WR_ARG_SHA256, .help = "of the file; left out, any content" },
+      .help = "replacement arguments for its lines, counted from 1" },
+    { .name = "sha256",
+      .type = WR_ARG_SHA256,
+      .help = "SHA-256 of the file; left out, any content" },
     { 0 }
 };
 
@@ -615,10 +617,9 @@ const WrCommand wr_command_step = {
     .run = run_step,
     .after_journal = true,
     .help = "change earlier steps of the history",
-    .details =
-        "The steps after a changed one run again; one `undo` reverts the change. If one of "
-        "them cannot run any more, nothing changes and the error names it. A step that is off "
-        "is left out of scripts.",
+    .details = "All steps after a changed one run again; one `undo` reverts the change. If one of "
+               "them fails, nothing changes and the error names it. Steps that are off are left "
+               "out of scripts.",
     .example = "step set 1 change=\"width=512\""
 };
 

@@ -260,16 +260,16 @@ bool wr_session_follow(WrSession *session, WrError *err)
 /* changes and additions for a terrain: 0 and 2 rows */
 static void form_terrain(WrArgSpec *args)
 {
-    args[0] = (WrArgSpec){ .name = "file",
-                           .type = WR_ARG_PATH,
-                           .help = "a picture, black low and white high; what is made of it is "
-                                   "saved inside the document" };
+    args[0] = (WrArgSpec){
+        .name = "file",
+        .type = WR_ARG_PATH,
+        .help = "a picture, black low and white high; its heights are saved in the document"
+    };
     args[2] = (WrArgSpec){ .name = "layer",
                            .type = WR_ARG_TEXT,
                            .shape = "NAME",
-                           .help = "instead: its name or number, bottom 1; the layer is the "
-                                   "ground's form from now on, as it is painted, and hidden as "
-                                   "a bump" };
+                           .help = "instead of file=: name or number of a layer, whose heights "
+                                   "shape the ground while it is painted; it is hidden as a bump" };
 }
 
 /* ---- The mesh of `surface mesh file=`: reading, notes, storage in documents ---- */
@@ -894,8 +894,9 @@ static const WrArgSpec projection_args[] = {
       .type = WR_ARG_CHOICE,
       .words = wr_projection_names,
       .fallback_text = "uv",
-      .help = "the texture coordinates: the file's own; along the projection's z; by each face's "
-              "direction along x, y or z; about z; about a point" },
+      .help = "texture coordinates. uv: the file's own; planar: along the projection's z; box: "
+              "along x, y or z, chosen for each face by its normal; cylindrical: about z; "
+              "spherical: about a point" },
     { .name = "cell",
       .type = WR_ARG_TUPLE,
       .components = 2,
@@ -906,76 +907,75 @@ static const WrArgSpec projection_args[] = {
       .length = true,
       .unit = "mm",
       .fallback = wr_projection_default.cell,
-      .help = "size of the table on the mesh; replicate divides it; about an axis the width is "
-              "fitted so that a whole number goes round" },
+      .help = "size of the table on the mesh, divided by replicate; around an axis the width is "
+              "adjusted so that a whole number fits" },
     { TRIPLE("turn", "X,Y,Z", -360, 360), .unit = "degrees",
       .fallback = wr_projection_default.turn_deg,
-      .help = "of the projection about the mesh's x, then y, then z" },
+      .help = "rotation of the projection about the mesh's x, then y, then z axis" },
     { TRIPLE("at", "X,Y,Z", -1e9, 1e9),
-      .help = "origin of the projection, in the file's unit; left out, the middle of the mesh" },
+      .help = "origin of the projection, in the file's unit; left out, the centre of the mesh" },
     { .name = "udim",
       .also = "tile",
       .type = WR_ARG_TEXT,
       .shape = "all|NUMBER",
       .check = check_udim,
-      .help =
-          "tile of the file's (u,v) that shows the table, from 1001; the others have no relief. "
-          "all, or left out: the table repeats on each" },
+      .help = "UDIM tile that shows the table, from 1001; other tiles have no relief. all, or left "
+              "out: every tile shows the table" },
     { .name = "unit",
       .type = WR_ARG_CHOICE,
       .words = wr_length_units,
-      .help = "of the file's numbers; left out, m for glTF, the file's own for 3MF, else mm" },
+      .help = "unit of the file's coordinates; left out, m for glTF, the unit in the file for 3MF, "
+              "else mm" },
     { TRIPLE("origin", "X,Y,Z", -1e30, 1e30), .fallback = wr_projection_default.origin,
-      .help =
-          "place of the mesh's origin in the file's coordinates, where solids are exported; left "
-          "out, 0,0,0, or for a mesh far from its file's origin the nearest corner of its box" },
+      .help = "origin of the mesh in the file's coordinates, to which exported solids are moved "
+              "back; left out, 0,0,0, or for a mesh far from the file's origin the nearest corner "
+              "of its box" },
     { .name = "crease",
       .type = WR_ARG_NUMBER,
       .high = WR_CREASE_NONE,
       .fallback = &wr_projection_default.crease_deg,
       .unit = "degrees",
-      .help = "below 180 normals are made anew: faces that meet at more than this have separate "
-              "ones, others smooth ones; 180: those of the file" },
+      .help = "crease angle: below 180, normals are computed again, smooth except where faces meet "
+              "at a larger angle; 180: the file's normals" },
     { .name = "blend",
       .type = WR_ARG_NUMBER,
       .high = 1,
       .fallback = &wr_projection_default.blend,
-      .help =
-          "of a box's planes: width of the zone in which the heights of two or three are mixed, "
-          "so that the relief runs on across their borders; 0: each triangle has one plane" },
+      .help = "for box projection: width of the zone in which the heights of two or three planes "
+              "are blended, so that the relief is continuous across their borders; 0: each "
+              "triangle uses one plane" },
     { .name = "facing",
       .type = WR_ARG_CHOICE,
       .words = wr_facing_names,
       .fallback_text = "any",
-      .help =
-          "relief only where the mesh faces along this axis of the projection; out and in: from "
-          "and to its z axis, of a spherical one its centre" },
+      .help = "relief only where the mesh faces along this axis of the projection; out and in: "
+              "away from and towards its z axis, or its centre if spherical" },
     { .name = "angle",
       .type = WR_ARG_NUMBER,
       .high = 180,
       .fallback = &wr_projection_default.facing_deg,
       .unit = "degrees",
-      .help = "of facing=: the largest one between normal and direction" },
+      .help = "for facing=: largest angle between normal and direction" },
     { .name = "soft",
       .type = WR_ARG_NUMBER,
       .high = 180,
       .fallback = &wr_projection_default.facing_soft_deg,
       .unit = "degrees",
-      .help = "of facing=: relief fades out over so many beyond the angle; 0: whole triangles have "
-              "it or not" },
+      .help = "for facing=: width of the fade beyond the angle; 0: no fade, each triangle is "
+              "inside or outside" },
     { .name = "materials",
       .type = WR_ARG_TEXT,
       .shape = "NAME,...",
       .may_be_empty = true,
-      .help = "relief only on these materials or parts of the file, by names or numbers, from 1; "
+      .help = "relief only on these materials or parts of the file, by name, or by number from 1; "
               "\"\": on all" },
     { .name = "mask",
       .type = WR_ARG_TEXT,
       .shape = "LAYER",
       .may_be_empty = true,
-      .help = "relief only where this layer, its name or number, is above 0, in full where it is 1 "
-              "or more; it lies in the mesh's own (u,v), whatever the projection, and is hidden as "
-              "a bump; \"\": none" },
+      .help = "name or number of a layer that scales the relief: none where it is 0 or less, full "
+              "where it is 1 or more. It uses the mesh's own (u,v), whatever the projection, and "
+              "is hidden as a bump; \"\": no mask" },
 };
 
 static void form_mesh(WrSurfaceKind kind, WrArgSpec *args)
@@ -983,24 +983,24 @@ static void form_mesh(WrSurfaceKind kind, WrArgSpec *args)
     args[0] =
         (WrArgSpec){ .name = "file",
                      .type = WR_ARG_PATH,
-                     .help =
-                         "the mesh, in its own unit and axes; it is saved inside the document" };
+                     .help = "the mesh, in its own unit and axes; it is saved in the document" };
     args[1] = (WrArgSpec){ .name = "sha256",
                            .type = WR_ARG_SHA256,
-                           .help = "of the file: another content is then an error" };
+                           .help = "SHA-256 of the file; a file with other content is an error" };
     if (kind == WR_SURFACE_mesh) memcpy(args + 2, projection_args, sizeof projection_args);
     if (kind == WR_SURFACE_terrain) form_terrain(args);
     if (kind == WR_SURFACE_patches)
-        args[2] =
-            (WrArgSpec){ .name = "table",
-                         .type = WR_ARG_CHOICE,
-                         .choice = table_name,
-                         .fallback_text = "each",
-                         .help = "each patch has the whole table by its own u and v; or "
-                                 "turned so that it runs on across shared edges; or a cell "
-                                 "of one table, on which the set is unfolded; or a cell of its "
-                                 "own, in rows, within a margin that keeps others' heights "
-                                 "out. Without a file: of the set that is there" };
+        args[2] = (WrArgSpec){
+            .name = "table",
+            .type = WR_ARG_CHOICE,
+            .choice = table_name,
+            .fallback_text = "each",
+            .help = "each: each patch shows the whole table by its own u and v; joined: rotated so "
+                    "that it continues across shared edges; split: each patch shows its part of "
+                    "one table, on which the set is unfolded; own: each patch shows a cell of its "
+                    "own in a grid, with a margin that keeps out other cells' heights. Without a "
+                    "file, it applies to the present set"
+        };
 }
 
 /* ---- Surface and bump commands: surface, rotate, analytic, bump, replicate ---- */
@@ -1269,7 +1269,7 @@ static const WrForm analytic_forms[] = {
                                            .rows_high = WR_TERMS_MAX,
                                            .shape = "k,l,a[,phase_u,phase_v];...",
                                            .help = "the terms" } } },
-    [WR_ROW(FORM_OFF)] = { .name = "off", .help = "the table again" },
+    [WR_ROW(FORM_OFF)] = { .name = "off", .help = "the table, as without a formula" },
 };
 WR_ROWS_END(analytic_forms, ANALYTIC_FORMS);
 
@@ -1314,13 +1314,13 @@ static bool row_bump(WrForm *out)
     *out = (WrForm){ .args = { { .name = "mode",
                                  .type = WR_ARG_CHOICE,
                                  .choice = bump_name,
-                                 .help = "how the normal is made: unchanged, the paper's N + D, "
-                                         "the same whatever the scale, or "
-                                         "the true normal of the displaced surface" },
+                                 .help = "normal formula. none: unchanged; blinn: N + D of the "
+                                         "paper; invariant: independent of the surface's scale; "
+                                         "exact: the true normal of the displaced surface" },
                                { .name = "scheme",
                                  .type = WR_ARG_CHOICE,
                                  .choice = scheme_name,
-                                 .help = "how F is differentiated" } } };
+                                 .help = "interpolation scheme, by which F is differentiated" } } };
     return wr_scene_args("bump", NULL, out->args + 2) > 0;
 }
 
@@ -1339,11 +1339,10 @@ static bool row_rotate(WrForm *out)
 {
     *out = (WrForm){ 0 };
     const int count = wr_scene_args("rotate", NULL, out->args);
-    out->args[count] =
-        (WrArgSpec){ .name = "pose",
-                     .type = WR_ARG_CHOICE,
-                     .choice = pose_word,
-                     .help = "instead: the pose in which each surface first shows itself" };
+    out->args[count] = (WrArgSpec){ .name = "pose",
+                                    .type = WR_ARG_CHOICE,
+                                    .choice = pose_word,
+                                    .help = "instead of angles: the surface's default pose" };
     return true;
 }
 
@@ -1358,16 +1357,14 @@ const WrCommand wr_command_surface = {
     .print = print_surface,
     .print_content = print_surface_content,
     .of_object = true,
-    .help = "the surface that the table wrinkles",
-    .details =
-        "Parameters that are left out take their defaults. A mesh without a file is a square of "
-        "two triangles; without one, but with a projection's settings, it is the mesh that is "
-        "there, whose other settings stay. The size of its table is cell=, not that of the command "
-        "cell, which is for exported maps. On a cube faces=6 assigns each face a cell of its own "
-        "of the table, three "
-        "beside two from the lower left (front, right, back; left, top, bottom), within a margin "
-        "of a 32nd: in cells of 64 texels and more no scheme but bspline-fit, and no filter, "
-        "reads another face's heights.",
+    .help = "choose the surface of the object",
+    .details = "Arguments that are left out take their defaults. `surface mesh` without a file is "
+               "a square of two triangles, or with settings of the projection the present mesh, "
+               "whose other settings stay. The size of the table on a mesh is its cell=; the "
+               "command `cell` is for exported maps. On a cube, faces=6 gives each face its own "
+               "cell of the table, in three columns and two rows from the lower left (front, "
+               "right, back; left, top, bottom), with a margin of 1/32. In cells of 64 texels and "
+               "more no filter, and no scheme except bspline-fit, reads another face's heights.",
     .example = "surface torus R=1 r=0.35"
 };
 
@@ -1380,12 +1377,11 @@ const WrCommand wr_command_rotate = {
     .in_object = true,
     .of_several = rotate_as_edit,
     .of_object = true,
-    .help = "the object's orientation",
+    .help = "rotate the object",
     .details =
-        "It replaces the pose in which the surface first shows itself, and turns about the "
-        "object's centre. A view is no edit: undo leaves it as it is, `view back` goes back. Of "
-        "several objects, a ground being one, it turns the chosen one, which is an edit: "
-        "`object set turn=`.",
+        "Replaces the surface's default pose; the rotation is about the object's centre. It is a "
+        "view, not an edit: undo does not change it, `view back` goes back. With several objects, "
+        "of which a ground is one, it rotates the active one, and is an edit: `object set turn=`.",
     .example = "rotate -90,0,30"
 };
 
@@ -1397,9 +1393,9 @@ const WrCommand wr_command_analytic = {
     .run = run_analytic,
     .print = print_analytic,
     .of_object = true,
-    .help = "a formula in place of the table",
-    .details = "It is evaluated at (ru u, rv v) reduced to [0,1), like a table, with exact "
-               "derivatives.",
+    .help = "use a formula in place of the table",
+    .details =
+        "It is evaluated at (ru u, rv v), reduced to [0,1) like a table, with exact derivatives.",
     .example = "analytic fourier terms=3,0,0.5;0,5,0.25,90,0"
 };
 
@@ -1409,7 +1405,7 @@ const WrCommand wr_command_bump = { .name = "bump",
                                     .run = run_bump,
                                     .print = print_bump,
                                     .of_object = true,
-                                    .help = "how the table turns the normal",
+                                    .help = "set the bump mapping of the object",
                                     .details = "Only given arguments change.",
                                     .example = "bump mode=exact height=0.05" };
 
@@ -1419,7 +1415,7 @@ const WrCommand wr_command_replicate = { .name = "replicate",
                                          .run = run_replicate,
                                          .print = print_replicate,
                                          .of_object = true,
-                                         .help = "how often the table repeats over the surface",
+                                         .help = "set how often the table repeats over the surface",
                                          .example = "replicate 6,3" };
 
 /* ---- The command cell: physical size of the unit cell, used by exports, solids and labels ---- */
@@ -1454,11 +1450,10 @@ const WrCommand wr_command_cell = {
     .row = row_cell,
     .run = run_cell,
     .print = print_cell,
-    .help = "how large the unit cell is outside",
+    .help = "set the size of the exported cell",
     .details =
-        "Slopes and normals that are exported go by it, so do solids of a plane, and files "
-        "tell it in their labels; pictures of the scene do not. In millimetres F = 1 is as high as "
-        "height= says; in scene units as `bump height=` says. "
-        "Only given arguments change.",
+        "Exported slopes and normals use this size, and so do solids of a plane; files store it in "
+        "their metadata. Pictures of the scene do not depend on it. In millimetres, F = 1 has the "
+        "height height=; in scene units, that of `bump height=`. Only given arguments change.",
     .example = "cell 120,80 mm=on height=2.5"
 };

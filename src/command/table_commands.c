@@ -318,8 +318,8 @@ static const WrArgSpec args_table[] = {
       .type = WR_ARG_CHOICE,
       .choice = wr_document_wrap_name,
       .fallback_text = "periodic",
-      .help =
-          "continuation beyond the edges: the table again, or its edge for u, for v, for both" },
+      .help = "continuation beyond the edges. periodic: the table repeats; the others: the edge "
+              "value is used along u, v, or both" },
     { 0 }
 };
 
@@ -340,7 +340,7 @@ static const WrArgSpec args_grid[] = { { .name = "cells",
                                          .high = WR_FIELD_MAX,
                                          .fallback = NUMBERS(8),
                                          .unit = "texels",
-                                         .help = "of the lines" },
+                                         .help = "width of the lines" },
                                        { .name = "low",
                                          .type = WR_ARG_NUMBER,
                                          .low = -WR_BIG_HEIGHT,
@@ -360,26 +360,28 @@ static const WrArgSpec args_image[] = {
     { .name = "fit",
       .type = WR_ARG_CHOICE,
       .choice = fit_name,
-      .help = "resample the picture to the table's size; without it the table gets the picture's" },
+      .help = "table: resample the picture to the table's size; left out, the table takes the "
+              "picture's size" },
     WR_ARGS_OF_FILE,
     { .name = "labels",
       .type = WR_ARG_CHOICE,
       .choice = labels_name,
       .fallback_text = "use",
-      .help =
-          "what export wrote into the file: the heights of its codes, or that it is a normal map" },
+      .help = "use: read the metadata that export stored, the range of heights or that it is a "
+              "normal map; ignore: read plain codes" },
     { .name = "sha256",
       .type = WR_ARG_SHA256,
-      .help = "of the file: another content is then an error" },
+      .help = "SHA-256 of the file; a file with other content is an error" },
     { 0 }
 };
 
-static const WrArgSpec args_open[] = { { PLACE("FILE"), .type = WR_ARG_PATH,
-                                         .help = "a document, or an SVG file" },
-                                       { .name = "sha256",
-                                         .type = WR_ARG_SHA256,
-                                         .help = "of the file: another content is then an error" },
-                                       { 0 } };
+static const WrArgSpec args_open[] = {
+    { PLACE("FILE"), .type = WR_ARG_PATH, .help = "a document, or an SVG file" },
+    { .name = "sha256",
+      .type = WR_ARG_SHA256,
+      .help = "SHA-256 of the file; a file with other content is an error" },
+    { 0 }
+};
 
 /* ---- the rows ---- */
 
@@ -388,10 +390,10 @@ const WrCommand wr_command_table = {
     .kind = WR_CLASS_EDIT,
     .args = args_table,
     .run = run_table,
-    .help = "a new height table, everywhere 0",
-    .details = "It has one layer, and nothing is selected. Each layer needs 4 bytes a texel where "
-               "its heights differ: 1.1 GB for 16384x16384. A command needs up to 9 times that "
-               "beside the document while it runs; most need 1 or 2 times.",
+    .help = "create a table of heights 0",
+    .details = "The table has one layer and no selection. Each layer needs 4 bytes per texel in "
+               "tiles whose heights differ: 1.1 GB for 16384x16384. A command needs up to 9 times "
+               "that in addition while it runs; most need 1 or 2 times.",
     .example = "table 512x256 wrap=clamp-v"
 };
 
@@ -399,7 +401,7 @@ const WrCommand wr_command_fill = { .name = "fill",
                                     .kind = WR_CLASS_EDIT,
                                     .args = args_fill,
                                     .run = run_fill,
-                                    .help = "set every height",
+                                    .help = "set all heights to a constant",
                                     .example = "fill 0.5" };
 
 const WrCommand wr_command_grid = {
@@ -407,10 +409,10 @@ const WrCommand wr_command_grid = {
     .kind = WR_CLASS_EDIT,
     .args = args_grid,
     .run = run_grid,
-    .help = "replace the heights by a gridwork of lines",
-    .details = "The lines lie on the boundaries of the cells. A texel is high where its centre, "
-               "measured from the nearest boundary towards the right and downwards, lies at p with "
-               "-width/2 <= p < width/2, along either axis; so the pattern is exact and periodic.",
+    .help = "replace the heights by a grid of lines",
+    .details = "The lines lie on the boundaries of the cells. A texel is high if along either axis "
+               "the offset p of its centre from the nearest boundary, to the right or downwards, "
+               "satisfies -width/2 <= p < width/2; so the pattern is exact and periodic.",
     .example = "grid cells=4x4 width=6 high=0.5"
 };
 
@@ -419,11 +421,10 @@ const WrCommand wr_command_open = {
     .kind = WR_CLASS_EDIT,
     .args = args_open,
     .run = run_open,
-    .help = "take a document's layers, selection and scene",
-    .details = "Of an SVG file: a table with the proportions of its page, 1024 "
-               "texels on the longer side, and the drawing as a generator "
-               "layer; the scene stays. In a script the file is looked up "
-               "beside the script.",
+    .help = "open a document",
+    .details = "Replaces layers, selection and scene. An SVG file opens as a table with the "
+               "proportions of its page, 1024 texels on the longer side, and the drawing as a "
+               "generator layer; the scene stays. In a script, the path is relative to the script.",
     .example = "open bricks.exr"
 };
 
@@ -432,12 +433,11 @@ const WrCommand wr_command_image = {
     .kind = WR_CLASS_EDIT,
     .args = args_image,
     .run = run_image,
-    .help = "take the heights from a picture",
+    .help = "read the heights from a picture",
     .details =
-        "8-bit and 16-bit pictures read as 0..1, float ones as their values; of RGB the Rec. "
-        "709 luma of the codes is taken. A file that export wrote is read as its own kind: "
-        "codes "
-        "as the heights of its label, a normal map as the heights that have its normals. "
-        "The table keeps its wrap. In a script the file is looked up beside the script.",
+        "8-bit and 16-bit pictures are read as 0..1, float pictures as their values; colours are "
+        "converted to the Rec. 709 luma of the codes. A file written by export is read by its "
+        "metadata: codes become the heights they stand for, a normal map is integrated. The table "
+        "keeps its wrap. In a script, the path is relative to the script.",
     .example = "image bricks.png fit=table"
 };

@@ -35,13 +35,12 @@ typedef struct WrText WrText;
 #define WR_ARGS_REPEAT                                                                             \
     {                                                                                              \
         .name = "repeat", .type = WR_ARG_TEXT, .shape = "table|once|ru,rv", .check = check_repeat, \
-        .help = "how often it is laid along u and v: as often as replicate says, like the table; " \
-                "once; or so often. Left out: table"                                               \
+        .help = "repeats along u and v; table: those of replicate; once: one. Left out, table"     \
     }
 #define WR_ARGS_SHA256                                                                             \
     {                                                                                              \
         .name = "sha256", .type = WR_ARG_SHA256,                                                   \
-        .help = "of the file: another content is then an error"                                    \
+        .help = "SHA-256 of the file; a file with other content is an error"                       \
     }
 
 /* ---- arguments of a texture file ---- */
@@ -441,8 +440,8 @@ static const WrArgSpec args_colour[] = {
       .type = WR_ARG_PATH,
       .positional = true,
       .words = off_words,
-      .help = "a picture that is laid over u and v, or off (a file of that name is ./off). Left "
-              "out: the one that is there, of which repeat may change" },
+      .help = "a picture over u and v, or off (a file of that name is ./off); left out, the "
+              "present picture, whose repeat= may change" },
     WR_ARGS_REPEAT,
     WR_ARGS_OF_FILE,
     WR_ARGS_SHA256,
@@ -454,54 +453,53 @@ static const WrArgSpec args_normals[] = {
       .type = WR_ARG_PATH,
       .positional = true,
       .words = none_words,
-      .help = "a picture of normals, or off (none is off too; a file of that name is ./off). Left "
-              "out: the one that is there, of which strength, combine, repeat, space, frame and "
-              "green may change" },
+      .help = "a picture of normals, or off (none means off too; a file of that name is ./off); "
+              "left out, the present map, whose strength, combine, repeat, space, frame and green "
+              "may change" },
     { .name = "space",
       .type = WR_ARG_CHOICE,
       .words = spaces,
       .fallback_text = "tangent",
       .help = "tangent: x along u, y along v, z up; object: along the object's axes. Without a "
-              "file the vectors that are there are taken so" },
+              "file, how the present vectors are interpreted" },
     { .name = "frame",
       .type = WR_ARG_CHOICE,
       .words = wr_normal_frame_names,
       .fallback_text = "auto",
-      .help = "which way x and y run. gradient: they make slopes of heights over a cell of one "
-              "unit, as the table's; mikk: unit vectors by the rules of MikkTSpace, as other "
-              "programs bake; lecture: unit vectors along Pu and Pv; auto: mikk on a mesh, else "
-              "gradient" },
+      .help = "tangent frame. gradient: slopes of heights over a cell of one unit, as the table's; "
+              "mikk: unit vectors of MikkTSpace, as other programs bake; lecture: unit vectors "
+              "along Pu and Pv; auto: mikk on a mesh, else gradient" },
     { .name = "green",
       .type = WR_ARG_CHOICE,
       .words = greens,
       .fallback_text = "auto",
-      .help = "which way its second number runs: up the picture, down, or as its label or its "
-              "slopes tell" },
+      .help = "direction of the second channel: up the picture, down, or auto: from the file's "
+              "metadata or the slopes" },
     { .name = "channels",
       .type = WR_ARG_CHOICE,
       .words = channel_counts,
       .fallback_text = "auto",
-      .help = "3: all are read; 2: z is rebuilt from x and y; auto: as many as there are" },
+      .help =
+          "channels to read. 3: all; 2: z is computed from x and y; auto: all that the file has" },
     { .name = "coding",
       .type = WR_ARG_CHOICE,
       .words = wr_codings,
       .fallback_text = "auto",
-      .help =
-          "of floats: unit: 0..1 stands for -1..1; signed: the vectors' own numbers; auto: what "
-          "is nearer to vectors of length 1" },
+      .help = "coding of float pictures. unit: 0..1 stands for -1..1; signed: the vectors "
+              "themselves; auto: the one whose vectors are nearer to length 1" },
     { .name = "strength",
       .type = WR_ARG_NUMBER,
       .low = -100,
       .high = 100,
-      .help = "its slopes times this. Of a new map: 1" },
+      .help = "factor of its slopes; for a new map 1" },
     { .name = "combine",
       .type = WR_ARG_CHOICE,
       .words = wr_combine_names,
       .fallback_text = "slopes",
-      .help = "the table's relief over it. slopes: both add, as heights do; reoriented: the "
-              "relief's normal turns with the map's, as other programs combine a detail map; "
-              "surface: as reoriented, and the relief is flatter where the map's slope stretches "
-              "it, as heights along the map's normal are" },
+      .help = "combination with the table's relief. slopes: both are added, as heights are; "
+              "reoriented: the relief's normal is rotated with the map's, as other programs "
+              "combine a detail map; surface: as reoriented, but the relief is flatter where the "
+              "map's slope stretches it, like heights along the map's normal" },
     WR_ARGS_REPEAT,
     WR_ARGS_OF_FILE,
     WR_ARGS_SHA256,
@@ -516,12 +514,11 @@ const WrCommand wr_command_colour = {
     .print = print_colour,
     .print_content = print_colour_content,
     .of_object = true,
-    .help = "a colour picture on the surface",
-    .details =
-        "8-bit and 16-bit pictures are decoded from sRGB, float ones taken as linear; alpha is "
-        "left out. Beyond its ends it goes on as the table does. Under dials aa=filter and "
-        "aa=moments each pixel has the mean of the picture over its area. It is saved inside "
-        "the document.",
+    .help = "set a colour picture on the surface",
+    .details = "8-bit and 16-bit pictures are decoded from sRGB, float pictures are linear; alpha "
+               "is ignored. Beyond its edges it continues as the table does. With dials aa=filter "
+               "and aa=moments each pixel shows the mean of the picture over its area. It is saved "
+               "in the document.",
     .example = "colour peel.png repeat=once"
 };
 
@@ -533,16 +530,13 @@ const WrCommand wr_command_normalmap = {
     .print = print_normals,
     .print_content = print_normals_content,
     .of_object = true,
-    .help = "a normal map on the surface",
-    .details =
-        "Its slopes are added to those of the table, or combined otherwise (combine=). The map "
-        "that `export normal` writes of a "
-        "table with "
-        "cell=1,1 turns the normal as the table does. A picture of normals is data, and never "
-        "colour-converted; 8-bit and 16-bit codes are 2 c/M - 1, float numbers by coding. "
-        "Where most texels are 128,128 "
-        "(32768 of 16 bits) that code stands for 0. A note reports the choice. Beyond its ends "
-        "it goes on as the table does. It is saved inside the document.",
+    .help = "set a normal map on the surface",
+    .details = "Its slopes are added to those of the table, or combined by combine=. The map that "
+               "`export normal` writes for a table with cell=1,1 has the same effect as the table. "
+               "A normal map is data and never colour-converted: 8-bit and 16-bit codes mean 2 c/M "
+               "- 1, floats depend on coding=. If most texels are 128,128 (32768 in 16 bits), that "
+               "code means 0; a note reports the choice. Beyond its edges it continues as the "
+               "table does. It is saved in the document.",
     .example = "normalmap rivets.png green=down strength=1"
 };
 
@@ -664,8 +658,8 @@ static const WrArgSpec args_facet[] = {
       .type = WR_ARG_PATH,
       .positional = true,
       .words = off_words,
-      .help = "a picture that is laid over u and v, or off (a file of that name is ./off). Left "
-              "out: the one that is there, of which repeat may change" },
+      .help = "a picture over u and v, or off (a file of that name is ./off); left out, the "
+              "present picture, whose repeat= may change" },
     WR_ARGS_REPEAT,
     WR_ARGS_OF_FILE,
     WR_ARGS_SHA256,
@@ -680,13 +674,12 @@ const WrCommand wr_command_roughness = {
     .print = print_roughness,
     .print_content = print_roughness_content,
     .of_object = true,
-    .help = "a picture of how rough the surface is where",
-    .details =
-        "In the place of the material's roughness, and of a solid texture's. Its numbers are data, "
-        "0 smooth and 1 rough, and never colour-converted; of a picture of three channels G is "
-        "taken, as glTF packs it, unless channel= is given. Beyond its ends it goes on as "
-        "the table does. Under dials aa=filter and aa=moments each pixel has the mean of what it "
-        "covers. It is saved inside the document.",
+    .help = "set a roughness map",
+    .details = "Replaces the roughness of the material and of a solid texture. Its values are "
+               "data, 0 smooth and 1 rough, and never colour-converted. Of a picture with three "
+               "channels G is used, as in glTF, unless channel= is given. Beyond its edges it "
+               "continues as the table does. With dials aa=filter and aa=moments each pixel shows "
+               "the mean over its area. It is saved in the document.",
     .example = "roughness worn.png repeat=once"
 };
 
@@ -698,10 +691,9 @@ const WrCommand wr_command_metalness = {
     .print = print_metalness,
     .print_content = print_metalness_content,
     .of_object = true,
-    .help = "a picture of where the surface is of metal",
-    .details =
-        "In the place of the material's metalness, of model ggx. As roughness, but that of three "
-        "channels B is taken: one packed picture of glTF serves both.",
+    .help = "set a metalness map",
+    .details = "Replaces the metalness of the material, for model ggx. Like `roughness`, but of "
+               "three channels B is used: one packed picture of glTF serves for both.",
     .example = "metalness worn.png repeat=once"
 };
 
@@ -879,10 +871,10 @@ static const WrArgSpec args_gltf[] = {
     { .name = "part",
       .type = WR_ARG_NAME,
       .shape = "N or NAME",
-      .help = "of its materials; left out: that of its first triangles" },
+      .help = "name or number of the material; left out, that of the first triangles" },
     { .name = "sha256",
       .type = WR_ARG_SHA256,
-      .help = "of the file: another content is then an error" },
+      .help = "SHA-256 of the file; a file with other content is an error" },
     { 0 }
 };
 
@@ -893,13 +885,12 @@ const WrCommand wr_command_gltf = {
     .run = run_gltf,
     .print = print_gltf,
     .of_object = true,
-    .help = "the material of a glTF file",
-    .details =
-        "Base colour, metalness, roughness and the strength of its normals become those of the "
-        "object's material, of model ggx, and its pictures of colours, of normals, of roughness "
-        "(G) and metalness (B) are laid over the mesh once, out of the file or from beside it, as "
-        "colour, normalmap, roughness and metalness lay them: there they are called FILE.glb#N, N "
-        "the image's place in the file from 0. A note lists unused parts.",
+    .help = "use the material of a glTF file",
+    .details = "Base colour, metalness, roughness and strength of the normal map are copied to the "
+               "object's material, of model ggx. Its pictures of colour, normals, roughness (G) "
+               "and metalness (B), from the file or beside it, are set as by `colour`, "
+               "`normalmap`, `roughness` and `metalness`, with repeat=1,1; their names there are "
+               "FILE.glb#N, where N counts the file's images from 0. A note lists unused parts.",
     .example = "gltf helmet.glb"
 };
 
@@ -1098,8 +1089,8 @@ WR_ROWS(colouring_forms);
 static const WrForm colouring_forms[] = {
     [WR_ROW(
         FORM_RAMP)] = { .name = "ramp",
-                        .help = "from stop to stop; only given arguments change, of a ramp of "
-                                "water, sand, meadows, rock and snow over 0..1 to begin with",
+                        .help = "a gradient of colours by height. Only given arguments change; at "
+                                "first water, sand, meadows, rock and snow over 0..1",
                         .args = { { .name = "stops",
                                     .type = WR_ARG_LIST,
                                     .components = 4,
@@ -1107,9 +1098,9 @@ static const WrForm colouring_forms[] = {
                                     .rows_low = 1,
                                     .rows_high = WR_STOPS_MAX,
                                     .shape = "height,r,g,b;...",
-                                    .help = "heights as the table or the terrain's picture has "
-                                            "them, rising, and their colours; two of one "
-                                            "height make a step" },
+                                    .help = "rising heights, in units of the table or the "
+                                            "terrain's picture, with their colours; two stops at "
+                                            "one height make a step" },
                                   { .name = "steep",
                                     .type = WR_ARG_TUPLE,
                                     .components = 3,
@@ -1121,35 +1112,35 @@ static const WrForm colouring_forms[] = {
                                     .components = 2,
                                     .low = 0,
                                     .high = 90,
-                                    .help = "from which slope on it shows, and from which on it "
-                                            "alone, degrees; 30,45 to begin with" },
+                                    .help = "slopes at which it begins and is complete, in "
+                                            "degrees; at first 30,45" },
                                   { .name = "cavity",
                                     .type = WR_ARG_TUPLE,
                                     .components = 3,
                                     .low = 0,
                                     .high = 1e6,
-                                    .help = "the colour of hollows: places lower than the mean "
-                                            "about it" },
+                                    .help =
+                                        "colour of hollows: places below the mean around them" },
                                   { .name = "depth",
                                     .type = WR_ARG_TUPLE,
                                     .components = 2,
                                     .low = 0,
                                     .high = 1e30,
-                                    .help = "how far below that it begins to show, and from where "
-                                            "on it is alone, as heights; 0.01,0.1 to begin with" },
+                                    .help = "depths below the mean at which it begins and is "
+                                            "complete, in heights; at first 0.01,0.1" },
                                   { .name = "within",
                                     .type = WR_ARG_NUMBER,
                                     .low = 0.05,
                                     .high = 512,
                                     .unit = "texels",
-                                    .help = "standard deviation of the mean's Gaussian; 8 to begin "
-                                            "with" },
+                                    .help = "standard deviation of the Gaussian that computes the "
+                                            "mean; at first 8" },
                                   { .name = "of",
                                     .type = WR_ARG_CHOICE,
                                     .words = of_words,
-                                    .help = "whose heights and slopes: the terrain's form, or "
-                                            "the table's, as it lies on a square of one unit" } } },
-    [WR_ROW(FORM_OFF)] = { .name = "off", .help = "no colours of heights" },
+                                    .help = "source of heights and slopes: the terrain's shape, or "
+                                            "the table on a square of one unit" } } },
+    [WR_ROW(FORM_OFF)] = { .name = "off", .help = "remove the colours by height" },
 };
 WR_ROWS_END(colouring_forms, COLOURING_FORMS);
 
@@ -1163,10 +1154,9 @@ const WrCommand wr_command_colouring = {
     .run = run_colouring,
     .print = print_colouring,
     .of_object = true,
-    .help = "colours by height, slope and cavity",
-    .details =
-        "It stands in the place of a colour picture, and is made anew when a command, or a stroke, "
-        "has changed the heights. Colours are linear.",
+    .help = "colour the surface by height, slope and cavity",
+    .details = "Replaces the colour picture, and is updated when a command or a stroke has changed "
+               "the heights. Colours are linear.",
     .example = "colouring ramp stops=0,0.1,0.3,0.1;1,0.9,0.9,0.9 steep=0.3,0.25,0.2"
 };
 
@@ -1235,17 +1225,18 @@ static bool row_grain(WrForm *out)
                               .type = WR_ARG_CHOICE,
                               .positional = true,
                               .choice = kind_choice,
-                              .help = "rings about the axis, moved by noise; bands along it, moved "
-                                      "by creased noise; cubes of two colours; specks; one colour "
-                                      "going over into the other. Left out: that which is there" },
+                              .help = "pattern. wood: rings about the axis, distorted by noise; "
+                                      "marble: bands along it, distorted by creased noise; "
+                                      "checker: cubes of two colours; granite: specks; noise: a "
+                                      "blend of two colours. Left out, the present one" },
                             { .name = "axis",
                               .type = WR_ARG_CHOICE,
                               .choice = axis_choice,
-                              .help = "of the object, which rings go round and bands along" },
+                              .help = "axis of the object for rings and bands" },
                             { .name = "drives",
                               .type = WR_ARG_CHOICE,
                               .choice = drive_choice,
-                              .help = "target of the pattern; colour by default" } } };
+                              .help = "property that the pattern drives; colour by default" } } };
     return wr_scene_args("grain", NULL, out->args + 3) > 0;
 }
 
@@ -1256,13 +1247,12 @@ const WrCommand wr_command_grain = {
     .run = run_grain,
     .print = print_grain,
     .of_object = true,
-    .help = "a solid texture that the object is cut out of",
-    .details = "It goes through the object and turns with it: rings of wood end where it is cut "
-               "open. Its colours are multiplied with the material's and the colour picture's; as "
-               "bump it is a height that turns the normal, and as roughness it goes from smooth "
-               "to rough. Under dials aa=filter or moments, and on ground without end, what is "
-               "finer than a pixel is its mean. Of another kind than before all numbers that are "
-               "not given are that kind's usual ones; else only given arguments change. off "
-               "removes them all.",
+    .help = "set a solid texture",
+    .details = "The object looks carved from the texture, which turns with it. As colour, it is "
+               "multiplied by the material's colour and the colour picture; as bump, it is a "
+               "height that tilts the normal; as roughness, it varies from smooth to rough. With "
+               "dials aa=filter or aa=moments, and on endless ground, detail finer than a pixel is "
+               "replaced by its mean. A new kind starts with its usual values; otherwise only "
+               "given arguments change. off removes all solid textures.",
     .example = "grain wood rings=12 amount=0.6"
 };

@@ -395,30 +395,32 @@ static bool run_variant(WrSession *session, WrCall *call, WrError *err)
 
 #define VARIANT_NAME                                                                               \
     {                                                                                              \
-        PLACE("NAME"), .type = WR_ARG_NAME, .help = "of the variant"                               \
+        PLACE("NAME"), .type = WR_ARG_NAME, .help = "name of the variant"                          \
     }
 
 WR_ROWS(variant_forms);
 static const WrForm variant_forms[] = {
     [WR_ROW(VARIANT_ADD)] = { .name = "add",
-                              .help = "store the layers' present values as a new variant, in use",
+                              .help =
+                                  "store the layers' present settings as a new variant, and use it",
                               .args = { VARIANT_NAME } },
     [WR_ROW(VARIANT_USE)] = { .name = "use",
-                              .help = "give the layers the values of a variant",
+                              .help = "apply a variant to the layers",
                               .args = { VARIANT_NAME } },
-    [WR_ROW(VARIANT_SET)] = { .name = "set",
-                              .help = "store the layers' present values in a variant, in use then",
-                              .args = { { .name = "NAME",
-                                          .type = WR_ARG_NAME,
-                                          .positional = true,
-                                          .help = "left out, the one in use" } } },
+    [WR_ROW(
+        VARIANT_SET)] = { .name = "set",
+                          .help = "store the layers' present settings in a variant, and use it",
+                          .args = { { .name = "NAME",
+                                      .type = WR_ARG_NAME,
+                                      .positional = true,
+                                      .help = "name of the variant; left out, the one in use" } } },
     [WR_ROW(VARIANT_RENAME)] = { .name = "rename",
-                                 .help = "give a variant another name",
+                                 .help = "rename a variant",
                                  .args = { VARIANT_NAME,
                                            { PLACE("NEW"), .type = WR_ARG_NAME,
-                                             .help = "its new name" } } },
+                                             .help = "new name" } } },
     [WR_ROW(VARIANT_DELETE)] = { .name = "delete",
-                                 .help = "forget a variant; the layers stay as they are",
+                                 .help = "delete a variant; the layers do not change",
                                  .args = { VARIANT_NAME } },
 };
 WR_ROWS_END(variant_forms, VARIANT_FORMS);
@@ -431,13 +433,12 @@ const WrCommand wr_command_variant = {
     .form_word = "ACTION",
     .form = form_variant,
     .run = run_variant,
-    .help = "store and use sets of layers' values",
+    .help = "store and apply sets of layer settings",
     .details =
-        "A variant has each layer's visibility, blend, opacity and radius, the line of a generator "
-        "layer, the terms of a live mask and the values of a filter. A layer that is added later "
-        "is "
-        "hidden in it until `variant set`. <VARIANT> in the name of a file that "
-        "`export`, `maps` or `render` writes becomes the name of each variant in turn.",
+        "A variant stores each layer's visibility, blend mode, opacity and radius, the command of "
+        "a generator layer, the terms of a live mask and the arguments of a filter. A layer that "
+        "is added later is hidden in it until `variant set`. With <VARIANT> in a file name, "
+        "`export`, `maps` and `render` write one file for each variant.",
     .example = "variant add worn"
 };
 

@@ -15,8 +15,8 @@ WrExportSet wr_export_set_red, wr_export_set_green, wr_export_set_blue, wr_expor
       "occlusion, roughness, smoothness (1 less roughness), metalness (the material's), height, "  \
       "cavity, curvature, mask or wear, or a number everywhere; left out: occlusion",              \
       wr_export_set_red },                                                                         \
-        { "green", "MAP or 0..1", "likewise; left out: roughness", wr_export_set_green },          \
-        { "blue", "MAP or 0..1", "likewise; left out: metalness", wr_export_set_blue },            \
+        { "green", "MAP or 0..1", "as for red; left out: roughness", wr_export_set_green },        \
+        { "blue", "MAP or 0..1", "as for red; left out: metalness", wr_export_set_blue },          \
     {                                                                                              \
-        "alpha", "MAP or 0..1", "likewise; left out: there is none", wr_export_set_alpha           \
+        "alpha", "MAP or 0..1", "as for red; left out: no alpha", wr_export_set_alpha              \
     }

@@ -163,20 +163,21 @@ static bool set_grid(WrExportOptions *options, const char *value, WrError *err)
 #define DEPTH                                                                                      \
     {                                                                                              \
         "depth", "8, 16 or 32",                                                                    \
-            "bits a channel, 32 is float, as 16 is in exr; left out: the deepest the ending "      \
-            "holds",                                                                               \
+            "bits per channel; 32 is float, and so is 16 in exr; left out: the deepest of the "    \
+            "file format",                                                                         \
             set_depth                                                                              \
     }
 #define FLOATS                                                                                     \
     {                                                                                              \
-        "depth", "16 or 32", "bits a number; 16: halves, in exr alone; left out: 32", set_depth    \
+        "depth", "16 or 32", "bits per channel; 16: half floats, only in exr; left out: 32",       \
+            set_depth                                                                              \
     }
 #define RANGE                                                                                      \
     {                                                                                              \
         "range", "LOW,HIGH, auto or signed",                                                       \
-            "heights of the first and last code, others are clipped; auto: the table's own; "      \
-            "signed: 0 in the middle, exactly; "                                                   \
-            "left out: auto; float files hold heights as they are",                                \
+            "heights of the first and last code, beyond which they are clipped; auto: the "        \
+            "table's range; signed: 0 exactly in the middle; left out: auto. Float files store "   \
+            "unchanged heights",                                                                   \
             set_range                                                                              \
     }
 #define CELL                                                                                       \
@@ -190,14 +191,14 @@ static bool set_grid(WrExportOptions *options, const char *value, WrError *err)
     }
 #define DITHER                                                                                     \
     {                                                                                              \
-        "dither", "on or off", "hides the steps of 8-bit files; left out: off",                    \
+        "dither", "on or off", "dithers 8-bit files to hide steps; left out: off",                 \
             wr_export_set_dither                                                                   \
     }
 
 #define OBJECT                                                                                     \
     {                                                                                              \
-        "object", "NAME", "the table of this object; left out: that of all layers", set_object,    \
-            true                                                                                   \
+        "object", "NAME", "the table of this object; left out: the composite of all layers",       \
+            set_object, true                                                                       \
     }
 
 #define BODY                                                                                       \
@@ -208,15 +209,14 @@ static bool set_grid(WrExportOptions *options, const char *value, WrError *err)
 
 #define MAP_SIZE                                                                                   \
     {                                                                                              \
-        "size", "WIDTHxHEIGHT", "of the map in texels; left out: the table's",                     \
+        "size", "WIDTHxHEIGHT", "size of the map in texels; left out: the table's",                \
             wr_export_set_map_size                                                                 \
     }
 
 #define AXES                                                                                       \
     {                                                                                              \
         "axes", "+x+y+z, opengl or directx",                                                       \
-            "components in red, green and blue, in any order with any signs; left out: as the "    \
-            "name "                                                                                \
+            "axes in red, green and blue, in any order with any signs; left out: as the name "     \
             "says",                                                                                \
             wr_export_set_axes                                                                     \
     }
@@ -224,29 +224,28 @@ static bool set_grid(WrExportOptions *options, const char *value, WrError *err)
 #define NORMAL_OPTIONS                                                                             \
     {                                                                                              \
         DEPTH, CELL, SCHEME, DITHER, OBJECT, AXES,                                                 \
-            { "strength", "FACTOR", "of the slopes; left out: 1, as they are",                     \
-              wr_export_set_strength },                                                            \
+            { "strength", "FACTOR", "factor of the slopes; left out: 1", wr_export_set_strength }, \
             WR_OPTION_ENDIAN, WR_OPTION_SIDECAR, WR_OPTION_SHEET, WR_OPTION_MIPS, WR_OPTION_BORDER \
     }
 
 #define SOLID_OPTIONS                                                                              \
     {                                                                                              \
         { "size", "MM",                                                                            \
-          "longest side of the surface without its relief; left out: of a plane what "             \
-          "`cell mm=on` says, of a mesh its file's unit, else 100",                                \
+          "longest side of the surface without its relief; left out: for a plane by `cell "        \
+          "mm=on`, for a mesh by the unit of its file, else 100",                                  \
           wr_export_set_solid_size },                                                              \
-            { "error", "MM", "how far a texel may be from its triangle; left out: 0.05",           \
+            { "error", "MM", "largest distance of a texel from its triangle; left out: 0.05",      \
               wr_export_set_solid_error },                                                         \
             { "thickness", "MM",                                                                   \
-              "under the lowest texel; left out: 2 for a sheet, a tube is filled",                 \
+              "thickness under the lowest texel; left out: 2 for a sheet; a tube is solid",        \
               wr_export_set_thickness },                                                           \
-            { "triangles", "COUNT", "at most, without a back; left out: 4000000",                  \
+            { "triangles", "COUNT", "largest number, without the back; left out: 4000000",         \
               wr_export_set_triangles },                                                           \
             { "edges", "sharp or round",                                                           \
-              "of a mesh: hard edges under relief stay sharp or become round; left out: sharp",    \
+              "for a mesh: hard edges under relief stay sharp or become round; left out: sharp",   \
               wr_export_set_edges },                                                               \
             { "folds", "keep or limit",                                                            \
-              "of a mesh: relief that folds over is kept or lowered; left out: keep",              \
+              "for a mesh: relief that overlaps itself is kept or lowered; left out: keep",        \
               wr_export_set_folds },                                                               \
             BODY                                                                                   \
     }
@@ -289,7 +288,7 @@ const WrExportKind wr_export_kinds[] = {
       .describe = wr_export_normal_describe },
     { .name = "normal-object",
       .label = "normal map along the object's axes",
-      .help = "the surface's own normals as the bump turns them, for one object as it is",
+      .help = "normals in the object's own axes, bump included: valid for this object only",
       .options = { DEPTH, DITHER, OBJECT, AXES, MAP_SIZE },
       .channels = 3,
       .green = 1.0,
@@ -298,14 +297,14 @@ const WrExportKind wr_export_kinds[] = {
       .describe = wr_export_object_describe },
     { .name = "normal-baked",
       .label = "normal map baked for the mesh",
-      .help = "the mesh's own normals as the bump and its normal map turn them, in the frames of "
-              "MikkTSpace: Blender, Unreal, Unity, Godot, glTF",
+      .help = "normals of the mesh with bump and normal map, in tangent frames of MikkTSpace: "
+              "Blender, Unreal, Unity, Godot, glTF",
       .options = { DEPTH,
                    DITHER,
                    OBJECT,
                    AXES,
                    MAP_SIZE,
-                   { "padding", "TEXELS", "about the islands of (u,v), 0..64; left out: 8",
+                   { "padding", "TEXELS", "margin around the islands of (u,v), 0..64; left out: 8",
                      wr_export_set_padding } },
       .channels = 3,
       .green = 1.0,
@@ -325,15 +324,15 @@ const WrExportKind wr_export_kinds[] = {
       .describe = wr_export_derived_describe },
     { .name = "bump-slopes",
       .label = "bump slopes",
-      .help = "height, slopes and their products on every level of a tiled exr, for textures that "
-              "are filtered: OpenImageIO, RenderMan, Arnold",
+      .help = "height, slopes and their products on every mip level of a tiled exr, for filtered "
+              "textures: OpenImageIO, RenderMan, Arnold",
       .options = { FLOATS,
                    SCHEME,
                    { "signs", "plain or renderman",
-                     "renderman: slopes turned round, as txmake has them; left out: plain",
+                     "renderman: negated slopes, as by txmake; left out: plain",
                      wr_export_set_signs },
                    { "uvslopes", "DIVISOR",
-                     "slopes over the whole cell, divided by this; left out: 0, per texel",
+                     "slopes per whole cell, divided by this; left out: 0, slopes per texel",
                      wr_export_set_uvslopes },
                    OBJECT,
                    WR_OPTION_SIDECAR,
@@ -376,7 +375,7 @@ const WrExportKind wr_export_kinds[] = {
       .describe = wr_export_map_describe },
     { .name = "horizon",
       .label = "horizons",
-      .help = "slopes up to the horizon: in one direction, or a channel of floats a direction",
+      .help = "slope of the horizon in one direction, or one float channel per direction",
       .options = { DEPTH, CELL, DITHER, OBJECT, WR_OPTION_DIRECTIONS, WR_OPTION_REACH,
                    WR_OPTION_TOWARD, WR_OPTION_STEEPEST, WR_OPTION_SHEET },
       .channels = 1,
@@ -386,8 +385,7 @@ const WrExportKind wr_export_kinds[] = {
       .describe = wr_export_map_describe },
     { .name = "cavity",
       .label = "cavity",
-      .help = "depth of a texel below its surroundings, dark in grooves; float files hold the "
-              "depth, below 0",
+      .help = "depth below the surroundings, dark in grooves; float files hold the depth, below 0",
       .options = { DEPTH, DITHER, OBJECT, WR_OPTION_RADIUS, WR_OPTION_DEEPEST, WR_OPTION_SHEET },
       .channels = 1,
       .make = wr_export_cavity_make,
@@ -395,7 +393,7 @@ const WrExportKind wr_export_kinds[] = {
       .describe = wr_export_map_describe },
     { .name = "direction",
       .label = "direction downhill",
-      .help = "degrees from u towards v, 0 to 360; level is 0",
+      .help = "direction of the slope, 0 to 360 degrees from u towards v; level places are 0",
       .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT, WR_OPTION_SHEET },
       .channels = 1,
       .make = wr_export_direction_make,
@@ -403,8 +401,8 @@ const WrExportKind wr_export_kinds[] = {
       .describe = wr_export_map_describe },
     { .name = "roughness",
       .label = "roughness",
-      .help = "roughness of the slopes in a box of texels seen from afar, 0 to 1: the root of "
-              "Beckmann's alpha",
+      .help = "roughness of the relief seen from a distance, from slopes in a box of texels, 0 to "
+              "1: the square root of Beckmann's alpha",
       .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT, WR_OPTION_BOX, WR_OPTION_BASE,
                    WR_OPTION_SHEET },
       .role = WR_ROLE_ROUGHNESS,
@@ -414,7 +412,7 @@ const WrExportKind wr_export_kinds[] = {
       .describe = wr_export_map_describe },
     { .name = "displacement",
       .label = "displacement",
-      .help = "heights over a ground level, in scene units",
+      .help = "heights above a ground level, in scene units",
       .options = { DEPTH, RANGE, DITHER, OBJECT, WR_OPTION_GROUND, WR_OPTION_SCALE,
                    WR_OPTION_SHEET },
       .role = WR_ROLE_HEIGHT,
@@ -424,7 +422,7 @@ const WrExportKind wr_export_kinds[] = {
       .describe = wr_export_map_describe },
     { .name = "mask",
       .label = "mask of heights",
-      .help = "white from one height to another, black elsewhere",
+      .help = "white in a range of heights, black elsewhere",
       .options = { DEPTH, DITHER, OBJECT, WR_OPTION_LOW, WR_OPTION_HIGH, WR_OPTION_FEATHER,
                    WR_OPTION_SHEET },
       .channels = 1,
@@ -433,7 +431,7 @@ const WrExportKind wr_export_kinds[] = {
       .describe = wr_export_map_describe },
     { .name = "wear",
       .label = "edge wear",
-      .help = "where edges rub off: convex places beyond a threshold, broken up by noise",
+      .help = "worn edges: convex places above a threshold, broken up by noise",
       .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT, WR_OPTION_WORN, WR_OPTION_THRESHOLD,
                    WR_OPTION_NOISE, WR_OPTION_GRAIN, WR_OPTION_SHEET },
       .channels = 1,
@@ -442,7 +440,7 @@ const WrExportKind wr_export_kinds[] = {
       .describe = wr_export_map_describe },
     { .name = "packed",
       .label = "packed maps",
-      .help = "several maps in one picture, a channel each: occlusion, roughness and metalness, or "
+      .help = "several maps as the channels of one picture: occlusion, roughness and metalness, or "
               "those of red=, green=, blue= and alpha=",
       .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT, WR_OPTION_PACK, WR_OPTION_DIRECTIONS,
                    WR_OPTION_REACH, WR_OPTION_BOX, WR_OPTION_BASE, WR_OPTION_SHEET },
@@ -454,10 +452,10 @@ const WrExportKind wr_export_kinds[] = {
       .describe = wr_export_packed_describe },
     { .name = "contact",
       .label = "contact sheet",
-      .help = "maps as small pictures in one, each with its name below",
-      .options = { { "maps", "KIND;KIND...", "which; left out: all of the cell",
+      .help = "overview: small pictures of all maps, each with its name",
+      .options = { { "maps", "KIND;KIND...", "maps to show; left out: all maps of the cell",
                      wr_export_parse_contact_maps },
-                   { "tile", "PIXELS", "the longer side of each, 32..1024; left out: 256",
+                   { "tile", "PIXELS", "longer side of each picture, 32..1024; left out: 256",
                      wr_export_set_contact_tile },
                    CELL,
                    SCHEME,
@@ -477,11 +475,12 @@ const WrExportKind wr_export_kinds[] = {
                      "degrees about the vertical and above the horizon; left out: 30,35",
                      set_view },
                    { "relief", "HEIGHT or auto",
-                     "of F = 1, in cells; left out: all of it is a fifth of a cell high",
+                     "height of F = 1, in cells; left out: the whole relief is a fifth of a cell "
+                     "high",
                      set_relief },
                    { "size", "WIDTHxHEIGHT", "pixels; left out: 1024x768", set_size },
-                   { "pen", "WIDTH", "of a line, pixels; left out: 1", set_pen },
-                   { "hidden", "on or off", "draw hidden lines too; left out: off",
+                   { "pen", "WIDTH", "line width in pixels; left out: 1", set_pen },
+                   { "hidden", "on or off", "also draw hidden lines; left out: off",
                      wr_export_set_hidden },
                    OBJECT },
       .channels = 1,
@@ -491,11 +490,11 @@ const WrExportKind wr_export_kinds[] = {
       .help = "heights along a line of the cell as a chart: svg, pdf, or a picture",
       .options = { { "along", "u or v", "the coordinate that the line follows; left out: u",
                      set_along },
-                   { "at", "COORDINATE", "the other one, 0..1; left out: 0.5", set_at },
+                   { "at", "COORDINATE", "the other coordinate, 0..1; left out: 0.5", set_at },
                    { "grid", "N", "divisions of the line; left out: 8", set_grid },
                    SCHEME,
                    { "size", "WIDTHxHEIGHT", "pixels; left out: 1024x768", set_size },
-                   { "pen", "WIDTH", "of a line, pixels; left out: 1", set_pen },
+                   { "pen", "WIDTH", "line width in pixels; left out: 1", set_pen },
                    OBJECT },
       .channels = 1,
       .write = wr_export_profile_write },
@@ -541,7 +540,7 @@ const WrExportKind wr_export_kinds[] = {
       .options = { SCHEME,
                    BODY,
                    { "size", "WIDTHxHEIGHT",
-                     "meshes: of the normal map in texels; left out: the table's",
+                     "meshes: size of the normal map in texels; left out: the table's",
                      wr_export_set_map_size },
                    WR_OPTION_DIRECTIONS,
                    WR_OPTION_REACH,

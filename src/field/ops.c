@@ -209,9 +209,7 @@ static const char *const side_words[] = { WR_LIMIT_SIDES(WR_WORD) NULL };
     }
 #define RADIUS(most, soft_most)                                                                    \
     {                                                                                              \
-        .name = "radius", .label = "Radius",                                                       \
-        .help = "how far the window reaches; 0 changes "                                           \
-                "nothing",                                                                         \
+        .name = "radius", .label = "Radius", .help = "radius of the window; 0 changes nothing",    \
         .unit = "texels", .fallback = 2, .low = 0, .high = most, .soft_low = 0,                    \
         .soft_high = soft_most                                                                     \
     }
@@ -226,7 +224,7 @@ static const char *const side_words[] = { WR_LIMIT_SIDES(WR_WORD) NULL };
         .low = low_, .high = high_, .soft_low = low_, .soft_high = soft_high_, .whole = true       \
     }
 #define CELLS(fallback_)                                                                           \
-    WHOLE("cells", "Cells", "of the coarsest noise, across the table; upwards about as large",     \
+    WHOLE("cells", "Cells", "cells of the coarsest octave across the table; about square",         \
           fallback_, 1, 8192, 64)
 #define SHIFT(name_, label_, help_)                                                                \
     {                                                                                              \
@@ -252,10 +250,11 @@ static const double straight[] = { 2, 0, 0, 1, 1 };
 const WrOpInfo wr_ops[] = {
     { .name = "offset",
       .label = "Offset",
-      .help = "move all texels, those that leave on one side coming in on the other",
+      .help = "move all texels, wrapping around the edges",
       .moves = true,
       .run = wr_op_offset,
-      .params = { SHIFT("du", "To the right", "to the right"), SHIFT("dv", "Up", "upwards") } },
+      .params = { SHIFT("du", "To the right", "offset to the right"),
+                  SHIFT("dv", "Up", "offset upwards") } },
     { .name = "flip-u",
       .label = "Flip left to right",
       .help = "mirror the table, left for right",
@@ -268,14 +267,15 @@ const WrOpInfo wr_ops[] = {
       .run = wr_op_flip_v },
     { .name = "rotate",
       .label = "Rotate",
-      .help = "turn the table counter-clockwise by quarter turns; a quarter turn swaps its sides",
+      .help =
+          "rotate the table counter-clockwise by quarter turns; 90 and 270 degrees swap its sides",
       .reshapes = true,
       .moves = true,
       .run = wr_op_rotate,
       .params = { WORDS("angle", "Angle", "degrees, counter-clockwise", 0, angle_words) } },
     { .name = "crop",
       .label = "Crop",
-      .help = "make a rectangle of the table the new cell, periodic on both axes",
+      .help = "crop the table to a rectangle, which becomes periodic on both axes",
       .reshapes = true,
       .moves = true,
       .run = wr_op_crop,
@@ -287,7 +287,7 @@ const WrOpInfo wr_ops[] = {
                   TEXELS("height", "Height", "rows", 64, 1, WR_FIELD_MAX) } },
     { .name = "resize",
       .label = "Resize",
-      .help = "bring the table to another number of texels; heights stay as high as they are",
+      .help = "resample the table to another number of texels; heights are not scaled",
       .reshapes = true,
       .run = wr_op_resize,
       .params = { TEXELS("width", "Width", "columns", 512, 1, WR_FIELD_MAX),
@@ -298,52 +298,51 @@ const WrOpInfo wr_ops[] = {
                         WR_RESIZE_CATMULL, filter_words) } },
     { .name = "seamless",
       .label = "Make seamless",
-      .help = "make opposite edges fit, so that the table tiles",
+      .help = "make the table tile by matching opposite edges",
       .run = wr_op_seamless,
-      .params = { WORDS(
-                      "how", "Method",
-                      "blend: fade to the table's middle at the edges, with its contrast; patches: "
-                      "cut where both differ least; mirror: repeat the top left quarter mirrored; "
-                      "frequency: remove slopes across the table, keep detail",
-                      WR_REPEAT_BLEND, repeat_words),
-                  EDGE_WIDTH(
-                      "changed strip at each edge, for blend and patches; 0: an eighth of the "
-                      "side; at most a quarter") } },
+      .params = { WORDS("how", "Method",
+                        "blend: cross-fades the edges with the table's middle, keeping contrast; "
+                        "patches: cuts where both differ least; mirror: mirrors the top left "
+                        "quarter; frequency: removes slopes across the table, keeps detail",
+                        WR_REPEAT_BLEND, repeat_words),
+                  EDGE_WIDTH("width of the changed strip at each edge, for blend and patches; 0: "
+                             "an eighth of the side; at most a quarter") } },
     { .name = "match-edges",
       .label = "Match edges",
-      .help = "raise and lower the edges until opposite ones have equal heights",
+      .help = "raise and lower opposite edges until they have equal heights",
       .run = wr_op_match_edges,
-      .params = { EDGE_WIDTH(
-                      "changed strip at each edge; 0: an eighth of the side; at most a half"),
-                  WORDS("ramp", "Ramp", "how the change fades inwards", WR_RAMP_SMOOTH,
+      .params = { EDGE_WIDTH("width of the changed strip at each edge; 0: an eighth of the side; "
+                             "at most a half"),
+                  WORDS("ramp", "Ramp", "fade of the change inwards", WR_RAMP_SMOOTH,
                         ramp_words) } },
     { .name = "even-light",
       .label = "Even out light",
-      .help = "flatten shading and slopes wider than a Gaussian: detail and mean height stay",
+      .help =
+          "remove variation wider than a Gaussian, such as shading; detail and mean height stay",
       .run = wr_op_even_light,
       .params = { SIGMA(32) } },
     { .name = "levels",
       .label = "Levels",
-      .help = "bring in-low to out-low and in-high to out-high, with a curve between them",
+      .help = "map in-low to out-low and in-high to out-high, with a curve between them",
       .run = wr_op_levels,
-      .params = { HEIGHT("in-low", "From low", "height that becomes out-low", 0),
-                  HEIGHT("in-high", "From high", "height that becomes out-high", 1),
+      .params = { HEIGHT("in-low", "From low", "height mapped to out-low", 0),
+                  HEIGHT("in-high", "From high", "height mapped to out-high", 1),
                   { .name = "gamma",
                     .label = "Gamma",
-                    .help = "heights above in-low, as parts of in-low to in-high, to the power "
-                            "1/gamma: above 1 lifts the heights between",
+                    .help = "exponent 1/gamma of the heights between in-low and in-high; above 1 "
+                            "raises them",
                     .unit = "",
                     .fallback = 1,
                     .low = 0.01,
                     .high = 100,
                     .soft_low = 0.1,
                     .soft_high = 10 },
-                  HEIGHT("out-low", "To low", "height that in-low becomes", 0),
-                  HEIGHT("out-high", "To high", "height that in-high becomes", 1) } },
+                  HEIGHT("out-low", "To low", "new height of in-low", 0),
+                  HEIGHT("out-high", "To high", "new height of in-high", 1) } },
     { .name = "curves",
       .label = "Curves",
-      .help = "give each height the one that a smooth curve through points has there; beyond the "
-              "first and the last point it goes on straight",
+      .help = "map heights by a smooth curve through points; beyond the first and last point it is "
+              "a straight line",
       .run = wr_op_curves,
       .params = { { .name = "points",
                     .label = "Points",
@@ -360,13 +359,12 @@ const WrOpInfo wr_ops[] = {
       .help = "turn bumps into dents",
       .run = wr_op_invert,
       .params = { WORDS("about", "Pivot",
-                        "range: the lowest and the highest change places; zero: "
-                        "the sign changes",
+                        "range: about the middle of the range; zero: about 0, changing signs",
                         WR_INVERT_RANGE, invert_words) } },
     { .name = "normalise",
       .label = "Normalise",
-      .help = "bring the table's lowest height to low and its highest to high; a flat table "
-              "becomes low",
+      .help =
+          "map the table's lowest height to low and its highest to high; a flat table becomes low",
       .run = wr_op_normalise,
       .params = { HEIGHT("low", "Low", "new lowest height", 0),
                   HEIGHT("high", "High", "new highest height", 1) } },
@@ -392,8 +390,8 @@ const WrOpInfo wr_ops[] = {
       .label = "Clamp",
       .help = "clamp heights to low and high",
       .run = wr_op_clamp,
-      .params = { HEIGHT("low", "Low", "no height will be below", 0),
-                  HEIGHT("high", "High", "no height will be above", 1) } },
+      .params = { HEIGHT("low", "Low", "lowest height allowed", 0),
+                  HEIGHT("high", "High", "highest height allowed", 1) } },
     { .name = "blur",
       .label = "Gaussian blur",
       .help = "smooth the table with a Gaussian; the mean height stays",
@@ -417,8 +415,8 @@ const WrOpInfo wr_ops[] = {
       .label = "Median",
       .help = "set each texel to the median height of a window: removes specks, keeps edges",
       .run = wr_op_median,
-      .params = { RADIUS(32, 8),
-                  WORDS("window", "Window", "its shape", WR_WINDOW_ROUND, window_words) } },
+      .params = { RADIUS(32, 8), WORDS("window", "Window", "shape of the window", WR_WINDOW_ROUND,
+                                       window_words) } },
     { .name = "dilate",
       .label = "Dilate",
       .help = "give each texel the largest height of a round window: bumps grow",
@@ -431,8 +429,8 @@ const WrOpInfo wr_ops[] = {
       .params = { RADIUS(64, 16) } },
     { .name = "slope-limit",
       .label = "Limit slope",
-      .help = "let no height differ from the next texel's by more than limit (diagonally sqrt(2) "
-              "limit), changing as little as possible",
+      .help = "limit the difference between neighbouring texels (diagonally sqrt(2) limit), "
+              "changing as little as possible",
       .run = wr_op_slope_limit,
       .params = { { .name = "limit",
                     .label = "Limit",
@@ -443,22 +441,23 @@ const WrOpInfo wr_ops[] = {
                     .high = FLT_MAX,
                     .soft_low = 0,
                     .soft_high = 1 },
-                  WORDS("side", "Side",
-                        "below: only lower heights; above: only raise them; mean: half way",
-                        WR_SIDE_MEAN, side_words) } },
+                  WORDS(
+                      "side", "Side",
+                      "below: only lowers heights; above: only raises them; mean: the mean of both",
+                      WR_SIDE_MEAN, side_words) } },
     { .name = "noise",
       .label = "Noise",
       .help = "add noise that tiles",
       .run = wr_op_noise,
-      .params = { HEIGHT("amount", "Amount", "height of the coarsest noise", 0.1),
+      .params = { HEIGHT("amount", "Amount", "amplitude of the coarsest octave", 0.1),
                   CELLS(16),
                   WHOLE("octaves", "Octaves",
-                        "noises, each twice as fine and half as high; those too fine for the "
-                        "table are left out",
+                        "number of octaves, each twice as fine and half as high; those too fine "
+                        "for the table are left out",
                         4, 1, WR_OCTAVES_MAX, 8),
                   { .name = "kind",
                     .label = "Kind",
-                    .help = "of the noise",
+                    .help = "kind of noise",
                     .unit = "",
                     .high = WR_OP_NOISE_COUNT - 1,
                     .soft_high = WR_OP_NOISE_COUNT - 1,
@@ -466,8 +465,8 @@ const WrOpInfo wr_ops[] = {
                     .choices = wr_op_noise_kinds },
                   { .name = "mode",
                     .label = "Fractal type",
-                    .help = "fbm: the noises; turbulence: their amounts; billow: these about 0; "
-                            "ridged: crests where they are 0",
+                    .help = "sum of: fbm: noise; turbulence: its absolute value; billow: the same, "
+                            "centred about 0; ridged: crests where noise is 0",
                     .unit = "",
                     .high = WR_OCTAVES_MODE_COUNT - 1,
                     .soft_high = WR_OCTAVES_MODE_COUNT - 1,
@@ -476,12 +475,12 @@ const WrOpInfo wr_ops[] = {
                   SEED } },
     { .name = "warp",
       .label = "Warp",
-      .help = "move heights to the side by noise that tiles",
+      .help = "displace heights sideways by noise that tiles",
       .moves = true,
       .run = wr_op_warp,
       .params = { { .name = "amount",
                     .label = "Amount",
-                    .help = "how far a height is moved along an axis, at most",
+                    .help = "largest displacement along an axis",
                     .unit = "texels",
                     .fallback = 12,
                     .low = 0,
@@ -489,8 +488,9 @@ const WrOpInfo wr_ops[] = {
                     .soft_low = 0,
                     .soft_high = 64 },
                   CELLS(4),
-                  WHOLE("octaves", "Octaves", "noises, each twice as fine and half as far", 2, 1,
-                        WR_OCTAVES_MAX, 8),
+                  WHOLE("octaves", "Octaves",
+                        "number of octaves, each twice as fine and with half the displacement", 2,
+                        1, WR_OCTAVES_MAX, 8),
                   WORDS("between", "Between texels", "interpolation between texels", WR_WARP_CUBIC,
                         between_words),
                   SEED } },

@@ -18,7 +18,7 @@ static const WrParamPart fourier_parts[] = { { "k", -16384, 16384, true },
 
 static const WrParam poly_params[] = { { .name = "c",
                                          .label = "Terms",
-                                         .help = "i,j,a: the sum of a u^i v^j",
+                                         .help = "i,j,a: sum of a u^i v^j",
                                          .unit = "",
                                          .kind = WR_PARAM_TERMS,
                                          .components = 3,
@@ -29,8 +29,7 @@ static const WrParam poly_params[] = { { .name = "c",
 static const WrParam fourier_params[] = {
     { .name = "terms",
       .label = "Terms",
-      .help = "k,l,a: the sum of a cos(2 pi k u + phase_u) cos(2 pi l v + phase_v); phases in "
-              "degrees",
+      .help = "k,l,a: sum of a cos(2 pi k u + phase_u) cos(2 pi l v + phase_v); phases in degrees",
       .unit = "",
       .kind = WR_PARAM_TERMS,
       .components = 5,
@@ -87,12 +86,10 @@ static bool make_fourier(const WrParamValue *values, const WrGenerateJob *job, W
 }
 
 const WrGenerator wr_formula_rows[] = {
-    WR_GENERATOR(
-        "formula", "poly", "Polynomial",
-        "the sum of a u^i v^j; it meets itself at the table's edges only where the terms make it",
-        "replace", poly_params, make_poly),
+    WR_GENERATOR("formula", "poly", "Polynomial", "sum of a u^i v^j; it tiles only if the terms do",
+                 "replace", poly_params, make_poly),
     WR_GENERATOR("formula", "fourier", "Fourier series",
-                 "the sum of a cos(2 pi k u + phase_u) cos(2 pi l v + phase_v)", "replace",
+                 "sum of a cos(2 pi k u + phase_u) cos(2 pi l v + phase_v)", "replace",
                  fourier_params, make_fourier),
     { .family = NULL },
 };

@@ -38,15 +38,14 @@ static bool erode_begin(WrSheet *sheet, const WrGenerateJob *job, WrError *err);
 #define ROUNDS 8 /* passes over the whole table, each with a part of the rain */
 
 const WrParam wr_params_hydraulic[] = {
-    WR_P_NUMBER("rain", "Rain", 1, 0, 100, 4, "", "drops for each texel"),
+    WR_P_NUMBER("rain", "Rain", 1, 0, 100, 4, "", "drops per texel"),
     WR_P_PART("strength", "Strength", 0.4, "rate at which water erodes the ground"),
-    WR_P_NUMBER("capacity", "Capacity", 4, 0, 100, 16, "", "how much ground water carries"),
-    WR_P_PART("deposition", "Deposition", 0.3, "how fast it lays it down where it slows"),
-    WR_P_PART("inertia", "Inertia", 0.02, "how hard it is to turn it"),
-    WR_P_PART("evaporation", "Evaporation", 0.01, "of a drop, each texel"),
-    WR_P_WHOLE("radius", "Radius", 2, 1, RADIUS_MAX, 8,
-               "radius of the ground that a drop erodes, texels"),
-    WR_P_WHOLE("life", "Life", 128, 1, 4096, 512, "how far water runs, texels"),
+    WR_P_NUMBER("capacity", "Capacity", 4, 0, 100, 16, "", "sediment capacity of water"),
+    WR_P_PART("deposition", "Deposition", 0.3, "rate at which slowing water deposits sediment"),
+    WR_P_PART("inertia", "Inertia", 0.02, "inertia: resistance of a drop to changes of direction"),
+    WR_P_PART("evaporation", "Evaporation", 0.01, "share of a drop that evaporates per texel"),
+    WR_P_WHOLE("radius", "Radius", 2, 1, RADIUS_MAX, 8, "radius of the ground that a drop erodes"),
+    WR_P_WHOLE("life", "Life", 128, 1, 4096, 512, "longest path of a drop"),
     WR_P_SEED,
     WR_P_END
 };
@@ -451,13 +450,12 @@ bool wr_terrain_hydraulic(const WrParamValue *values, const WrGenerateJob *job, 
 
 const WrParam wr_params_thermal[] = {
     WR_P_NUMBER("talus", "Angle of rest", 35, 0, 89, 89, "degrees",
-                "slopes steeper than this slide"),
+                "talus angle: steeper slopes slide"),
     WR_P_ABOVE("width", "Width", 8, 0, WR_PARAM_HEIGHT, 20, "table units",
-               "of the whole table, by which angles are measured"),
-    WR_P_WHOLE("rounds", "Rounds", 60, 0, 100000, 500, "how long it weathers"),
+               "width of the whole table, for measuring angles"),
+    WR_P_WHOLE("rounds", "Rounds", 60, 0, 100000, 500, "number of steps"),
     WR_P_PART("rate", "Rate", 0.7,
-              "fraction of the material above the angle of rest that slides in "
-              "one step"),
+              "share of the material above the talus angle that slides in one step"),
     WR_P_END
 };
 

@@ -217,17 +217,16 @@ bool wr_generator_make(const WrGenerator *generator, const WrParamValue *values,
 
 #define WR_P_HEIGHT                                                                                \
     WR_P_NUMBER("height", "Height", 1, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",        \
-                "from the lowest to the highest; below 0 turns it inside out")
+                "height from the lowest to the highest place; below 0 inverts the relief")
 /* For tilted and rough pieces, which rise above a plain one. */
 #define WR_P_PIECE_HEIGHT                                                                          \
     WR_P_NUMBER("height", "Height", 1, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",        \
-                "of a plain piece over the ground; leaning and rough ones rise over it, by tilt "  \
-                "and half of rough at most (as parts of it); below 0 turns it inside out")
-#define WR_P_SEED                                                                                  \
-    WR_P_WHOLE("seed", "Seed", 1, 0, 4294967295.0, 999, "another number, another of its kind")
+                "height of a level piece above the ground; tilted and rough ones rise above it, "  \
+                "by up to tilt plus half of rough (shares of height); below 0 inverts the relief")
+#define WR_P_SEED WR_P_WHOLE("seed", "Seed", 1, 0, 4294967295.0, 999, "seed of the random numbers")
 #define WR_P_ORIGIN                                                                                \
     {                                                                                              \
-        .name = "origin", .also = "at", .label = "Origin", .help = "where its corner lies",        \
+        .name = "origin", .also = "at", .label = "Origin", .help = "position of its corner",       \
         .unit = "", .kind = WR_PARAM_TUPLE, .low = -1e6, .high = 1e6, .soft_low = 0,               \
         .soft_high = 1, .shape = "u,v", .components = 2                                            \
     }

@@ -32,11 +32,12 @@ static const WrLatticeSource source_kinds[] = { SOURCES(WR_WORD_ID) };
 static const char *const sources[] = { SOURCES(WR_WORD) NULL };
 
 #define NOISE_PARAMS(count)                                                                        \
-    WR_P_WHOLE("cells", "Cells", count, 1, 8192, 32, "of the first octave, across the table"),     \
+    WR_P_WHOLE("cells", "Cells", count, 1, 8192, 32,                                               \
+               "cells of the first octave across the table"),                                      \
         WR_P_WHOLE("rows", "Rows of cells", 0, 0, 8192, 32,                                        \
-                   "and up; 0: cells as square as can be"),                                        \
+                   "cells of the first octave up the table; 0: as square as possible"),            \
         WR_P_WHOLE("octaves", "Octaves", 5, 1, WR_OCTAVES_MAX, 12,                                 \
-                   "at most; those finer than two texels a cell are left out"),                    \
+                   "largest number of octaves; those with cells below two texels are left out"),   \
         WR_P_ABOVE("ratio", "Falloff", 2, 1, 64, 4, "",                                            \
                    "amplitude ratio of successive octaves: higher is smoother"),                   \
         WR_P_ABOVE("step", "Lacunarity", 2, 1, 64, 4, "",                                          \
@@ -45,38 +46,44 @@ static const char *const sources[] = { SOURCES(WR_WORD) NULL };
                     "how octaves are summed"),                                                     \
         WR_P_SEED,                                                                                 \
         WR_P_SWITCH("scatter", "Random octaves", 1,                                                \
-                    "each octave has random numbers and an offset of its own; off: all have the "  \
-                    "same, g(s^k t)/r^k literally"),                                               \
+                    "on: each octave has its own random numbers and offset; off: all share them, " \
+                    "literally g(s^k t)/r^k"),                                                     \
         WR_P_NUMBER("warp", "Warp", 0, -64, 64, 1, "cells",                                        \
                     "domain warping: distortion of the noise by another noise"),                   \
-        WR_P_WHOLE("warp_cells", "Warp cells", 0, 0, 8192, 32, "0: as many as cells"),             \
-        WR_P_NUMBER("ridge_offset", "Ridge offset", 1, 0, 10, 2, "", "mode=ridged: their height"), \
+        WR_P_WHOLE("warp_cells", "Warp cells", 0, 0, 8192, 32,                                     \
+                   "cells of the noise that warps; 0: as many as cells="),                         \
+        WR_P_NUMBER("ridge_offset", "Ridge offset", 1, 0, 10, 2, "",                               \
+                    "mode=ridged: height of the ridges"),                                          \
         WR_P_NUMBER("ridge_gain", "Ridge gain", 2, 0, 100, 4, "",                                  \
-                    "mode=ridged: how soon fine octaves show beside the ridges"),                  \
+                    "mode=ridged: strength of fine octaves beside the ridges"),                    \
         WR_P_NUMBER("amplitude", "Height", 0.5, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1,              \
-                    "table units", "of the first octave: level + amplitude times noise"),          \
+                    "table units",                                                                 \
+                    "amplitude of the first octave: heights are level + amplitude times noise"),   \
         WR_P_NUMBER("level", "Level", 0.5, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",    \
-                    "height of noise 0"),                                                          \
+                    "height where the noise is 0"),                                                \
         WR_P_ORIGIN
 
 #define SLICE                                                                                      \
     WR_P_NUMBER("slice", "Slice", 0, -1e6, 1e6, 1, "periods",                                      \
-                "which slice through noise in space; it comes back after 1")
+                "position of the slice through 3D noise; it repeats after 1")
 
 static const WrParam cell_params[] = {
     NOISE_PARAMS(4),
-    WR_P_CHOICE("fade", "Interpolation", WR_FADE_QUINTIC, wr_fade_words, "how cells are blended"),
-    WR_P_CHOICE("domain", "Domain", DOMAIN_PLANE, domains,
-                "the plane, a slice through space, or one coordinate alone"),
+    WR_P_CHOICE("fade", "Interpolation", WR_FADE_QUINTIC, wr_fade_words,
+                "fade function between lattice points"),
+    WR_P_CHOICE(
+        "domain", "Domain", DOMAIN_PLANE, domains,
+        "domain of the noise: the plane, a slice through 3D space, or one coordinate alone"),
     SLICE,
     WR_P_CHOICE("source", "Random numbers", 0, sources,
-                "the lecture's fract(sin()) is for comparison alone"),
+                "source of random numbers; the lecture's fract(sin()) is only for comparison"),
     WR_P_END
 };
 static const WrParam simplex_params[] = {
     NOISE_PARAMS(6),
-    WR_P_CHOICE("way", "Tiling", 2, ways,
-                "on a sheared lattice, on a torus in space of 4D, or as a slice through 3D"),
+    WR_P_CHOICE(
+        "way", "Tiling", 2, ways,
+        "sheared: on a sheared lattice; torus: on a torus in 4D; slice: a slice through 3D noise"),
     SLICE, WR_P_END
 };
 static const WrParam plane_params[] = { NOISE_PARAMS(4), WR_P_END };
@@ -388,10 +395,8 @@ const WrGenerator wr_noise_rows[] = {
     WR_GENERATOR("noise", "value", "Value", "random values at lattice points", "replace",
                  cell_params, make_value),
     WR_GENERATOR("noise", "simplex", "Simplex",
-                 "on triangles or tetrahedra; 2D simplex noise cannot tile a square, so it is a "
-                 "slice through "
-                 "3D "
-                 "unless another way is chosen",
+                 "simplex noise on triangles or tetrahedra. 2D simplex noise cannot tile a square, "
+                 "so it is a slice through 3D noise unless way= is given",
                  "replace", simplex_params, make_simplex),
     WR_GENERATOR("noise", "sheared", "Sheared simplex",
                  "simplex noise on triangles that fit the square", "replace", plane_params,

@@ -32,21 +32,21 @@ static const char *const ways[] = { SLOPES(WR_WORD) NULL };
 static const char *const codes[] = { WR_NORMAL_CODES(WR_WORD) NULL };
 
 const WrParam wr_params_normals[] = {
-    WR_P_FILE("of the normal map"),
+    WR_P_FILE("file of the normal map"),
     WR_P_CHANNELS("layer", "channel"),
     WR_P_CHOICE("y", "Green", Y_AUTO, ys,
-                "where green points: up (+Y), down (-Y), or as the map itself shows"),
+                "direction of green: up (+Y), down (-Y), or auto: detected from the map"),
     WR_P_CHOICE("edges", "Edges", EDGES_AUTO, edges,
-                "whether the map meets itself; auto: as the table does"),
+                "edges of the map: periodic or not; auto: as the table"),
     WR_P_CHOICE("slopes", "Slopes", SLOPES_AUTO, ways,
-                "of a smooth surface, or central differences between texels, as many tools write "
-                "them; auto: the one that fits the map better"),
-    WR_P_CHOICE(
-        "codes", "Codes", WR_NORMALS_AUTO, codes,
-        "slopes, bump-slopes: no normals, but these; unsigned, signed: old names of coding="),
+                "kind of slopes. smooth: of a smooth surface; central: central differences between "
+                "texels, as many tools write; auto: the one that fits the map better"),
+    WR_P_CHOICE("codes", "Codes", WR_NORMALS_AUTO, codes,
+                "slopes, bump-slopes: the picture stores these, not normals; unsigned, signed: old "
+                "names of coding="),
     WR_P_CHOICE("coding", "Coding", WR_CODING_AUTO, wr_codings,
-                "of floats: unit, 0..1 stands for -1..1; signed, the vectors' own numbers; auto: "
-                "the one that is nearer to vectors of length 1"),
+                "coding of float pictures. unit: 0..1 stands for -1..1; signed: the vectors "
+                "themselves; auto: the one whose vectors are nearer to length 1"),
     { .name = "cell",
       .label = "Cell",
       .help = "size of the map in scene units, as in export",
@@ -60,9 +60,10 @@ const WrParam wr_params_normals[] = {
       .high = 1e9,
       .soft_low = 0,
       .soft_high = 4 },
-    WR_P_ABOVE("height", "Height", 1, 0, 1e9, 1, "scene units", "of one table unit, as in bump"),
+    WR_P_ABOVE("height", "Height", 1, 0, 1e9, 1, "scene units",
+               "height of one table unit, as in `bump`"),
     WR_P_NUMBER("level", "Level", 0, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",
-                "of the lowest"),
+                "level of the lowest place"),
     WR_P_END
 };
 

@@ -48,8 +48,9 @@ static inline void wr_cells_turn(const WrCells *cells, double *x, double *y)
 }
 
 #define WR_CELLS_MAX 1024 /* maximum along an axis */
-#define WR_P_ACROSS(value) WR_P_WHOLE("across", "Across", value, 1, WR_CELLS_MAX, 32, "how many")
-#define WR_P_ROWS(value) WR_P_WHOLE("rows", "Rows", value, 1, WR_CELLS_MAX, 32, "how many")
+#define WR_P_ACROSS(value)                                                                         \
+    WR_P_WHOLE("across", "Across", value, 1, WR_CELLS_MAX, 32, "number across")
+#define WR_P_ROWS(value) WR_P_WHOLE("rows", "Rows", value, 1, WR_CELLS_MAX, 32, "number of rows")
 
 static inline int wr_modulo(int i, int n)
 {
@@ -71,7 +72,8 @@ void wr_note_rows(const WrGenerateJob *job, int rows, int multiple, const char *
     X(WR_ALONG_V, "v")
 enum { WR_ALONGS(WR_WORD_ID) };
 extern const char *const wr_along_words[];
-#define WR_P_ALONG WR_P_CHOICE("along", "Along", WR_ALONG_U, wr_along_words, "which way they run")
+#define WR_P_ALONG                                                                                 \
+    WR_P_CHOICE("along", "Along", WR_ALONG_U, wr_along_words, "direction in which they run")
 
 /* ---- edges ---- */
 
@@ -92,7 +94,7 @@ typedef struct WrEdge {
 extern const char *const wr_profile_words[];
 #define WR_P_BEVEL(value) WR_P_TEXELS("bevel", "Bevel", value, 32, "width of the rounded edge")
 #define WR_P_PROFILE                                                                               \
-    WR_P_CHOICE("profile", "Profile", WR_PROFILE_ROUND, wr_profile_words, "of the edge")
+    WR_P_CHOICE("profile", "Profile", WR_PROFILE_ROUND, wr_profile_words, "profile of the edge")
 WrEdge wr_edge_of(const WrParams *params);
 
 /* The height at d texels inside an edge (below 0: outside), averaged over one texel across the edge, in
@@ -118,7 +120,8 @@ typedef struct WrPieces {
               "random height of the pieces, as a share of the height"),                            \
         WR_P_PART("tilt", "Tilt", tilt, "tilt of each piece, as a share of the height"),           \
         WR_P_PART("pillow", "Pillow", pillow, "bulge of the middle"),                              \
-        WR_P_PART("rough", "Roughness", rough, "of their surface, as a part of the height"),       \
+        WR_P_PART("rough", "Roughness", rough,                                                     \
+                  "roughness of the surface, as a share of the height"),                           \
         WR_P_SEED
 
 /* cells: their size determines that of the grain. */

@@ -15,7 +15,7 @@ static double to_whole(double x)
 /* ---- grid ---- */
 
 const WrParam wr_params_grid[] = {
-    WR_P_ACROSS(8), WR_P_ROWS(8), WR_P_TEXELS("width", "Width", 12, 64, "of the lines"),
+    WR_P_ACROSS(8), WR_P_ROWS(8), WR_P_TEXELS("width", "Width", 12, 64, "width of the lines"),
     WR_P_BEVEL(5),  WR_P_PROFILE, WR_P_HEIGHT,
     WR_P_ORIGIN,    WR_P_END
 };
@@ -96,7 +96,7 @@ bool wr_pattern_checks(const WrParamValue *values, const WrGenerateJob *job, WrR
 #define DIRECTION(a, b, what)                                                                      \
     WR_P_WHOLE("across", "Across", a, -WR_CELLS_MAX, WR_CELLS_MAX, 32,                             \
                what " from left to right"),                                                        \
-        WR_P_WHOLE("rows", "Rows", b, -WR_CELLS_MAX, WR_CELLS_MAX, 32, "and from bottom to top")
+        WR_P_WHOLE("rows", "Rows", b, -WR_CELLS_MAX, WR_CELLS_MAX, 32, what " from bottom to top")
 
 static bool read_direction(const WrParams *params, const char *name, Lines *l,
                            const WrGenerateJob *job, WrError *err)
@@ -119,14 +119,15 @@ static double phase_at(const Lines *l, double x, double y)
 
 /* ---- stripes ---- */
 
-const WrParam wr_params_stripes[] = { DIRECTION(6, 4, "stripes"),
-                                      WR_P_PART("width", "Width", 0.5,
-                                                "of the high stripes, of a period"),
-                                      WR_P_BEVEL(6),
-                                      WR_P_PROFILE,
-                                      WR_P_HEIGHT,
-                                      WR_P_ORIGIN,
-                                      WR_P_END };
+const WrParam wr_params_stripes[] = {
+    DIRECTION(6, 4, "stripes"),
+    WR_P_PART("width", "Width", 0.5, "width of the high stripes, relative to the period"),
+    WR_P_BEVEL(6),
+    WR_P_PROFILE,
+    WR_P_HEIGHT,
+    WR_P_ORIGIN,
+    WR_P_END
+};
 
 static double stripe_at(const void *ctx, double x, double y)
 {
@@ -152,9 +153,9 @@ static const char *const wave_shapes[] = { WAVES(WR_WORD) NULL };
 const WrParam wr_params_waves[] = {
     DIRECTION(8, 0, "waves"),
     WR_P_CHOICE("shape", "Shape", SINE, wave_shapes,
-                "of a wave; ripples have sharp crests, dunes lean"),
-    WR_P_NUMBER("sway", "Sway", 0.3, 0, 16, 1, "", "how far the crests swing, in waves"),
-    WR_P_WHOLE("swings", "Swings", 3, 0, 64, 16, "of the crests, along them"),
+                "shape of a wave; ripples have sharp crests, dunes are asymmetric"),
+    WR_P_NUMBER("sway", "Sway", 0.3, 0, 16, 1, "", "sideways swing of the crests, in wavelengths"),
+    WR_P_WHOLE("swings", "Swings", 3, 0, 64, 16, "number of swings along the crests"),
     WR_P_HEIGHT,
     WR_P_ORIGIN,
     WR_P_END
@@ -221,9 +222,9 @@ bool wr_pattern_waves(const WrParamValue *values, const WrGenerateJob *job, WrRe
 /* ---- knurling ---- */
 
 const WrParam wr_params_knurl[] = {
-    DIRECTION(16, 16, "grooves of either family"),
-    WR_P_PART("flat", "Flat tops", 0.2, "how much of the points is cut off"),
-    WR_P_PART("valley", "Valleys", 0.1, "how wide the floor of the grooves is"),
+    DIRECTION(16, 16, "grooves in each direction"),
+    WR_P_PART("flat", "Flat tops", 0.2, "share of the pyramids' height that is cut off"),
+    WR_P_PART("valley", "Valleys", 0.1, "width of the floor of the grooves"),
     WR_P_HEIGHT,
     WR_P_ORIGIN,
     WR_P_END

@@ -9,9 +9,9 @@ const WrParam wr_params_chain[] = {
     WR_P_WHOLE("across", "Across", 4, 1, WR_CELLS_MAX, 32, "pairs of links along each chain"),
     WR_P_WHOLE("rows", "Rows", 4, 1, WR_CELLS_MAX, 32, "chains side by side"),
     WR_P_ALONG,
-    WR_P_PART("width", "Width", 0.8, "of the flat links, of the distance of chains"),
+    WR_P_PART("width", "Width", 0.8, "width of the flat links, relative to the distance of chains"),
     WR_P_NUMBER("wire", "Wire", 0.26, 0.02, 0.3, 0.3, "",
-                "thickness of the wire, of a link's width"),
+                "thickness of the wire, relative to a link's width"),
     WR_P_HEIGHT,
     WR_P_ORIGIN,
     WR_P_END

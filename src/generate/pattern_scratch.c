@@ -15,18 +15,19 @@
 #define BUCKETS 128   /* along an axis, at most */
 
 const WrParam wr_params_scratches[] = {
-    WR_P_WHOLE("count", "Count", 60, 1, MAX_MOST, 500, "how many"),
+    WR_P_WHOLE("count", "Count", 60, 1, MAX_MOST, 500, "number of scratches"),
     WR_P_TEXELS("length", "Length", 160, 512,
-                "of the longest; at most four times the table's shorter side"),
-    WR_P_TEXELS("width", "Width", 3, 16, "of the widest; at most an eighth of that side"),
-    WR_P_NUMBER("angle", "Angle", 20, -360, 360, 180, "degrees", "their direction"),
-    WR_P_NUMBER("spread", "Spread", 25, 0, 180, 180, "degrees", "how far directions differ"),
-    WR_P_NUMBER("bend", "Bend", 20, 0, 720, 180, "degrees", "how far one turns along its length"),
-    WR_P_PART("ridge", "Burr", 0.25, "height of the rim thrown up beside it"),
-    WR_P_PART("vary", "Vary", 0.7, "how much shorter and shallower some are"),
+                "length of the longest; at most four times the table's shorter side"),
+    WR_P_TEXELS("width", "Width", 3, 16, "width of the widest; at most an eighth of that side"),
+    WR_P_NUMBER("angle", "Angle", 20, -360, 360, 180, "degrees", "direction of the scratches"),
+    WR_P_NUMBER("spread", "Spread", 25, 0, 180, 180, "degrees",
+                "random variation of the direction"),
+    WR_P_NUMBER("bend", "Bend", 20, 0, 720, 180, "degrees", "turn of a scratch along its length"),
+    WR_P_PART("ridge", "Burr", 0.25, "height of the rim beside a scratch"),
+    WR_P_PART("vary", "Vary", 0.7, "random reduction of length and depth"),
     WR_P_SEED,
     WR_P_NUMBER("height", "Depth", 0.1, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",
-                "of the deepest; below 0 they stand out"),
+                "depth of the deepest; below 0 they are raised"),
     WR_P_ORIGIN,
     WR_P_END
 };

@@ -135,18 +135,19 @@ bool wr_pattern_bricks(const WrParamValue *values, const WrGenerateJob *job, WrR
 static const double tile_cuts[] = { TILES(WR_WORD_ID) };
 static const char *const tile_shapes[] = { TILES(WR_WORD) NULL };
 
-const WrParam wr_params_tiles[] = { WR_P_ACROSS(6),
-                                    WR_P_ROWS(6),
-                                    WR_P_CHOICE("shape", "Shape", 0, tile_shapes, "of the tiles"),
-                                    WR_P_TEXELS("joint", "Joint", 5, 64, "width of the grout"),
-                                    WR_P_BEVEL(6),
-                                    WR_P_PROFILE,
-                                    WR_P_TEXELS("corner", "Corners", 4, 64,
-                                                "shape=square: radius of the corners"),
-                                    WR_P_PIECES(0.1, 0.15, 0.1, 0),
-                                    WR_P_PIECE_HEIGHT,
-                                    WR_P_ORIGIN,
-                                    WR_P_END };
+const WrParam wr_params_tiles[] = {
+    WR_P_ACROSS(6),
+    WR_P_ROWS(6),
+    WR_P_CHOICE("shape", "Shape", 0, tile_shapes, "shape of the tiles"),
+    WR_P_TEXELS("joint", "Joint", 5, 64, "width of the grout"),
+    WR_P_BEVEL(6),
+    WR_P_PROFILE,
+    WR_P_TEXELS("corner", "Corners", 4, 64, "shape=square: radius of the corners"),
+    WR_P_PIECES(0.1, 0.15, 0.1, 0),
+    WR_P_PIECE_HEIGHT,
+    WR_P_ORIGIN,
+    WR_P_END
+};
 
 typedef struct Tiles {
     WrCells cells;
@@ -200,17 +201,18 @@ bool wr_pattern_tiles(const WrParamValue *values, const WrGenerateJob *job, WrRe
 
 /* ---- hexagons ---- */
 
-const WrParam wr_params_hexagons[] = { WR_P_ACROSS(7),
-                                       WR_P_WHOLE(
-                                           "rows", "Rows", 0, 0, WR_CELLS_MAX, 32,
-                                           "an even number; 0: as many as make them most regular"),
-                                       WR_P_TEXELS("joint", "Joint", 5, 64, "width of the gap"),
-                                       WR_P_BEVEL(8),
-                                       WR_P_PROFILE,
-                                       WR_P_PIECES(0.1, 0.2, 0.1, 0.05),
-                                       WR_P_PIECE_HEIGHT,
-                                       WR_P_ORIGIN,
-                                       WR_P_END };
+const WrParam wr_params_hexagons[] = {
+    WR_P_ACROSS(7),
+    WR_P_WHOLE("rows", "Rows", 0, 0, WR_CELLS_MAX, 32,
+               "number of rows, even; 0: the number that makes the hexagons most regular"),
+    WR_P_TEXELS("joint", "Joint", 5, 64, "width of the gap"),
+    WR_P_BEVEL(8),
+    WR_P_PROFILE,
+    WR_P_PIECES(0.1, 0.2, 0.1, 0.05),
+    WR_P_PIECE_HEIGHT,
+    WR_P_ORIGIN,
+    WR_P_END
+};
 
 typedef struct Hexagons {
     WrCells cells;
@@ -299,8 +301,8 @@ const WrParam wr_params_planks[] = {
     WR_P_TEXELS("joint", "Joint", 3, 64, "width of the gap"),
     WR_P_BEVEL(5),
     WR_P_PROFILE,
-    WR_P_PART("wood", "Grain", 0.25, "depth of the wood's grain, as a part of the height"),
-    WR_P_WHOLE("rings", "Rings", 6, 1, 64, 16, "of the wood across a plank"),
+    WR_P_PART("wood", "Grain", 0.25, "depth of the wood grain, as a share of the height"),
+    WR_P_WHOLE("rings", "Rings", 6, 1, 64, 16, "number of growth rings across a plank"),
     WR_P_PIECES(0.15, 0.1, 0.05, 0),
     WR_P_PIECE_HEIGHT,
     WR_P_ORIGIN,

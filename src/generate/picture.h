@@ -47,22 +47,22 @@ bool wr_picture_fit(WrSheet *sheet, WrSeamless seamless, const WrGenerateJob *jo
     { .name = name_,                                                                               \
       .also = also_,                                                                               \
       .label = "Channels",                                                                         \
-      .help = "of an EXR file: a channel (Depth.Z) or a layer of them (diffuse)",                  \
+      .help = "for an EXR file: a channel (Depth.Z) or a layer of channels (diffuse)",             \
       .unit = "",                                                                                  \
       .kind = WR_PARAM_TEXT,                                                                       \
       .fallback_text = "" },                                                                       \
     {                                                                                              \
         .name = "part", .label = "Part",                                                           \
-        .help = "of a file with several: its number, from 1, or its name; a frame", .unit = "",    \
-        .kind = WR_PARAM_TEXT, .fallback_text = ""                                                 \
+        .help = "for a file with several parts: number, from 1, or name; or the frame of an "      \
+                "animation",                                                                       \
+        .unit = "", .kind = WR_PARAM_TEXT, .fallback_text = ""                                     \
     }
 /* Option to use the values' range stored by the program in its own files. */
 #define WR_PICTURE_LABELS(X) X(WR_LABELS_READ, "read") X(WR_LABELS_IGNORE, "ignore")
 enum { WR_PICTURE_LABELS(WR_WORD_ID) };
 #define WR_P_LABELS                                                                                \
     WR_P_CHOICE("labels", "Labels", WR_LABELS_READ, wr_picture_labels,                             \
-                "read: what export wrote into the file about its values counts; ignore: it does "  \
-                "not")
+                "read: use the metadata that export stored in the file; ignore: do not")
 extern const char *const wr_picture_labels[];
 /* The effective label, after a remark if it is invalid; NULL: none. */
 const WrImageLabel *wr_picture_label(const WrParams *params, const WrImage *image,
@@ -74,7 +74,7 @@ WrImage *wr_picture_read(const WrParams *params, const char *channels, WrImageRe
 /* Adds remarks on differences from the file's pixels. */
 #define WR_P_SEAMLESS(value)                                                                       \
     WR_P_CHOICE("seamless", "Seamless", value, wr_seamless_words,                                  \
-                "how its edges are made to meet: blend evens out, cut overlaps and cuts")
+                "method of matching opposite edges. blend: levels them; cut: overlaps and cuts")
 
 /* ---- rows ---- */
 

@@ -26,8 +26,8 @@ static const char *const sources[] = { WR_RIM_SOURCES(WR_WORD) NULL };
 
 static const WrParam params[] = {
     WR_P_CHOICE("kind", "Kind", RIM_BEVEL, kinds,
-                "bevel: a slope, then level; round: a quarter circle, then level; ridge: up to the "
-                "middle; outline: a cord along the edge; emboss: a soft step across it"),
+                "bevel: a slope, then flat; round: a quarter circle, then flat; ridge: rises up to "
+                "the middle; outline: a cord along the edge; emboss: a soft step across the edge"),
     WR_P_CHOICE("of", "Of", WR_RIM_AUTO, sources,
                 "shape whose edge is used; auto: the selection, or without one the heights"),
     WR_P_LAYER("a layer below whose outline is used, instead of of="),
@@ -36,7 +36,7 @@ static const WrParam params[] = {
                "its height over it"),
     WR_P_HEIGHT,
     WR_P_NUMBER("level", "Level", 0.5, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",
-                "of heights: the edge is where they cross it"),
+                "of=heights: the edge is where heights cross this level"),
     WR_P_END
 };
 

@@ -40,46 +40,49 @@
 
 /* Common parameters, after those of the solid. */
 #define WR_S_POSE                                                                                  \
-    WR_S_TUPLE("at", "At", 0.5, -16, 16, 0, 1, "", "u,v", "where its middle stands"),              \
+    WR_S_TUPLE("at", "At", 0.5, -16, 16, 0, 1, "", "u,v", "position of its centre"),               \
         WR_S_TUPLE("rotate", "Rotate", 0, -36000, 36000, -180, 180, "degrees", "x,y,z",            \
-                   "about the axes x, y, z in that order")
+                   "rotation about the axes x, y, z, in that order")
 #define WR_S_HEIGHT(h)                                                                             \
     WR_P_NUMBER("height", "Height", 1, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units", h)
 #define WR_S_PLACE                                                                                 \
     WR_P_NUMBER("sink", "Sink", 0, -16384, 16384, 64, "texels",                                    \
-                "depth of its part below the ground, which is hidden"),                            \
-        WR_P_TEXELS("deep", "Random depth", 0, 64, "random further depth, up to that"),            \
+                "depth to which it is sunk into the ground"),                                      \
+        WR_P_TEXELS("deep", "Random depth", 0, 64, "largest random extra depth"),                  \
         WR_P_TEXELS("soft", "Edge fade", 0, 16,                                                    \
-                    "height over the ground up to which its edge fades"),                          \
-        WR_P_WHOLE("across", "Across", 1, 1, WR_SOLID_MAX, 32, "how many side by side"),           \
-        WR_P_WHOLE("rows", "Rows", 1, 1, WR_SOLID_MAX, 32, "how many above one another"),          \
+                    "height above the ground up to which its edge fades"),                         \
+        WR_P_WHOLE("across", "Across", 1, 1, WR_SOLID_MAX, 32, "number of copies side by side"),   \
+        WR_P_WHOLE("rows", "Rows", 1, 1, WR_SOLID_MAX, 32, "number of copies above one another"),  \
         WR_S_TUPLE("spacing", "Spacing", 0, 0, 16384, 0, 256, "texels", "x,y",                     \
-                   "from one to the next; 0: spread over the table"),                              \
-        WR_P_PART("stagger", "Stagger", 0, "every other row moved by so much of the spacing"),     \
-        WR_P_TEXELS("jitter", "Jitter", 0, 32, "how far each is moved at random"),                 \
+                   "distance between neighbours; 0: spread evenly over the table"),                \
+        WR_P_PART("stagger", "Stagger", 0,                                                         \
+                  "offset of every other row, as a share of the spacing"),                         \
+        WR_P_TEXELS("jitter", "Jitter", 0, 32, "largest random displacement"),                     \
         WR_P_NUMBER("alternate", "Alternate", 0, -360, 360, 90, "degrees",                         \
-                    "turn of every other one about its own x, as of a chain's links"),             \
+                    "rotation of every other copy about its own x axis, as in a chain"),           \
         WR_P_NUMBER("turn", "Turn", 0, 0, 180, 180, "degrees",                                     \
-                    "random turn about the upright, up to that"),                                  \
-        WR_P_NUMBER("tilt", "Tilt", 0, 0, 180, 45, "degrees", "random tilt, up to that"),          \
-        WR_P_NUMBER("vary", "Vary", 0, 0, 0.9, 0.9, "", "random change of size, as a part of it"), \
+                    "largest random rotation about the vertical"),                                 \
+        WR_P_NUMBER("tilt", "Tilt", 0, 0, 180, 45, "degrees", "largest random tilt"),              \
+        WR_P_NUMBER("vary", "Vary", 0, 0, 0.9, 0.9, "",                                            \
+                    "random variation of size, as a share of it"),                                 \
         WR_P_SEED,                                                                                 \
         WR_P_CHOICE("layout", "Layout", WR_LAYOUT_GRID, layouts,                                   \
-                    "grid: across by rows; hexagon: every other row between those beside it; "     \
-                    "chance: at random, none nearer to another than the spacing"),                 \
+                    "grid: across by rows; hexagon: rows offset by half the spacing; chance: "     \
+                    "random positions, no two nearer than the spacing"),                           \
         { .name = "points",                                                                        \
           .label = "Path",                                                                         \
-          .help = "they stand along a smooth curve through these places, turned with it, at "      \
-                  "equal distances: the spacing, rounded so that it closes",                       \
+          .help = "copies along a smooth curve through these points, rotated with it, at equal "   \
+                  "distances near the spacing, so that a closed curve has no gap",                 \
           .unit = "",                                                                              \
           .kind = WR_PARAM_POINTS,                                                                 \
           .low = -64,                                                                              \
           .high = 64 },                                                                            \
-        WR_P_SWITCH("closed", "Closed", 0, "the path ends where it begins"),                       \
-        WR_P_CHOICE("join", "Overlap", JOIN_MAX, joins,                                            \
-                    "where they overlap: the highest, melted into each other, or added up"),       \
+        WR_P_SWITCH("closed", "Closed", 0, "on: the path is closed"),                              \
+        WR_P_CHOICE(                                                                               \
+            "join", "Overlap", JOIN_MAX, joins,                                                    \
+            "overlapping copies. max: the highest; smooth: melted together; add: added up"),       \
         WR_P_ABOVE("melt", "Smoothing", 4, 0, 16384, 64, "texels",                                 \
-                   "of join=smooth: how far they melt")
+                   "join=smooth: distance within which they melt together")
 static const char *const layouts[] = { WR_LAYOUTS(WR_WORD) NULL };
 #define JOINS(X) X(JOIN_MAX, "max") X(JOIN_SMOOTH, "smooth") X(JOIN_ADD, "add")
 enum { JOINS(WR_WORD_ID) };
@@ -249,9 +252,10 @@ const WrParam wr_params_solid_mesh[] = {
       .unit = "",
       .kind = WR_PARAM_FILE,
       .positional = true },
-    WR_S_RADIUS("size", "Size", 128, "of the longest side of its box, before it is turned"),
+    WR_S_RADIUS("size", "Size", 128,
+                "length of the longest side of its bounding box, before rotation"),
     WR_S_POSE,
-    WR_S_HEIGHT("of its highest place over its lowest, as it is turned"),
+    WR_S_HEIGHT("height of the highest place above the lowest, after rotation"),
     WR_S_PLACE,
     WR_P_END,
 };
@@ -315,16 +319,19 @@ typedef struct Net {
 static const WrParam relief_params[] = {
     { .name = "file",
       .label = "File",
-      .help = "a picture: black is the ground, white the highest; its alpha counts; none: a pebble",
+      .help =
+          "a picture: black is the ground, white the highest, alpha the coverage; none: a pebble",
       .unit = "",
       .kind = WR_PARAM_FILE,
       .fallback_text = "",
       .positional = true },
-    WR_P_LAYER("instead of a file a layer below: the box of its content"),
-    WR_S_RADIUS("size", "Size", 64, "of the longest side of its box, before it is turned"),
-    WR_S_RADIUS("depth", "Depth", 16, "of its highest place over its ground, before it is turned"),
+    WR_P_LAYER("instead of a file: a layer below, cropped to its content"),
+    WR_S_RADIUS("size", "Size", 64,
+                "length of the longest side of its bounding box, before rotation"),
+    WR_S_RADIUS("depth", "Depth", 16,
+                "height of the highest place above its ground, before rotation"),
     WR_S_POSE,
-    WR_S_HEIGHT("of its highest place over its lowest, as it is turned"),
+    WR_S_HEIGHT("height of the highest place above the lowest, after rotation"),
     WR_S_PLACE,
     WR_P_END,
 };
@@ -493,14 +500,15 @@ static bool make_relief(const WrParamValue *values, const WrGenerateJob *job, Wr
 const WrParam wr_params_solid_surface[] = {
     { .name = "shape",
       .label = "Shape",
-      .help = "a surface's name and numbers, as in \"torus R=1 r=0.35\"",
+      .help = "a surface's name and arguments, as in \"torus R=1 r=0.35\"",
       .unit = "",
       .kind = WR_PARAM_TEXT,
       .fallback_text = "torus",
       .positional = true },
-    WR_S_RADIUS("size", "Size", 128, "of the longest side of its box, before it is turned"),
+    WR_S_RADIUS("size", "Size", 128,
+                "length of the longest side of its bounding box, before rotation"),
     WR_S_POSE,
-    WR_S_HEIGHT("of its highest place over its lowest, as it is turned"),
+    WR_S_HEIGHT("height of the highest place above the lowest, after rotation"),
     WR_S_PLACE,
     WR_P_END,
 };
@@ -738,20 +746,22 @@ static const char *const bevels[] = { WR_Z_BEVELS(WR_WORD) NULL };
 const WrParam wr_params_solid_letters[] = {
     { .name = "text",
       .label = "Text",
-      .help = "the text, in double quotes if it has a space; \\n begins a line",
+      .help = "the text, in double quotes if it has a space; \\n starts a new line",
       .unit = "",
       .kind = WR_PARAM_TEXT,
       .positional = true },
     WR_P_FONT(WR_FONT_SANS_BOLD), /* outlines, not bitmaps */
     WR_P_FONT_FILE,
-    WR_S_RADIUS("size", "Size", 96, "of the letters, as fonts count it"),
+    WR_S_RADIUS("size", "Size", 96, "font size of the letters (em)"),
     WR_S_RADIUS("depth", "Depth", 16, "thickness of the plate"),
     WR_P_TEXELS("bevel", "Bevel", 4, 32, "width of the rounded edge; at most the depth"),
-    WR_P_CHOICE("profile", "Profile", WR_Z_BEVEL_ROUND, bevels, "of the edge"),
-    WR_P_NUMBER("letters", "Letter spacing", 0, -4096, 4096, 32, "texels", "added between letters"),
-    WR_P_NUMBER("lines", "Line spacing", 1, 0, 16, 2, "", "times the font's own"),
+    WR_P_CHOICE("profile", "Profile", WR_Z_BEVEL_ROUND, bevels, "profile of the edge"),
+    WR_P_NUMBER("letters", "Letter spacing", 0, -4096, 4096, 32, "texels",
+                "extra space between letters"),
+    WR_P_NUMBER("lines", "Line spacing", 1, 0, 16, 2, "",
+                "line spacing, as a factor of the font's"),
     WR_S_POSE,
-    WR_S_HEIGHT("of its highest place over its lowest, as it is turned"),
+    WR_S_HEIGHT("height of the highest place above the lowest, after rotation"),
     WR_S_PLACE,
     WR_P_END,
 };
@@ -832,14 +842,18 @@ static bool solid_letters(const WrParamValue *values, const WrGenerateJob *job, 
 
 /* The family of solids: its rows, and the solids with closed forms. */
 
-#define HEIGHT WR_S_HEIGHT("of its highest place over its middle, as it is turned")
+#define HEIGHT WR_S_HEIGHT("height of the highest place above its centre, after rotation")
 
 static const WrParam sphere_params[] = {
-    WR_S_RADIUS("radius", "Radius", 32, "of the sphere"), WR_S_POSE, HEIGHT, WR_S_PLACE, WR_P_END,
+    WR_S_RADIUS("radius", "Radius", 32, "radius of the sphere"),
+    WR_S_POSE,
+    HEIGHT,
+    WR_S_PLACE,
+    WR_P_END,
 };
 
 static const WrParam ellipsoid_params[] = {
-    WR_S_ABOVE("radii", "Radii", 32, 256, "x,y,z", "along its three axes"),
+    WR_S_ABOVE("radii", "Radii", 32, 256, "x,y,z", "radii along its three axes"),
     WR_S_POSE,
     HEIGHT,
     WR_S_PLACE,
@@ -847,7 +861,7 @@ static const WrParam ellipsoid_params[] = {
 };
 
 static const WrParam box_params[] = {
-    WR_S_ABOVE("size", "Size", 64, 256, "x,y,z", "its three sides"),
+    WR_S_ABOVE("size", "Size", 64, 256, "x,y,z", "lengths of its three sides"),
     WR_S_POSE,
     HEIGHT,
     WR_S_PLACE,
@@ -855,8 +869,8 @@ static const WrParam box_params[] = {
 };
 
 static const WrParam round_params[] = {
-    WR_S_RADIUS("radius", "Radius", 24, "across its axis"),
-    WR_S_RADIUS("length", "Length", 64, "along its axis, which stands upright"),
+    WR_S_RADIUS("radius", "Radius", 24, "radius"),
+    WR_S_RADIUS("length", "Length", 64, "length along its vertical axis"),
     WR_S_POSE,
     HEIGHT,
     WR_S_PLACE,
@@ -864,8 +878,8 @@ static const WrParam round_params[] = {
 };
 
 static const WrParam capsule_params[] = {
-    WR_S_RADIUS("radius", "Radius", 16, "of its round ends"),
-    WR_S_RADIUS("length", "Length", 96, "from end to end; its axis stands upright"),
+    WR_S_RADIUS("radius", "Radius", 16, "radius of the rod and its round ends"),
+    WR_S_RADIUS("length", "Length", 96, "length from end to end, along its vertical axis"),
     WR_S_POSE,
     HEIGHT,
     WR_S_PLACE,
@@ -873,8 +887,8 @@ static const WrParam capsule_params[] = {
 };
 
 static const WrParam torus_params[] = {
-    WR_S_RADIUS("radius", "Radius", 32, "of the ring, to the middle of the tube"),
-    WR_S_RADIUS("tube", "Tube", 10, "radius of the tube, less than the ring's"),
+    WR_S_RADIUS("radius", "Radius", 32, "radius of the ring, to the centre of the tube"),
+    WR_S_RADIUS("tube", "Tube", 10, "radius of the tube, smaller than the ring's"),
     WR_S_POSE,
     HEIGHT,
     WR_S_PLACE,
@@ -957,7 +971,7 @@ static bool make_torus(const WrParamValue *values, const WrGenerateJob *job, WrR
 #define ROW(n, l, h, p, m) WR_GENERATOR("solid", n, l, h, "max", p, m)
 
 const WrGenerator wr_solids[] = {
-    ROW("sphere", "Sphere", "a sphere let into the ground: rivets, domes", sphere_params,
+    ROW("sphere", "Sphere", "a sphere sunk into the ground: rivets, domes", sphere_params,
         make_sphere),
     ROW("ellipsoid", "Ellipsoid", "a sphere stretched along its axes", ellipsoid_params,
         make_ellipsoid),
@@ -966,13 +980,13 @@ const WrGenerator wr_solids[] = {
     ROW("cone", "Cone", "a cone; its tip points up", round_params, make_cone),
     ROW("torus", "Torus", "a ring; alternate=90 makes links of chains", torus_params, make_torus),
     ROW("capsule", "Capsule", "a rod with round ends", capsule_params, make_capsule),
-    ROW("mesh", "Mesh file", "triangles of a file: OBJ, PLY, STL, glTF, 3MF and others",
+    ROW("mesh", "Mesh file", "a mesh from a file: OBJ, PLY, STL, glTF, 3MF and others",
         wr_params_solid_mesh, solid_mesh),
-    ROW("relief", "Relief", "a picture's or a layer's heights as a piece, for scattering",
+    ROW("relief", "Relief", "the heights of a picture or a layer as an object to scatter",
         relief_params, make_relief),
-    ROW("letters", "Letters", "letters of any font cut out of a plate, in any pose",
+    ROW("letters", "Letters", "letters of any font cut from a plate, in any orientation",
         wr_params_solid_letters, solid_letters),
-    ROW("surface", "Surface", "any of the surfaces that can be shown, seen from above",
-        wr_params_solid_surface, solid_surface),
+    ROW("surface", "Surface", "any surface of `surface`, seen from above", wr_params_solid_surface,
+        solid_surface),
     { .family = NULL },
 };

@@ -29,7 +29,7 @@ static const char *const profiles[] = { WR_TEXT_PROFILES(WR_WORD) NULL };
 #define WR_P_DRAWING                                                                               \
     { .name = "at",                                                                                \
       .label = "At",                                                                               \
-      .help = "where its middle lies",                                                             \
+      .help = "position of its centre",                                                            \
       .unit = "",                                                                                  \
       .kind = WR_PARAM_TUPLE,                                                                      \
       .fallback = { 0.5, 0.5 },                                                                    \
@@ -39,31 +39,30 @@ static const char *const profiles[] = { WR_TEXT_PROFILES(WR_WORD) NULL };
       .soft_high = 1,                                                                              \
       .shape = "u,v",                                                                              \
       .components = 2 },                                                                           \
-        WR_P_ABOVE("size", "Size", 256, 0, 65536, 512, "texels", "of its longest side"),           \
+        WR_P_ABOVE("size", "Size", 256, 0, 65536, 512, "texels", "length of the longest side"),    \
         WR_P_NUMBER("rotate", "Turn", 0, -36000, 36000, 180, "degrees",                            \
                     "anticlockwise, about its middle"),                                            \
         WR_P_CHOICE("edge", "Edges", EDGE_WRAP, edges,                                             \
-                    "parts beyond a periodic edge come back on the other side, or are cut off"),   \
+                    "parts beyond a periodic edge continue on the other side, or are cut off"),    \
         WR_P_CHOICE("profile", "Profile", WR_TEXT_FLAT, profiles,                                  \
-                    "how it rises from its rim; a ridge has bevel as its run for one height"),     \
-        WR_P_TEXELS("bevel", "Bevel", 4, 64, "how far inside of the rim the height is reached"),   \
+                    "profile of the relief's edge; for a ridge, bevel is the run for one height"), \
+        WR_P_TEXELS("bevel", "Bevel", 4, 64, "distance from the edge to full height"),             \
         WR_P_HEIGHT, WR_P_END
 
-const WrParam wr_params_svg[] = { WR_P_FILE("an SVG file; its text is left out"),
-                                  WR_P_CHOICE("take", "Take", WR_SVG_ALL, takes,
-                                              "all that is drawn, or only its dark or its light "
-                                              "parts"),
-                                  WR_P_CHOICE("box", "Box", BOX_DRAWN, boxes,
-                                              "its size and middle are those of all that is drawn, "
-                                              "or of the page"),
-                                  WR_P_DRAWING };
+const WrParam wr_params_svg[] = {
+    WR_P_FILE("an SVG file; its text elements are ignored"),
+    WR_P_CHOICE("take", "Take", WR_SVG_ALL, takes,
+                "parts to use: everything that is drawn, or only the dark or light parts"),
+    WR_P_CHOICE("box", "Box", BOX_DRAWN, boxes,
+                "size and centre are those of the drawing, or of the page"),
+    WR_P_DRAWING
+};
 
 const WrParam wr_params_path[] = {
     { .name = "path",
       .label = "Path",
-      .help =
-          "as in SVG's d: M x,y begins, L x,y draws a line, C and Q curves, A an arc, Z closes; "
-          "y runs down",
+      .help = "path data as in SVG's d: M x,y starts, L x,y is a line, C and Q are curves, A an "
+              "arc, Z closes; y points down",
       .unit = "",
       .kind = WR_PARAM_TEXT,
       /* a star of five points */

@@ -32,32 +32,32 @@ static const char *const orders[] = { ORDERS(WR_WORD) NULL };
 static const char *const meanings[] = { MEANINGS(WR_WORD) NULL };
 
 const WrParam wr_params_elevation[] = {
-    WR_P_FILE("a picture, SRTM elevations (.hgt), or bare numbers (.r16, .raw, .r32)"),
+    WR_P_FILE("a picture, SRTM elevations (.hgt), or a raw file (.r16, .raw, .r32)"),
     WR_P_CHANNELS("layer", "channel"),
     { .name = "size",
       .label = "Size",
-      .help = "columns x rows of bare numbers; left out, they are a square",
+      .help = "columns x rows of a raw file; left out, a square",
       .unit = "",
       .kind = WR_PARAM_TEXT,
       .fallback_text = "" },
     WR_P_CHOICE("sample", "Numbers", SAMPLE_AUTO, samples,
-                "type of raw numbers; auto: u16, or f32 in a file .r32"),
-    WR_P_CHOICE("order", "Byte order", LITTLE, orders, "of bare numbers"),
+                "number type of a raw file; auto: u16, or f32 for .r32"),
+    WR_P_CHOICE("order", "Byte order", LITTLE, orders, "byte order of a raw file"),
     WR_P_CHOICE(
         "values", "Values", AUTO, meanings,
         "range that is mapped to low..high: all codes of the type, or the smallest and largest "
         "value; real: heights are scale times the values; auto: real for floats, signed integers "
         "and TIFF files that are georeferenced or have a no-data value, else code"),
     WR_P_NUMBER("low", "Low", 0, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",
-                "values=code, range: of the lowest"),
+                "values=code, range: height of the lowest value"),
     WR_P_NUMBER("high", "High", 1, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",
-                "values=code, range: of the highest"),
+                "values=code, range: height of the highest value"),
     WR_P_NUMBER("scale", "Scale", 1, -1e12, 1e12, 10, "table units",
-                "values=real: of one unit of the file"),
+                "values=real: height of one unit of the file"),
     WR_P_SWITCH("holes", "Fill holes", 1,
                 "fill values without data: NaN, infinity, -9999, -32768, beyond 1e30"),
     WR_P_NUMBER("nodata", "No data", -9999, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 9999, "",
-                "another value without data"),
+                "another value that means no data"),
     WR_P_LABELS,
     WR_P_SEAMLESS(WR_SEAMLESS_OFF),
     WR_P_END
@@ -216,15 +216,15 @@ bool wr_terrain_elevation(const WrParamValue *values, const WrGenerateJob *job, 
 /* ---- Terraces: the present heights quantized to steps ---- */
 
 const WrParam wr_params_terraces[] = {
-    WR_P_WHOLE("steps", "Steps", 8, 1, 4096, 32, "from the lowest to the highest place"),
+    WR_P_WHOLE("steps", "Steps", 8, 1, 4096, 32,
+               "number of terraces from the lowest to the highest place"),
     WR_P_PART("sharpness", "Sharpness", 0.8,
-              "how flat the terraces are: 0 leaves the heights "
-              "unchanged"),
+              "flatness of the terraces; 0 leaves the heights unchanged"),
     WR_P_NUMBER("riser", "Riser", 0.3, 0.01, 1, 1, "",
-                "the part of a step's height over which it rises"),
-    WR_P_PART("jitter", "Jitter", 0.3, "how unevenly they run, in steps"),
-    WR_P_WHOLE("cells", "Cells", 6, 1, 4096, 32, "of the jitter, across the table"),
-    WR_P_PART("uneven", "Height variation", 0.3, "how much some steps are higher than others"),
+                "share of a terrace's height over which it rises"),
+    WR_P_PART("jitter", "Jitter", 0.3, "irregularity of their edges, in terraces"),
+    WR_P_WHOLE("cells", "Cells", 6, 1, 4096, 32, "cells of the jitter's noise across the table"),
+    WR_P_PART("uneven", "Height variation", 0.3, "random variation of the terraces' heights"),
     WR_P_SEED,
     WR_P_ORIGIN,
     WR_P_END
@@ -380,28 +380,29 @@ enum { TYPES(WR_WORD_ID) };
 static const char *const types[] = { TYPES(WR_WORD) NULL };
 
 const WrParam wr_params_fractal[] = {
-    WR_P_CHOICE("type", "Type", RIDGED, types, "round hills, lumps, ridges, plains with mountains"),
-    WR_P_WHOLE("cells", "Cells", 3, 1, 4096, 16, "of the first octave, across the table"),
+    WR_P_CHOICE("type", "Type", RIDGED, types,
+                "fbm: round hills; billow: lumps; ridged: ridges; hybrid: plains with mountains"),
+    WR_P_WHOLE("cells", "Cells", 3, 1, 4096, 16, "cells of the first octave across the table"),
     WR_P_WHOLE("octaves", "Octaves", 9, 1, WR_OCTAVES_MAX, 12,
-               "at most; those finer than two texels a cell are left out"),
+               "largest number of octaves; those with cells below two texels are left out"),
     WR_P_ABOVE("ratio", "Falloff", 2.1, 1, 64, 4, "",
                "amplitude ratio of successive octaves: higher is smoother"),
     WR_P_ABOVE("step", "Lacunarity", 2, 1, 64, 4, "",
                "frequency ratio of successive octaves; rounded to whole cells"),
-    WR_P_NUMBER("offset", "Offset", 0.7, 0, 10, 2, "", "type=hybrid: how much of it is mountains"),
+    WR_P_NUMBER("offset", "Offset", 0.7, 0, 10, 2, "", "type=hybrid: share of mountains"),
     WR_P_NUMBER("gain", "Gain", 2, 0, 100, 4, "",
-                "type=ridged, hybrid: how soon fine octaves show beside the ridges"),
-    WR_P_PART("altitude", "By altitude", 0.5, "how much finer octaves fade towards low ground"),
-    WR_P_NUMBER("erosion", "Erosion", 0.5, 0, 100, 2, "", "how much finer octaves fade on slopes"),
+                "type=ridged, hybrid: strength of fine octaves beside the ridges"),
+    WR_P_PART("altitude", "By altitude", 0.5, "attenuation of finer octaves towards low ground"),
+    WR_P_NUMBER("erosion", "Erosion", 0.5, 0, 100, 2, "", "attenuation of finer octaves on slopes"),
     WR_P_NUMBER("warp", "Warp", 0, -8, 8, 1, "cells",
-                "how far places are moved by a noise of their own; slow"),
+                "distance by which noise displaces the ground sideways; slow"),
     WR_P_ABOVE("curve", "Curve", 1, 0, 16, 4, "",
-               "heights, as parts of the whole, to this power: above 1, wider valleys"),
-    WR_P_PART("sea", "Sea", 0, "lower ground is flat, as a fraction of the height"),
+               "exponent of the heights; above 1 widens valleys"),
+    WR_P_PART("sea", "Sea", 0, "sea level, as a share of the height; lower ground is flat"),
     WR_P_SEED,
     WR_P_HEIGHT,
     WR_P_NUMBER("level", "Level", 0, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",
-                "of the lowest place"),
+                "level of the lowest place"),
     WR_P_ORIGIN,
     WR_P_END
 };
@@ -640,19 +641,21 @@ bool wr_terrain_fractal(const WrParamValue *values, const WrGenerateJob *job, Wr
     }
 
 const WrGenerator wr_terrains[] = {
-    ROW("fractal", "Fractal", "mountains by sums of noise, finer on heights and off slopes",
+    ROW("fractal", "Fractal",
+        "mountains from sums of noise, with finer detail on high ground and less on slopes",
         wr_params_fractal, wr_terrain_fractal, false),
     ROW("elevation", "Elevation",
-        "real heights from a picture of 16 bits or floats, or from bare numbers",
-        wr_params_elevation, wr_terrain_elevation, false),
+        "real elevations from a 16-bit or float picture, or from a raw file", wr_params_elevation,
+        wr_terrain_elevation, false),
     ROW("hydraulic", "Rain",
-        "rain runs over the heights, cuts valleys and fills hollows; no ground is lost. It falls "
-        "at fixed places of the table: a rolled table erodes differently",
+        "erosion by rain, which cuts valleys and fills hollows; no ground is lost. Drops fall at "
+        "fixed places of the table, so a shifted table erodes differently",
         wr_params_hydraulic, wr_terrain_hydraulic, true),
     ROW("thermal", "Scree",
-        "ground slides where it is steeper than the angle of rest; no ground is lost",
+        "thermal erosion: ground slides where it is steeper than the talus angle; no ground is "
+        "lost",
         wr_params_thermal, wr_terrain_thermal, true),
-    ROW("terraces", "Terraces", "the heights, cut into steps", wr_params_terraces,
+    ROW("terraces", "Terraces", "terraces cut into the heights", wr_params_terraces,
         wr_terrain_terraces, true),
     { .family = NULL },
 };

@@ -145,22 +145,21 @@ typedef struct WrTextRequest {
 /* Rows of those parameters, and of the others that select fonts. */
 #define WR_P_FONT(value)                                                                           \
     {                                                                                              \
-        .name = "font", .label = "Font", .help = "an installed font, where no file is named",      \
+        .name = "font", .label = "Font", .help = "an installed font, if no file is given",         \
         .unit = "", .kind = WR_PARAM_CHOICE, .fallback = { value }, .words = wr_font_names         \
     }
 #define WR_P_FONT_FILE                                                                             \
     { .name = "file",                                                                              \
       .label = "Font file",                                                                        \
-      .help = "a font: TrueType, OpenType, Type 1, PCF, BDF, OTB, also packed by gzip",            \
+      .help = "a font file: TrueType, OpenType, Type 1, PCF, BDF, OTB, also compressed by gzip",   \
       .unit = "",                                                                                  \
       .kind = WR_PARAM_FILE,                                                                       \
       .fallback_text = "" },                                                                       \
-        WR_P_WHOLE("face", "Face", 0, 0, 65535, 15, "which of a collection of fonts in one file")
+        WR_P_WHOLE("face", "Face", 0, 0, 65535, 15, "number of the font in a file with several")
 #define WR_P_MISSING(n, words)                                                                     \
-    WR_P_CHOICE(                                                                                   \
-        n, "Missing letters", WR_TEXT_BORROW, words,                                               \
-        "characters that the font lacks: from other installed fonts, or drawn as its sign "        \
-        "for missing ones")
+    WR_P_CHOICE(n, "Missing letters", WR_TEXT_BORROW, words,                                       \
+                "characters that the font lacks. borrow: taken from other installed fonts; sign: " \
+                "drawn as the font's sign for missing characters")
 #define WR_P_FALLBACK(n, l, h)                                                                     \
     {                                                                                              \
         .name = (n), .label = (l), .help = (h), .unit = "", .kind = WR_PARAM_FILE,                 \

@@ -37,13 +37,15 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
                                         SLIDER(0, 0.3, 4) },
     [WR_ROW(WR_SCENE_PARAM_DISPLACED)] = { "bump", NULL, "displaced", IN_SCENE(displaced),
                                            .planned = true, .sparse = true,
-                                           .help = "true displacement: F moves the surface itself, "
-                                                   "outlines included; off: bump mapping" },
-    [WR_ROW(WR_SCENE_PARAM_PARALLAX)] = { "bump", NULL, "parallax", IN_SCENE(parallax),
-                                          .planned = true, .sparse = true,
-                                          .help =
-                                              "parallax mapping: parts of the relief hide others; "
-                                              "outlines too, of planes, spheres and cylinders" },
+                                           .help =
+                                               "on: true displacement, F moves the surface itself, "
+                                               "silhouettes included; off: bump mapping" },
+    [WR_ROW(
+        WR_SCENE_PARAM_PARALLAX)] = { "bump", NULL, "parallax", IN_SCENE(parallax), .planned = true,
+                                      .sparse = true,
+                                      .help =
+                                          "on: parallax mapping, the relief hides parts of itself; "
+                                          "on planes, spheres and cylinders with silhouettes" },
     [WR_ROW(WR_SCENE_PARAM_REPLICATE)] = { "replicate", NULL, "ru,rv", .positional = true,
                                            .required = true, IN_SCENE(replicate_u), .components = 2,
                                            .low = -1e9, .high = 1e9, .fallback = { 1, 1 },
@@ -68,8 +70,7 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
     [WR_ROW(WR_SCENE_PARAM_SHININESS)] = { "material", NULL, "shininess",
                                            IN_SCENE(material.shininess), .components = 1,
                                            .high = 1e6, .fallback = { 40 }, .label = "Shininess",
-                                           .help = "exponent of the highlight: a higher one makes "
-                                                   "it smaller",
+                                           .help = "exponent of the highlight; higher is smaller",
                                            SLIDER(1, 500, -1), .logarithmic = true },
     [WR_ROW(WR_SCENE_PARAM_MATERIAL_COLOUR)] = { "material", NULL, "colour",
                                                  IN_SCENE(material.colour), .components = 3,
@@ -81,25 +82,25 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
     [WR_ROW(WR_SCENE_PARAM_GATE)] = { "material", NULL, "gate", IN_SCENE(material.gate),
                                       .fallback = { 1 },
                                       .help =
-                                          "highlight only where the light is above the surface" },
-    [WR_ROW(WR_SCENE_PARAM_ROUGHNESS)] = { "material", NULL, "roughness",
-                                           IN_SCENE(material.roughness), .components = 1, .high = 1,
-                                           .fallback = { 0.3 }, .planned = true, .sparse = true,
-                                           .label = "Roughness",
-                                           .help = "0: polished, 1: matt; of Oren-Nayar the spread "
-                                                   "of slopes in radians",
-                                           SLIDER(0, 1, 3) },
+                                          "on: no highlight where the light is below the surface" },
+    [WR_ROW(
+        WR_SCENE_PARAM_ROUGHNESS)] = { "material", NULL, "roughness", IN_SCENE(material.roughness),
+                                       .components = 1, .high = 1, .fallback = { 0.3 },
+                                       .planned = true, .sparse = true, .label = "Roughness",
+                                       .help = "0: polished, 1: matt; for oren-nayar the standard "
+                                               "deviation of the facets' slopes in radians",
+                                       SLIDER(0, 1, 3) },
     [WR_ROW(WR_SCENE_PARAM_METALNESS)] = { "material", NULL, "metalness",
                                            IN_SCENE(material.metalness), .components = 1, .high = 1,
                                            .planned = true, .sparse = true, .label = "Metalness",
-                                           .help = "1: a metal, whose highlight has the base "
-                                                   "colour and which has no diffuse light",
+                                           .help = "1: metal, whose highlight has the base colour, "
+                                                   "without diffuse reflection",
                                            SLIDER(0, 1, 3) },
     [WR_ROW(WR_SCENE_PARAM_IOR)] = { "material", NULL, "ior", IN_SCENE(material.ior),
                                      .components = 1, .low = 0.01, .high = 1e4, .fallback = { 1.5 },
                                      .planned = true, .sparse = true, .label = "IOR",
-                                     .help =
-                                         "index of refraction: how much it reflects from the front",
+                                     .help = "index of refraction, which sets the reflectance at "
+                                             "normal incidence",
                                      SLIDER(1, 4, 3) },
     [WR_ROW(WR_SCENE_PARAM_TINT)] = { "material", NULL, "tint", IN_SCENE(material.tint),
                                       .components = 1, .high = 1, .planned = true, .sparse = true,
@@ -108,12 +109,12 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
                                       SLIDER(0, 1, 2) },
     [WR_ROW(WR_SCENE_PARAM_SHADOW)] = { "material", NULL, "shadow", IN_SCENE(material.shadow),
                                         .planned = true, .sparse = true,
-                                        .help = "the relief casts shadows on itself" },
+                                        .help = "on: the relief casts shadows on itself" },
     [WR_ROW(WR_SCENE_PARAM_OCCLUSION)] = { "material", NULL, "occlusion",
                                            IN_SCENE(material.occlusion), .planned = true,
                                            .sparse = true,
-                                           .help = "ambient occlusion: cavities get less of the "
-                                                   "ambient light and of the environment's" },
+                                           .help = "on: ambient occlusion, cavities get less light "
+                                                   "from the ambient term and the environment" },
     [WR_ROW(WR_SCENE_PARAM_GRAIN_LIGHT)] = { "grain", NULL, "light", IN_SCENE(grain.light),
                                              .components = 3, .high = 1e6, .fallback = { 1, 1, 1 },
                                              .planned = true, .shape = "r,g,b", .label = "Light",
@@ -152,14 +153,14 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
         WR_SCENE_PARAM_GRAIN_OCTAVES)] = { "grain", NULL, "octaves", IN_SCENE(grain.octaves),
                                            .components = 1, .low = 1, .high = 10, .fallback = { 3 },
                                            .label = "Octaves",
-                                           .help = "layers of noise, each twice as fine as the one "
-                                                   "before; rounded",
+                                           .help = "octaves of noise, each twice as fine as the "
+                                                   "one before; rounded",
                                            SLIDER(1, 10, 0) },
     [WR_ROW(WR_SCENE_PARAM_GRAIN_RATIO)] = { "grain", NULL, "ratio", IN_SCENE(grain.ratio),
                                              .components = 1, .low = 1.01, .high = 100,
                                              .fallback = { 2 }, .label = "Falloff of octaves",
-                                             .help = "factor by which each octave is weaker than "
-                                                     "the one before",
+                                             .help = "amplitude ratio of successive octaves; "
+                                                     "higher is smoother",
                                              SLIDER(1.1, 4, 2) },
     [WR_ROW(
         WR_SCENE_PARAM_GRAIN_EDGE)] = { "grain", NULL, "edge", IN_SCENE(grain.edge),
@@ -192,10 +193,11 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
     [WR_ROW(WR_SCENE_PARAM_LIGHT_TO)] = { "light", "directional", "to", .required = true,
                                           IN_LIGHT(where), PLACE_RANGE,
                                           .fallback = { -0.5, 0.6, 0.75 },
-                                          .help = "from the surface to the light, any length" },
+                                          .help = "direction from the surface to the light, of any "
+                                                  "length" },
     [WR_ROW(WR_SCENE_PARAM_LIGHT_AT)] = { "light", "point", "at", .required = true, IN_LIGHT(where),
                                           PLACE_RANGE, .fallback = { -0.5, 0.6, 0.75 },
-                                          .unit = "scene units", .help = "where it stands" },
+                                          .unit = "scene units", .help = "position of the light" },
     [WR_ROW(WR_SCENE_PARAM_LIGHT_COLOUR)] = { "light", NULL, "colour", .filled = true,
                                               IN_LIGHT(colour), .components = 3, .high = 1e6,
                                               .fallback = { 1, 1, 1 }, .planned = true,
@@ -210,14 +212,14 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
     [WR_ROW(WR_SCENE_PARAM_LIGHT_SIZE)] = { "light", NULL, "size", .filled = true,
                                             IN_LIGHT(size_deg), .components = 1, .high = 45,
                                             .sparse = true, .unit = "degrees", .label = "Softness",
-                                            .help = "angular radius of a round light: how soft "
-                                                    "shadows are; the sun has 0.27",
+                                            .help = "angular radius of a disc light, which softens "
+                                                    "shadows; the sun has 0.27",
                                             SLIDER(0, 10, 2) },
     [WR_ROW(WR_SCENE_PARAM_LIGHT_SHADOW)] = { "light", NULL, "shadow", .filled = true,
                                               IN_LIGHT(shadow), .planned = true, .sparse = true,
                                               .label = "Shadows of objects",
-                                              .help = "objects cast shadows in this light, on each "
-                                                      "other and on themselves" },
+                                              .help = "on: objects cast shadows in this light, on "
+                                                      "each other and on themselves" },
     [WR_ROW(WR_SCENE_PARAM_ENVIRONMENT_TURN)] = { "environment", NULL, "turn",
                                                   IN_SCENE(environment.turn_deg), .components = 1,
                                                   .low = -1e9, .high = 1e9, .unit = "degrees",
@@ -240,30 +242,25 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
                                         .help = "point at the centre of the view" },
     [WR_ROW(WR_SCENE_PARAM_UP)] = { "camera", NULL, "up", IN_SCENE(camera.up), PLACE_RANGE,
                                     .fallback = { 0, 1, 0 },
-                                    .help = "direction that is up in the "
-                                            "picture" },
+                                    .help = "upward direction of the picture" },
     [WR_ROW(WR_SCENE_PARAM_FIT)] = { "camera", NULL, "fit", IN_SCENE(camera.fit), .fallback = { 1 },
                                      .planned = true,
-                                     .help =
-                                         "on: stand so far from the target, towards the eye, that "
-                                         "the object just fits; eye= turns it off" },
-    [WR_ROW(
-        WR_SCENE_PARAM_FRAME)] = { "camera", NULL, "frame", IN_SCENE(camera.frame), .components = 1,
-                                   .sparse = true, .high = 1e4, .fallback = { 0 },
-                                   .help =
-                                       "width by height of the part that must be visible: a "
-                                       "narrower picture shows the same width, and more height; "
-                                       "0: none; without fit=on" },
+                                     .help = "on: the camera's distance is chosen so that the "
+                                             "objects just fit; eye= switches it off" },
+    [WR_ROW(WR_SCENE_PARAM_FRAME)] = { "camera", NULL, "frame", IN_SCENE(camera.frame),
+                                       .components = 1, .sparse = true, .high = 1e4,
+                                       .fallback = { 0 },
+                                       .help = "aspect ratio that must stay visible: a narrower "
+                                               "picture shows the same width and more height; 0: "
+                                               "none; without fit=on" },
     [WR_ROW(WR_SCENE_PARAM_FOV)] = { "camera", "perspective", "fov", IN_SCENE(camera.fov_deg),
                                      .components = 1, .low = 0.01, .high = 179, .fallback = { 35 },
                                      .unit = "degrees", .label = "Angle",
-                                     .help = "angle of view from bottom to top",
-                                     SLIDER(5, 120, 1) },
+                                     .help = "vertical angle of view", SLIDER(5, 120, 1) },
     [WR_ROW(
         WR_SCENE_PARAM_CAMERA_SIZE)] = { "camera", "orthographic", "size", IN_SCENE(camera.size),
                                          .components = 1, .high = 1e9, .unit = "scene units",
-                                         .help = "height of the view; 0: so that the object just "
-                                                 "fits" },
+                                         .help = "height of the view; 0: the objects just fit" },
     [WR_ROW(WR_SCENE_PARAM_AT)] = { "object", "set", "at", IN_SCENE(at), PLACE_RANGE,
                                     .planned = true, .unit = "scene units", .label = "Position",
                                     .help = "position of its centre in the world" },
@@ -273,10 +270,10 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
                                       .help = "scale of the object; heights scale with it",
                                       SLIDER(0.1, 4, 3), .logarithmic = true },
     [WR_ROW(WR_SCENE_PARAM_HIDDEN)] = { "object", "set", "hidden", IN_SCENE(hidden),
-                                        .planned = true, .help = "not rendered" },
+                                        .planned = true, .help = "on: the object is not rendered" },
     [WR_ROW(WR_SCENE_PARAM_STILL)] = { "object", "set", "still", IN_SCENE(still),
-                                       .help = "not rotated by the turntable, and ignored when the "
-                                               "camera fits the objects" },
+                                       .help = "on: not rotated by the turntable, and ignored when "
+                                               "the camera fits the objects" },
     [WR_ROW(WR_SCENE_PARAM_BACKGROUND)] = { "background", "plain", "colour",
                                             IN_SCENE(background.top), GROUND_RANGE,
                                             .label = "Colour", .help = "linear" },
@@ -291,7 +288,7 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
     [WR_ROW(WR_SCENE_PARAM_EXPOSURE)] = { "tone", NULL, "exposure", IN_SCENE(tone.exposure),
                                           .components = 1, .low = -20, .high = 20, .unit = "stops",
                                           .label = "Exposure",
-                                          .help = "one stop more doubles the light",
+                                          .help = "exposure; each stop doubles the light",
                                           SLIDER(-4, 4, 2) },
     [WR_ROW(WR_SCENE_PARAM_CELL_SIZE)] = { "cell", NULL, "WIDTH,HEIGHT", .positional = true,
                                            IN_SCENE(cell.w), .components = 2, .low = 1e-9,
@@ -299,7 +296,8 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
                                            .help = "width and height of the cell",
                                            SLIDER(0.1, 1000, -1), .logarithmic = true },
     [WR_ROW(WR_SCENE_PARAM_CELL_MM)] = { "cell", NULL, "mm", IN_SCENE(cell.mm),
-                                         .help = "in millimetres; off: in scene units" },
+                                         .help = "on: the size is in millimetres; off: in scene "
+                                                 "units" },
     [WR_ROW(WR_SCENE_PARAM_CELL_HEIGHT)] = { "cell", NULL, "height", IN_SCENE(cell.height),
                                              .components = 1, .low = 1e-9, .high = 1e9,
                                              .fallback = { 1 }, .unit = "mm",

@@ -238,8 +238,9 @@ bool wr_tone_equal(const WrTone *a, const WrTone *b)
 
 WR_ROWS(wr_light_kinds);
 const WrLightKindInfo wr_light_kinds[WR_LIGHT_KINDS] = {
-    [WR_ROW(WR_LIGHT_DIRECTIONAL)] = { "directional", "Far away", "light from far away", false },
-    [WR_ROW(WR_LIGHT_POINT)] = { "point", "Point", "light from a point", true },
+    [WR_ROW(WR_LIGHT_DIRECTIONAL)] = { "directional", "Far away",
+                                       "a directional light, such as the sun", false },
+    [WR_ROW(WR_LIGHT_POINT)] = { "point", "Point", "a point light", true },
 };
 WR_ROWS_END(wr_light_kinds, WR_LIGHT_KINDS);
 

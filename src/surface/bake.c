@@ -179,13 +179,15 @@ const WrBakeRow wr_bakes[WR_BAKE_KINDS] = {
     [WR_ROW(WR_BAKE_POSITION)] = { "position", 3, false, take_position,
                                    "x, y, z in the object's bounding sphere as colours" },
     [WR_ROW(WR_BAKE_OCCLUSION)] = { "occlusion", 1, false, take_occlusion,
-                                    "how much of the surroundings is seen: greys, 1 all" },
+                                    "visible share of the surroundings in grey, 1: all" },
     [WR_ROW(WR_BAKE_CURVATURE)] = { "curvature", 1, false, take_curvature,
-                                    "greys, bright on edges, dark in grooves, 0.5 flat" },
+                                    "curvature in grey: bright on edges, dark in grooves, 0.5 "
+                                    "where flat" },
     [WR_ROW(WR_BAKE_PARTS)] = { "parts", 3, false, take_part,
                                 "a colour for each part or material of the detailed mesh" },
-    [WR_ROW(WR_BAKE_HITS)] = { "hits", 3, false, take_hit,
-                               "where rays hit, green; miss, red; meet only backs, blue" },
+    [WR_ROW(
+        WR_BAKE_HITS)] = { "hits", 3, false, take_hit,
+                           "rays that hit: green; that miss: red; that hit only back faces: blue" },
 };
 WR_ROWS_END(wr_bakes, WR_BAKE_KINDS);
 

@@ -64,7 +64,7 @@ static const WrSurfaceInfo bent_row = {
                   -WR_LENGTH_MAX,
                   WR_LENGTH_MAX,
                   true,
-                  "how far the corner (1,1) is moved" } },
+                  "displacement of the corner (1,1)" } },
     .pose_deg = { -25, 20, 0 },
     .centre_half_ab = true,
     .open = true,

@@ -194,7 +194,7 @@ R_INLINE void FN(bezier_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
 static const WrSurfaceInfo bezier_row = {
     .name = "bezier",
     .label = "Bezier patch",
-    .help = "a bicubic patch over sixteen points",
+    .help = "a bicubic Bezier patch with sixteen control points",
     /* Two crossed waves over the unit square: z = s_i + t_j. */
     /* clang-format off */
     .params = { { "points", 48,

@@ -48,10 +48,16 @@ static double capsule_radius(const WrShape *s)
 static const WrSurfaceInfo capsule_row = {
     .name = "capsule",
     .label = "Capsule",
-    .help = "a tube with a half ball on either end; the table's lower and upper edges meet at its "
-            "poles",
+    .help =
+        "a tube with a hemisphere at each end; the table's lower and upper edges meet at its poles",
     .params = { { "R", 1, { 0.5 }, WR_LENGTH_MIN, WR_LENGTH_MAX, true, "radius" },
-                { "H", 1, { 1 }, 0, WR_LENGTH_MAX, true, "length of the tube between the balls" } },
+                { "H",
+                  1,
+                  { 1 },
+                  0,
+                  WR_LENGTH_MAX,
+                  true,
+                  "length of the tube between the hemispheres" } },
     .pose_deg = { -90, 90, 0 },
     .closed_u = true,
     .faces = 1,

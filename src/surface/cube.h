@@ -61,7 +61,7 @@ static const WrSurfaceInfo cube_row = {
                   1,
                   6,
                   false,
-                  "tables: 1 for every face, 6 cells of it",
+                  "1: each face shows the whole table; 6: each face shows its own cell of it",
                   { "All of it on each face", "A cell for each face" } } },
     /* Rotated 35 degrees to the left about the upright axis, then tilted 25 degrees forward. */
     .pose_deg = { 29.65, -31.32, -16.48 },

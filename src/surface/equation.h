@@ -144,8 +144,8 @@ static const WrSurfaceInfo formula_row = {
             "log, abs, pow, "
             "atan2, min, max; angles in radians",
     .texts = { { "x", "x", "2*u-1", "x of the point at u, v, as in cos(2*pi*u)", "EXPRESSION" },
-               { "y", "y", "2*v-1", "y, likewise", "EXPRESSION" },
-               { "z", "z", "0.25*sin(3*pi*u)*sin(2*pi*v)", "z, likewise", "EXPRESSION" } },
+               { "y", "y", "2*v-1", "y of the point", "EXPRESSION" },
+               { "z", "z", "0.25*sin(3*pi*u)*sin(2*pi*v)", "z of the point", "EXPRESSION" } },
     .make = formula_make,
     .pose_deg = { -40, 0, -25 },
     .open = true,

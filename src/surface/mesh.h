@@ -30,8 +30,8 @@ static double mesh_radius(const WrShape *s)
 static const WrSurfaceInfo mesh_row = {
     .name = "mesh",
     .label = "Mesh",
-    .help =
-        "triangles out of a file: OBJ, PLY, STL, glTF, 3MF and others; without one a square of two",
+    .help = "triangles from a file: OBJ, PLY, STL, glTF, 3MF and others; without a file, a square "
+            "of two triangles",
     .held = true,
     .open = true,
     .faces = 1,

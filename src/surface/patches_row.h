@@ -12,7 +12,7 @@ R_INLINE void FN(patches_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
 static const WrSurfaceInfo patches_row = {
     .name = "patches",
     .label = "Bezier patches",
-    .help = "a set of bicubic patches out of a file, such as the teapot; without one a square",
+    .help = "a set of bicubic patches from a file, such as the teapot; without a file, a square",
     .held = true,
     .open = true,
     .faces = 1,

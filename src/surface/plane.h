@@ -35,7 +35,7 @@ static const WrSurfaceInfo plane_row = {
                   0,
                   1,
                   false,
-                  "1: it goes on beyond its sides, to the horizon",
+                  "1: it continues beyond its sides, to the horizon",
                   { "Ends at its sides", "Goes on to the horizon" } } },
     .endless = true,
     .centre_half_ab = true,

@@ -105,7 +105,7 @@ R_INLINE void FN(superellipsoid_at)(const SHAPE *shape, int face, REAL u, REAL v
 static const WrSurfaceInfo superellipsoid_row = {
     .name = "superellipsoid",
     .label = "Superellipsoid",
-    .help = "from rounded box over ellipsoid and octahedron to a star with pinched arms",
+    .help = "a rounded box, ellipsoid, octahedron or star, by its exponents",
     .params = { { "a", 1, { 0.8 }, WR_LENGTH_MIN, WR_LENGTH_MAX, true, "half its width, x" },
                 { "b", 1, { 0.8 }, WR_LENGTH_MIN, WR_LENGTH_MAX, true, "half its depth, y" },
                 { "c", 1, { 0.8 }, WR_LENGTH_MIN, WR_LENGTH_MAX, true, "half its height, z" },
@@ -115,8 +115,14 @@ static const WrSurfaceInfo superellipsoid_row = {
                   0.1,
                   4,
                   false,
-                  "form from pole to pole: 0.1 box, 1 round, 2 straight" },
-                { "e2", 1, { 0.4 }, 0.1, 4, false, "form round the axis, likewise" } },
+                  "exponent from pole to pole: 0.1 box, 1 round, 2 straight" },
+                { "e2",
+                  1,
+                  { 0.4 },
+                  0.1,
+                  4,
+                  false,
+                  "exponent around the axis: 0.1 box, 1 round, 2 straight" } },
     /* Upright with u = 1/2 in front, rotated 35 degrees to the left and tilted 25 forward, like the
      * cube. */
     .pose_deg = { -50.89, 47.94, 31.11 },

@@ -10,7 +10,7 @@ R_INLINE void FN(terrain_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
 static const WrSurfaceInfo terrain_row = {
     .name = "terrain",
     .label = "Terrain",
-    .help = "ground whose heights are those of a picture or a layer, as a smooth surface",
+    .help = "smooth ground with the heights of a picture or a layer",
     .params = { { "a", 1, { 1 }, WR_LENGTH_MIN, WR_LENGTH_MAX, true, "width" },
                 { "b", 1, { 1 }, WR_LENGTH_MIN, WR_LENGTH_MAX, true, "depth" },
                 { "height",

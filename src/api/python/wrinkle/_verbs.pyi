@@ -10,24 +10,24 @@ class Verbs:
     def table(
         self, *_values: Any, wrap: Literal['periodic', 'clamp-u', 'clamp-v', 'clamp'] | None = ...
     ) -> None:
-        """A new height table, everywhere 0."""
+        """Create a table of heights 0."""
 
     def fill(
         self, *_values: Any
     ) -> None:
-        """Set every height."""
+        """Set all heights to a constant."""
 
     def grid(
         self, *, cells: Sequence[int] | None = ..., width: float | None = ..., low: float | None = ..., high: float |
         None = ...
     ) -> None:
-        """Replace the heights by a gridwork of lines."""
+        """Replace the heights by a grid of lines."""
 
     def image(
         self, *_values: Any, fit: Literal['table'] | None = ..., layer: Any | None = ..., part: Any | None = ...,
         labels: Literal['use', 'ignore'] | None = ..., sha256: str | None = ...
     ) -> None:
-        """Take the heights from a picture."""
+        """Read the heights from a picture."""
 
     def dab(
         self, *_values: Any, radius: float | None = ..., hardness: float | None = ..., strength: float | None = ...,
@@ -41,7 +41,7 @@ class Verbs:
         None = ..., radial: float | None = ..., centre: Sequence[float] | None = ..., repeat: Sequence[int] | None =
         ..., stagger: float | None = ...
     ) -> None:
-        """Touch the table once with a brush."""
+        """Paint one dab."""
 
     def stroke(
         self, *, points: Any | None = ..., radius: float | None = ..., hardness: float | None = ..., strength: float |
@@ -55,7 +55,7 @@ class Verbs:
         Literal['none', 'u', 'v', 'uv'] | None = ..., radial: float | None = ..., centre: Sequence[float] | None = ...,
         repeat: Sequence[int] | None = ..., stagger: float | None = ...
     ) -> None:
-        """Draw a brush along a path."""
+        """Paint a stroke along a path."""
 
     def sculpt(
         self, *, points: Any | None = ..., eye: Sequence[float] | None = ..., mirror_axes: Literal['none', 'x', 'y',
@@ -70,7 +70,7 @@ class Verbs:
         Sequence[float] | None = ..., mirror: Literal['none', 'u', 'v', 'uv'] | None = ..., radial: float | None = ...,
         centre: Sequence[float] | None = ..., repeat: Sequence[int] | None = ..., stagger: float | None = ...
     ) -> None:
-        """Draw a brush along a path on the object's mesh."""
+        """Paint a stroke on the object's mesh."""
 
     def project(
         self, *_values: Any, eye: Sequence[float] | None = ..., at: Sequence[float] | None = ..., up: Sequence[float] |
@@ -79,7 +79,7 @@ class Verbs:
         'clone', 'sharpen', 'dilate', 'erode', 'smooth', 'level', 'pinch', 'smear'] | None = ..., to: float | None =
         ..., opacity: float | None = ..., reach: float | None = ..., source: Sequence[float] | None = ...
     ) -> None:
-        """Lay a layer onto the object's mesh as seen from a place."""
+        """Project a layer onto the object's mesh."""
 
     def shape(
         self, _form: Literal['rectangle', 'ellipse', 'polygon', 'path'], /, *, radius: float | None = ..., hardness:
@@ -104,14 +104,14 @@ class Verbs:
         'erode', 'smooth', 'level', 'pinch', 'smear'] | None = ..., to: float | None = ..., opacity: float | None = ...,
         reach: float | None = ..., source: Sequence[float] | None = ...
     ) -> None:
-        """Fill a connected part of about one height."""
+        """Fill a connected region of similar height."""
 
     def ramp(
         self, _form: Literal['linear', 'radial', 'cone'], /, *, from_: Sequence[float] | None = ..., to: Sequence[float]
         | None = ..., low: float | None = ..., high: float | None = ..., fold: Any | None = ..., blend:
         Literal['replace', 'add', 'max', 'min'] | None = ...
     ) -> None:
-        """Heights that lead from one place to another."""
+        """Fill with a ramp between two points."""
 
     def pattern(
         self, _form: Literal['bricks', 'tiles', 'hexagons', 'planks', 'shingles', 'scales', 'weave', 'rope', 'chain',
@@ -133,7 +133,7 @@ class Verbs:
         count: float | None = ..., length: float | None = ..., angle: float | None = ..., spread: float | None = ...,
         bend: float | None = ...
     ) -> None:
-        """Bricks, tiles, cloth, cells and other regular things."""
+        """Generate bricks, tiles, cloth, cells and other patterns."""
 
     def noise(
         self, _form: Literal['perlin', 'gradient', 'value', 'simplex', 'sheared', 'torus', 'cubes'], /, *, cells: float
@@ -147,14 +147,14 @@ class Verbs:
         'multiply'] | None = ..., radius: float | None = ..., offset: float | None = ..., way: Literal['sheared',
         'torus', 'slice'] | None = ...
     ) -> None:
-        """Sums of value, gradient or simplex noise."""
+        """Generate sums of value, gradient or simplex noise."""
 
     def formula(
         self, _form: Literal['poly', 'fourier'], /, *, c: Any | None = ..., blend: Literal['add', 'subtract', 'max',
         'min', 'smooth-max', 'smooth-min', 'replace', 'mix', 'multiply'] | None = ..., radius: float | None = ...,
         offset: float | None = ..., terms: Any | None = ...
     ) -> None:
-        """A polynomial or a Fourier series, texel by texel."""
+        """Generate a polynomial or a Fourier series."""
 
     def text(
         self, *_values: Any, font: Literal['terminus', 'terminus-bold', 'sans', 'sans-bold', 'serif', 'serif-bold',
@@ -172,7 +172,7 @@ class Verbs:
         float | None = ..., fallback_sha256: str | None = ..., fallback2_sha256: str | None = ..., fallback3_sha256: str
         | None = ..., sha256: str | None = ...
     ) -> None:
-        """Letters of any font and script, in relief."""
+        """Write letters of any font and script in relief."""
 
     def rim(
         self, *, kind: Literal['bevel', 'round', 'ridge', 'outline', 'emboss'] | None = ..., of: Literal['auto',
@@ -180,7 +180,7 @@ class Verbs:
         | None = ..., level: float | None = ..., blend: Literal['add', 'subtract', 'max', 'min', 'smooth-max',
         'smooth-min', 'replace', 'mix', 'multiply'] | None = ..., radius: float | None = ..., offset: float | None = ...
     ) -> None:
-        """Bevel, round, ridge, outline or emboss an edge by the distance from it."""
+        """Bevel, round, ridge, outline or emboss along an edge."""
 
     def solid(
         self, _form: Literal['sphere', 'ellipsoid', 'box', 'cylinder', 'cone', 'torus', 'capsule', 'mesh', 'relief',
@@ -199,7 +199,7 @@ class Verbs:
         float | None = ..., profile: Literal['round', 'chamfer'] | None = ..., letters: float | None = ..., lines: float
         | None = ...
     ) -> None:
-        """Solids, letters and meshes seen from above by a Z-buffer."""
+        """Add solids, letters and meshes seen from above (Z-buffer)."""
 
     def terrain(
         self, _form: Literal['fractal', 'elevation', 'hydraulic', 'thermal', 'terraces'], /, *_values: Any, type:
@@ -220,7 +220,7 @@ class Verbs:
         float | None = ..., sharpness: float | None = ..., riser: float | None = ..., jitter: float | None = ...,
         uneven: float | None = ...
     ) -> None:
-        """Mountains, real elevations, and what weather makes of them."""
+        """Generate mountains, load real elevations, erode them."""
 
     def picture(
         self, _form: Literal['photo', 'normals', 'paste', 'svg', 'path'], /, *_values: Any, layer: Any | None = ...,
@@ -240,7 +240,7 @@ class Verbs:
         None = ..., profile: Literal['flat', 'round', 'chisel', 'ridge', 'engraved'] | None = ..., bevel: float | None =
         ...
     ) -> None:
-        """Heights from pictures and from normal maps."""
+        """Convert pictures and normal maps to heights."""
 
     def link(
         self, *_values: Any, shift: Sequence[float] | None = ..., turn: float | None = ..., scale: Sequence[float] |
@@ -256,7 +256,7 @@ class Verbs:
     def open(
         self, *_values: Any, sha256: str | None = ...
     ) -> None:
-        """Take a document's layers, selection and scene."""
+        """Open a document."""
 
     def layer(
         self, _form: Literal['add', 'delete', 'use', 'move', 'rename', 'set', 'rasterize', 'duplicate', 'merge',
@@ -269,12 +269,12 @@ class Verbs:
         ..., live: Any | None = ..., at: Sequence[float] | None = ..., size: float | None = ..., sha256: str | None =
         ..., of: int | str | None = ...
     ) -> None:
-        """Add, order, join and set layers."""
+        """Add, order, merge and change layers."""
 
     def variant(
         self, _form: Literal['add', 'use', 'set', 'rename', 'delete'], /, *_values: Any
     ) -> None:
-        """Store and use sets of layers' values."""
+        """Store and apply sets of layer settings."""
 
     def select(
         self, _form: Literal['all', 'none', 'invert', 'rect', 'ellipse', 'lasso', 'height', 'slope', 'flood', 'mask',
@@ -284,7 +284,7 @@ class Verbs:
         ..., soft: float | None = ..., relief: float | None = ..., tolerance: float | None = ..., diagonal: bool | str |
         None = ..., by: float | None = ...
     ) -> None:
-        """Choose where edits act."""
+        """Select where edits act."""
 
     def transform(
         self, *, move: Sequence[float] | None = ..., turn: float | None = ..., scale: Sequence[float] | None = ...,
@@ -292,7 +292,7 @@ class Verbs:
         None = ..., leave: bool | str | None = ..., filter: Literal['nearest', 'linear', 'catmull'] | None = ...,
         layers: Literal['active', 'all'] | None = ..., of: int | str | None = ...
     ) -> None:
-        """Move, turn, scale and mirror the selection, or a whole layer."""
+        """Move, rotate, scale and mirror the selection or a whole layer."""
 
     def adjust(
         self, _form: Literal['offset', 'flip-u', 'flip-v', 'rotate', 'crop', 'resize', 'seamless', 'match-edges',
@@ -326,7 +326,7 @@ class Verbs:
         'sheared'] | None = ..., mode: Literal['fbm', 'turbulence', 'billow', 'ridged'] | None = ..., seed: float | None
         = ..., between: Literal['catmull', 'linear'] | None = ...
     ) -> None:
-        """A layer that is an operation over the layers below: blur, levels and the like."""
+        """Add a filter layer: an operation on the layers below, such as blur or levels."""
 
     def object(
         self, _form: Literal['add', 'copy', 'choose', 'set', 'hide', 'show', 'remove'], /, *_values: Any, at:
@@ -334,13 +334,13 @@ class Verbs:
         ..., turn: Any | None = ..., layer: Any | None = ..., table: Any | None = ..., sha256: str | None = ..., name:
         str | None = ...
     ) -> None:
-        """Several objects in one scene."""
+        """Add, select and change objects of the scene."""
 
     def ground(
         self, _form: Literal['on', 'off'], /, *, height: float | None = ..., size: float | None = ..., colour:
         Sequence[float] | None = ..., endless: bool | str | None = ...
     ) -> None:
-        """A floor under the objects."""
+        """Add a floor under the objects."""
 
     def surface(
         self, _form: Literal['plane', 'bent', 'curl', 'bezier', 'sphere', 'cylinder', 'cone', 'torus', 'cube', 'ribbon',
@@ -358,34 +358,34 @@ class Verbs:
         ..., table: Literal['each', 'joined', 'split', 'own'] | None = ..., height: float | None = ..., cells: float |
         None = ..., layer: Any | None = ...
     ) -> None:
-        """The surface that the table wrinkles."""
+        """Choose the surface of the object."""
 
     def model(
         self, *_values: Any
     ) -> None:
-        """A stock model as the object's surface."""
+        """Use a stock model as the object's surface."""
 
     def rotate(
         self, *_values: Any, pose: Literal['own'] | None = ...
     ) -> None:
-        """The object's orientation."""
+        """Rotate the object."""
 
     def analytic(
         self, _form: Literal['poly', 'fourier', 'off'], /, *, c: Any | None = ..., terms: Any | None = ...
     ) -> None:
-        """A formula in place of the table."""
+        """Use a formula in place of the table."""
 
     def bump(
         self, *, mode: Literal['none', 'blinn', 'invariant', 'exact'] | None = ..., scheme: Literal['nearest',
         'bilinear', 'central', 'bspline', 'bspline-fit', 'catmull'] | None = ..., height: float | None = ..., displaced:
         bool | str | None = ..., parallax: bool | str | None = ...
     ) -> None:
-        """How the table turns the normal."""
+        """Set the bump mapping of the object."""
 
     def replicate(
         self, *_values: Any
     ) -> None:
-        """How often the table repeats over the surface."""
+        """Set how often the table repeats over the surface."""
 
     def material(
         self, *, preset: Literal['usual', 'clay', 'brick', 'stone', 'wood', 'leather', 'skin', 'plastic', 'porcelain',
@@ -396,7 +396,7 @@ class Verbs:
         roughness: float | None = ..., metalness: float | None = ..., ior: float | None = ..., tint: float | None = ...,
         shadow: bool | str | None = ..., occlusion: bool | str | None = ...
     ) -> None:
-        """The reflectance of the surface."""
+        """Set the material of the surface."""
 
     def grain(
         self, *_values: Any, axis: Literal['x', 'y', 'z'] | None = ..., drives: Literal['colour', 'roughness',
@@ -405,20 +405,20 @@ class Verbs:
         None = ..., cells: float | None = ..., octaves: float | None = ..., ratio: float | None = ..., edge: float |
         None = ..., height: float | None = ..., rough_light: float | None = ..., rough_dark: float | None = ...
     ) -> None:
-        """A solid texture that the object is cut out of."""
+        """Set a solid texture."""
 
     def colour(
         self, *_values: Any, repeat: Any | None = ..., layer: Any | None = ..., part: Any | None = ..., sha256: str |
         None = ...
     ) -> None:
-        """A colour picture on the surface."""
+        """Set a colour picture on the surface."""
 
     def colouring(
         self, _form: Literal['ramp', 'off'], /, *, stops: Any | None = ..., steep: Sequence[float] | None = ..., slope:
         Sequence[float] | None = ..., cavity: Sequence[float] | None = ..., depth: Sequence[float] | None = ..., within:
         float | None = ..., of: Literal['form', 'table'] | None = ...
     ) -> None:
-        """Colours by height, slope and cavity."""
+        """Colour the surface by height, slope and cavity."""
 
     def normalmap(
         self, *_values: Any, space: Literal['tangent', 'object'] | None = ..., frame: Literal['auto', 'gradient',
@@ -427,24 +427,24 @@ class Verbs:
         combine: Literal['slopes', 'reoriented', 'surface'] | None = ..., repeat: Any | None = ..., layer: Any | None =
         ..., part: Any | None = ..., sha256: str | None = ...
     ) -> None:
-        """A normal map on the surface."""
+        """Set a normal map on the surface."""
 
     def roughness(
         self, *_values: Any, repeat: Any | None = ..., layer: Any | None = ..., part: Any | None = ..., sha256: str |
         None = ...
     ) -> None:
-        """A picture of how rough the surface is where."""
+        """Set a roughness map."""
 
     def metalness(
         self, *_values: Any, repeat: Any | None = ..., layer: Any | None = ..., part: Any | None = ..., sha256: str |
         None = ...
     ) -> None:
-        """A picture of where the surface is of metal."""
+        """Set a metalness map."""
 
     def gltf(
         self, *_values: Any, part: str | None = ..., sha256: str | None = ...
     ) -> None:
-        """The material of a glTF file."""
+        """Use the material of a glTF file."""
 
     def bake(
         self, *_values: Any, map: Literal['height', 'normal', 'object-normal', 'position', 'occlusion', 'curvature',
@@ -452,7 +452,7 @@ class Verbs:
         ..., padding: float | None = ..., crease: float | None = ..., match: Literal['all', 'name'] | None = ...,
         sha256: str | None = ...
     ) -> None:
-        """Relief and other maps of a detailed mesh, for the object's mesh."""
+        """Bake relief and other maps of a detailed mesh for the object's mesh."""
 
     def light(
         self, _form: Literal['directional', 'point', 'clear', 'preset'], /, *_values: Any, to: Sequence[float] | None =
@@ -465,7 +465,7 @@ class Verbs:
         self, *_values: Any, turn: float | None = ..., strength: float | None = ..., layer: Any | None = ..., part: Any
         | None = ..., sha256: str | None = ...
     ) -> None:
-        """Surroundings that light the objects from all sides."""
+        """Set the environment, which lights the objects from all sides."""
 
     def camera(
         self, _form: Literal['perspective', 'orthographic', 'from', 'orbit', 'pan', 'dolly', 'fill', 'save', 'use',
@@ -474,31 +474,31 @@ class Verbs:
         float | None = ..., aspect: float | None = ..., turn: Any | None = ..., kind: Literal['perspective',
         'orthographic'] | None = ...
     ) -> None:
-        """Where the picture is taken from."""
+        """Set the camera."""
 
     def background(
         self, _form: Literal['plain', 'gradient', 'none', 'surroundings'], /, *, colour: Sequence[float] | None = ...,
         top: Sequence[float] | None = ..., bottom: Sequence[float] | None = ...
     ) -> None:
-        """The background behind the objects."""
+        """Set the background behind the objects."""
 
     def tone(
         self, *_values: Any, exposure: float | None = ..., view: Any | None = ..., display: Any | None = ..., ocio: Any
         | None = ..., space: Any | None = ...
     ) -> None:
-        """Exposure, and tone mapping of light too bright for a picture."""
+        """Set exposure and tone mapping."""
 
     def cell(
         self, *_values: Any, mm: bool | str | None = ..., height: float | None = ...
     ) -> None:
-        """How large the unit cell is outside."""
+        """Set the size of the exported cell."""
 
     def sheet(
         self, *_values: Any, folder: str | PathLike[str] | None = ..., name: str | None = ..., depth: Literal['set',
         '8', '16', '32'] | None = ..., size: Literal['table', 'half', 'quarter', 'power'] | None = ..., range:
         Literal['set', 'auto', 'unit', 'signed'] | None = ...
     ) -> None:
-        """Last settings of the window's export sheet."""
+        """Store the settings of the window's export dialog."""
 
     def dials(
         self, *, aa: Literal['point', 'filter', 'moments', 'supersample', 'adaptive'] | None = ..., samples: float |
@@ -516,7 +516,7 @@ class Verbs:
         self, *_values: Any, rms: float | None = ..., max: float | None = ..., time: Any | None = ..., chosen: Any |
         None = ...
     ) -> None:
-        """The cheapest dials that keep to an error."""
+        """Choose the cheapest dials within an error or a time."""
 
     def save(
         self, *_values: Any
@@ -526,7 +526,7 @@ class Verbs:
     def copy(
         self, *_values: Any, of: Literal['layer', 'composite'] | None = ...
     ) -> None:
-        """Write the heights that are selected into a file."""
+        """Write the selected heights to a file."""
 
     def export(
         self, _form: Literal['height', 'normal+y', 'normal-y', 'normal-object', 'normal-baked', 'slopes', 'bump-slopes',
@@ -547,7 +547,7 @@ class Verbs:
         None = ..., thickness: Any | None = ..., triangles: Any | None = ..., edges: Any | None = ..., folds: Any | None
         = ...
     ) -> None:
-        """Write the table for other programs."""
+        """Export the table for other programs."""
 
     def maps(
         self, *_values: Any, depth: Any | None = ..., range: Any | None = ..., cell: Any | None = ..., scheme: Any |
@@ -566,7 +566,7 @@ class Verbs:
         None = ..., contact: str | None = ..., material: str | None = ..., name: str | None = ..., udim: str | None =
         ...
     ) -> None:
-        """Write the set of maps for another program."""
+        """Export a set of maps for another program."""
 
     def bake_tiles(
         self, *_values: Any, map: Literal['height', 'normal', 'object-normal', 'position', 'occlusion', 'curvature',
@@ -574,13 +574,13 @@ class Verbs:
         ..., padding: float | None = ..., crease: float | None = ..., match: Literal['all', 'name'] | None = ...,
         sha256: str | None = ...
     ) -> None:
-        """Relief and other maps of a detailed mesh, a file for each UDIM tile of the object's mesh."""
+        """Bake maps of a detailed mesh, one file for each UDIM tile of the object's mesh."""
 
     def render(
         self, *_values: Any, size: Sequence[int] | None = ..., turn: float | None = ..., frames: float | None = ...,
         step: float | None = ..., fps: float | None = ..., loop: float | None = ...
     ) -> None:
-        """Write a picture of the scene, or a turntable."""
+        """Render a picture of the scene, or a turntable."""
 
     def script(
         self, *_values: Any, steps: Any | None = ...
@@ -590,12 +590,12 @@ class Verbs:
     def undo(
         self, *_values: Any
     ) -> None:
-        """Go back to before the last commands."""
+        """Undo the last commands."""
 
     def redo(
         self, *_values: Any
     ) -> None:
-        """Redo the last undone command."""
+        """Redo the last undone commands."""
 
     def step(
         self, _form: Literal['go', 'set', 'off', 'on', 'delete', 'move'], /, *_values: Any, change: Any | None = ...,
@@ -606,9 +606,9 @@ class Verbs:
     def view(
         self, _form: Literal['back', 'forward'], /, *_values: Any
     ) -> None:
-        """Go back and forth through how it was looked at."""
+        """Go back and forward through earlier views."""
 
     def history(
         self, *, budget: float | None = ...
     ) -> None:
-        """How much memory undo may take."""
+        """Set the memory limit of undo."""
