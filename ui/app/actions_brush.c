@@ -116,7 +116,7 @@ void wr_act_reset_values(WrApp *app)
     brush->opacity = own.opacity;
     brush->flow = own.flow;
     app->settings->other_strength = 0.0;
-    wr_app_say(app, "Mode, strength, height, opacity and flow are the brush's own again");
+    wr_app_say(app, "Mode, strength, height, opacity and flow are reset to the brush's own");
 }
 
 /* Change the brush's target height by 1/20 of the displayed range. */

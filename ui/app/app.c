@@ -440,8 +440,8 @@ static bool take_pens(WrApp *app)
 static void report_refused(WrApp *app)
 {
     if (wr_thread_refused())
-        wr_app_say(app, "The system refuses more threads: long work blocks the window until it is "
-                        "done");
+        wr_app_say(
+            app, "The system allows no more threads: long work blocks the window until it is done");
 }
 
 /* Handle all events that need not wait. True if there was one. */

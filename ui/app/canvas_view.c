@@ -199,7 +199,7 @@ static void range_popup(WrApp *app)
     ramp(app, "wide", wr_gui_px(240), wr_gui_px(12));
     ramp_tip(app);
     wr_gui_check("Mark heights beyond", &look->marks);
-    wr_gui_tip("Warm above the range, cool below it");
+    wr_gui_tip("Marks heights above the range in a warm colour, those below in a cool one");
     range_end(app, 0);
     range_end(app, 1);
     wr_gui_popup_end();
@@ -247,7 +247,7 @@ static void light(WrApp *app)
     wr_gui_draw_disc(x + look->light_x * r * 0.9, y - look->light_y * r * 0.9, wr_gui_px(4),
                      0xffffd060u);
     wr_gui_pad_end();
-    wr_gui_tip("Where the light comes from: drag it");
+    wr_gui_tip("Direction of the light: drag it");
     wr_gui_overlay_end();
 }
 
@@ -302,7 +302,7 @@ static void canvas_chip(WrApp *app)
     wr_gui_overlay_begin("##range", room->x + gap, room->y + gap, 0, 0);
     wr_gui_next_id("range"); /* the numbers change under the pointer */
     if (wr_gui_chip(WR_ICON_DOWN, text)) wr_gui_popup_open("range");
-    wr_gui_tip("The values shown, and which of them are black and white");
+    wr_gui_tip("Values shown as black and white");
     /* Beside the range button, if there is room for the square at the right end. */
     const double beside = room->w - wr_gui_text_width(WR_FONT_TEXT, text);
     bool ranged = !app->map_shown || !wr_canvas_maps[look->shown].two;

@@ -401,40 +401,36 @@ static void diagnose(const WrPenUnit *unit, WrText *words)
         wr_text_add(
             words, wr_words("It is unplugged or switched off. Plug it in again, or switch it on."));
     } else if (!d->has_place) {
-        wr_text_add(
-            words,
-            wr_words("It moves like a mouse, by steps, without a position on the tablet: it paints "
-                     "as a mouse does, without pressure. Set its mode to absolute in the tablet's "
-                     "settings."));
+        wr_text_add(words, wr_words("It reports movements like a mouse, without a position on the "
+                                    "tablet, so it paints like a mouse, without pressure. Set its "
+                                    "mode to absolute in the tablet's settings."));
     } else if (d->events == 0) {
-        wr_text_add(words, wr_words("Nothing has come from it yet. Move it over the tablet."));
+        wr_text_add(words, wr_words("It has not reported anything yet. Move it over the tablet."));
     } else if (!d->has_pressure) {
         wr_text_add(
-            words, wr_words(d->finger ? "This screen does not tell how hard a finger presses: it "
-                                        "counts as 1."
-                                      : "It has no pressure: every touch counts as 1. If it should "
-                                        "have one, another driver may know it better."));
+            words,
+            wr_words(d->finger
+                         ? "This screen does not report the pressure of fingers: it counts as 1."
+                         : "It has no pressure: every touch counts as 1. If it should have "
+                           "pressure, try another driver."));
     } else if (is_mute(unit)) {
         char text[400];
-        wr_words_print(
-            text, sizeof text,
-            wr_words("It promises pressure, but sends %.3g whatever the hand does: every touch "
-                     "counts as 1. Look at the tablet's settings, or try another driver."),
-            unit->raw);
+        wr_words_print(text, sizeof text,
+                       wr_words("It should have pressure, but always reports %.3g: every touch "
+                                "counts as 1. Check the tablet's settings, or try another driver."),
+                       unit->raw);
         wr_text_add(words, text);
     } else if (d->bad_values > 0) {
-        wr_text_addf(
-            words,
-            wr_words("%lld of its values were no numbers or out of range. The nearest were taken; "
-                     "if strokes jump, the driver is wrong."),
-            (long long)d->bad_values);
+        wr_text_addf(words,
+                     wr_words("%lld of its values were not numbers or out of range, and were "
+                              "clamped. If strokes jump, the driver is faulty."),
+                     (long long)d->bad_values);
     } else if (d->presses >= 3 && d->raw_most < 0.6) {
         char text[400];
-        wr_words_print(
-            text, sizeof text,
-            wr_words("The hardest press so far was %.2f of its range. Bring the curve's maximum "
-                     "down to about that."),
-            d->raw_most);
+        wr_words_print(text, sizeof text,
+                       wr_words("The hardest press so far was %.2f of its range. Lower the curve's "
+                                "maximum to about that."),
+                       d->raw_most);
         wr_text_add(words, text);
     }
 }
@@ -445,8 +441,8 @@ const char *wr_pen_diagnosis(WrPen *pen, int index)
     if (index >= 0 && index < pen->units.count) diagnose(&pen->units.data[index], &pen->words);
     else if (!pen->x11 && !pen->wayland) wr_text_add(&pen->words, pen->why_not);
     else if (pen->units.count == 0 && pen->wayland)
-        wr_text_add(&pen->words, "No tablet was found. Plug it in, or look for it in the "
-                                 "desktop's settings.");
+        wr_text_add(&pen->words,
+                    "No tablet was found. Plug it in, or check the desktop's settings.");
     else if (pen->units.count == 0)
         wr_text_add(&pen->words,
                     "No tablet was found. If one is plugged in, its driver is missing: on "

@@ -5,7 +5,7 @@
 WrPenX11 *wr_pen_x11_new(WrPen *pen, const char **why)
 {
     (void)pen;
-    *why = "This build does not know this system's tablets, so that pens act as mice.";
+    *why = "This build does not support this system's tablets, so pens act as mice.";
     return NULL;
 }
 

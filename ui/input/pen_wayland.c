@@ -465,8 +465,8 @@ WrPenWayland *wr_pen_wayland_new(WrPen *pen, const char **why)
         return NULL;
     WrPenWayland *w = wr_pen_wayland_open(pen, info.info.wl.display, info.info.wl.surface);
     if (!w)
-        *why = "This desktop does not pass tablets on to programs (zwp_tablet_manager_v2), so that "
-               "pens act as mice.";
+        *why = "This desktop does not pass tablets on to programs (zwp_tablet_manager_v2), so pens "
+               "act as mice.";
     return w;
 }
 

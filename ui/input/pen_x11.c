@@ -212,13 +212,13 @@ WrPenX11 *wr_pen_x11_new(WrPen *pen, const char **why)
     int first_event, first_error, major = 2, minor = 2, opcode;
     SDL_VERSION(&info.version);
     if (!SDL_GetWindowWMInfo(pen->window, &info) || info.subsystem != SDL_SYSWM_X11) {
-        *why = "The window is not on an X server, so that pens act as mice.";
+        *why = "The window is not on an X server, so pens act as mice.";
         return NULL;
     }
     Display *display = info.info.x11.display;
     if (!XQueryExtension(display, "XInputExtension", &opcode, &first_event, &first_error) ||
         XIQueryVersion(display, &major, &minor) != Success || major * 100 + minor < 202) {
-        *why = "The X server has no XInput 2.2, so that pens act as mice.";
+        *why = "The X server has no XInput 2.2, so pens act as mice.";
         return NULL;
     }
     WrPenX11 *x = wr_alloc(1, sizeof *x);
@@ -228,7 +228,7 @@ WrPenX11 *wr_pen_x11_new(WrPen *pen, const char **why)
     x->opcode = opcode;
     if (!XInternAtoms(display, (char **)atom_names, ATOMS, False, x->atoms)) {
         wr_free(x);
-        *why = "The X server is out of memory, so that pens act as mice.";
+        *why = "The X server is out of memory, so pens act as mice.";
         return NULL;
     }
     pen->x11 = x;

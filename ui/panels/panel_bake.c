@@ -55,7 +55,7 @@ static void file_row(WrApp *app)
     wr_gui_same_line(4);
     wr_gui_move_to(end - wr_gui_px(GLYPH));
     if (wr_gui_glyph("choose", WR_ICON_FOLDER, GLYPH, WR_COLOUR_LABEL)) choose_file(app);
-    wr_gui_tip("Choose a detailed mesh, at the place and in the unit of the object's own");
+    wr_gui_tip("Choose a detailed mesh, with the position and unit of the object's mesh");
 }
 
 static void number(const char *label, const WrNumber *spec, double *value)
@@ -93,12 +93,12 @@ static void cage_row(const WrApp *app, WrForms *f)
                             .reset = 0.05 * radius,
                             .decimals = -1,
                             .logarithmic = true,
-                            .tip = "Distance from the object, outwards and inwards, within which "
-                                   "rays meet the detailed mesh, in the mesh's unit" };
+                            .tip = "Largest distance of the detailed mesh from the object, "
+                                   "outwards and inwards, in the mesh's unit" };
     int way = f->bake_cage > 0;
     wr_gui_label("Cage");
     if (wr_gui_choice("cage", 0, ways, 2, &way)) f->bake_cage = way ? 0.05 * radius : 0;
-    wr_gui_tip("Automatic: just enough for all of the detailed mesh");
+    wr_gui_tip("Chooses just enough for the whole detailed mesh");
     if (way) number("Distance", &spec, &f->bake_cage);
 }
 
@@ -149,16 +149,17 @@ void wr_dialog_bake(WrApp *app)
                                       .hard_low = 1,
                                       .hard_high = WR_BAKE_SAMPLES_MAX,
                                       .reset = 2,
-                                      .tip = "Rays along each side of a texel, of which the mean "
-                                             "is taken" };
-    static const WrNumber padding = { .low = 0,
-                                      .high = WR_BAKE_PADDING_MAX,
-                                      .hard_low = 0,
-                                      .hard_high = WR_BAKE_PADDING_MAX,
-                                      .reset = 8,
-                                      .unit = "texels",
-                                      .tip = "Continues the map about its islands, and into "
-                                             "holes" };
+                                      .tip =
+                                          "Rays per texel along each side; their mean is stored" };
+    static const WrNumber padding = {
+        .low = 0,
+        .high = WR_BAKE_PADDING_MAX,
+        .hard_low = 0,
+        .hard_high = WR_BAKE_PADDING_MAX,
+        .reset = 8,
+        .unit = "texels",
+        .tip = "Width of the margin around the islands of (u,v), and into holes"
+    };
     static const char *const matches[] = { "All parts", "Parts of the same name" };
     WrForms *f = app->forms;
     if (!wr_app_can_bake(app)) { /* another object was chosen meanwhile */
@@ -175,7 +176,7 @@ void wr_dialog_bake(WrApp *app)
     number("Padding", &padding, &f->bake_padding);
     wr_gui_label("Rays meet");
     wr_gui_choice("match", 0, matches, 2, &f->bake_match);
-    wr_gui_tip("Parts of the same name: an ending _low or _high does not count");
+    wr_gui_tip("Each part meets only parts of the same name, not counting an ending _low or _high");
     wr_gui_label("");
     wr_gui_disable(!ready);
     if (wr_gui_chip(NULL, "Show where rays miss")) {
@@ -183,9 +184,8 @@ void wr_dialog_bake(WrApp *app)
         run(app, WR_BAKE_HITS);
     }
     wr_gui_disable_end();
-    wr_gui_tip(
-        "Colours the object: green where rays hit, red where they miss, blue where they meet "
-        "only backs. Undo takes the colours off");
+    wr_gui_tip("Colours the object: green where rays hit, red where they miss, blue where they hit "
+               "only back faces. Undo removes the colours");
     WrText line = { 0 };
     add_line(f, f->bake_map, &line);
     const bool agreed = wr_dialog_buttons(app, "Bake", ready) > 0;

@@ -59,14 +59,16 @@ static void basic(WrApp *app)
                     .hard_high = 1e30,
                     .reset = own.to,
                     .decimals = 3,
-                    .tip = "The height that the mode goes by" };
-    WrNumber reach = { .low = 0,
-                       .high = 64,
-                       .hard_high = 16384,
-                       .reset = own.reach,
-                       .decimals = 1,
-                       .unit = "px",
-                       .tip = "Radius of its filter; 0: an eighth of the brush's radius" };
+                    .tip = "Target height of the mode" };
+    WrNumber reach = {
+        .low = 0,
+        .high = 64,
+        .hard_high = 16384,
+        .reset = own.reach,
+        .decimals = 1,
+        .unit = "px",
+        .tip = "Radius of the neighbourhood that the mode reads; 0: an eighth of the brush's radius"
+    };
     double diameter = 2.0 * b->radius;
     if (number("Size", &size, &diameter)) b->radius = diameter / 2.0;
     number("Hardness", &hard, &b->hardness);
@@ -80,7 +82,7 @@ static void basic(WrApp *app)
     percent("Flow", "Opacity of each dab: low flow builds up slowly", &b->flow);
     wr_gui_label("Build up");
     wr_gui_check("##buildup", &b->buildup);
-    wr_gui_tip("Adds more where the stroke crosses itself, and while the pen rests");
+    wr_gui_tip("Adds up where the stroke crosses itself, and while the pen rests");
     wr_gui_label("Keep size");
     wr_gui_check("##lock", &app->settings->lock_size);
     wr_gui_tip("Keeps this size when another brush is chosen");
@@ -129,7 +131,7 @@ static void chance(WrApp *app)
                        .hard_high = 100,
                        .reset = own.jitter_place,
                        .decimals = 2,
-                       .tip = "Scatters dabs by up to so many radii" };
+                       .tip = "Scatters dabs by up to this distance, in radii" };
     WrNumber angle = { .low = 0,
                        .high = 180,
                        .reset = own.jitter_angle_deg,
@@ -203,7 +205,7 @@ static void setting(WrApp *app, int index)
     bool curve = !wr_preset_is_constant(app->shelf->tuned, index);
     char tip[512];
     snprintf(tip, sizeof tip, "%.300s\n%.60s%s%s", wr_words(info->meaning), info->name,
-             curve ? wr_words("; the pen or the motion turns it too") : "",
+             curve ? wr_words("; the pen or the motion rotates it too") : "",
              changed ? wr_words(". Changed: Ctrl+click restores the preset's value") : "");
     WrNumber spec = { .low = info->low,
                       .high = info->high > info->low ? info->high : info->low + 1,
@@ -260,8 +262,7 @@ void wr_dialog_preset(WrApp *app)
     if (!wr_gui_dialog_begin("Save the brush as a preset", 380)) return;
     wr_gui_text_wrapped(
         WR_FONT_TEXT, WR_COLOUR_LABEL,
-        "It keeps all values of the brush in hand, in a file of your own that MyPaint "
-        "reads too.");
+        "Saves all settings of the current brush, in a file that MyPaint can read too.");
     wr_gui_space(4);
     wr_gui_label("Name");
     bool enter =

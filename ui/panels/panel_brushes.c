@@ -229,8 +229,8 @@ static void tiles(WrApp *app, const Groups *groups)
     }
     if (flow.count == 0)
         wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
-                            shelf->search[0] ? "Nothing has these words."
-                                             : "None yet: press one with the right button.");
+                            shelf->search[0] ? "Nothing matches these words."
+                                             : "No favourites yet: right-click a brush to add it.");
     carry(app, &flow);
     entry_menu(app);
 }

@@ -52,12 +52,14 @@ static void points(WrApp *app)
     static const char *const eyes[3] = { "eyex", "eyey", "eyez" }, *const targets[3] = { "tox",
                                                                                          "toy",
                                                                                          "toz" };
-    static const WrNumber away = { .low = -5,
-                                   .high = 5,
-                                   .hard_low = -1e9,
-                                   .hard_high = 1e9,
-                                   .decimals = 2,
-                                   .tip = "In the world: x to the right, y up, z to the viewer" };
+    static const WrNumber away = {
+        .low = -5,
+        .high = 5,
+        .hard_low = -1e9,
+        .hard_high = 1e9,
+        .decimals = 2,
+        .tip = "Position in the world: x to the right, y up, z to the viewer"
+    };
     const WrCamera *camera = &wr_app_scene(app)->camera;
     const WrSceneParam *eye = &wr_scene_params[WR_SCENE_PARAM_EYE],
                        *target = &wr_scene_params[WR_SCENE_PARAM_TARGET];
@@ -84,7 +86,7 @@ static void placed(WrApp *app)
     wr_gui_tip("Moves the camera so that the objects fill the picture");
     wr_gui_same_line(4);
     if (wr_gui_chip(NULL, "Reset")) wr_action_run(app, WR_ACT(camera_reset));
-    wr_gui_tip("In front of the objects, so far away that they fit however they turn");
+    wr_gui_tip("Moves the camera in front of the objects, so that they fit however they turn");
 }
 
 /* ---- named views ---- */
@@ -185,17 +187,16 @@ static void tone(WrApp *app)
             wr_text_add(&line, "tone view=off");
             wr_scene_run(app, &line);
         }
-        wr_gui_tip(
-            "The view of a colour configuration makes the picture's codes from its light. The "
-            "command tone sets it");
+        wr_gui_tip("The view of a colour configuration converts light to the codes of the picture. "
+                   "The command tone sets it");
     } else {
         wr_gui_label("Highlights");
         if (wr_gui_choice("tone", 0, kinds, WR_TONE_KINDS, &kind)) {
             wr_text_addf(&line, "tone %s", wr_tone_names[kind]);
             wr_scene_run(app, &line);
         }
-        wr_gui_tip("Clip: light above 1 is white. Soft: highlights are compressed from one half "
-                   "on. Here and in 8-bit pictures; EXR and TIFF stay linear.");
+        wr_gui_tip("Clip: light above 1 is white. Soft: highlights above one half are compressed. "
+                   "Used here and in 8-bit pictures; EXR and TIFF stay linear.");
     }
     wr_gui_check("Mark clipped parts", &app->patch->look.marked);
     wr_gui_tip("Marks over-exposed pixels with stripes");

@@ -50,8 +50,7 @@ static WrEdit rows(WrCellSize *cell)
         cell->mm = unit == 1;
         edit = WR_EDIT_DONE;
     }
-    wr_gui_tip(
-        "For exports, solids and labels: in scene units the relief has the height of Height");
+    wr_gui_tip("Size for exports and solids: in scene units, the relief has the height in Height");
     if (!cell->mm) return edit;
     const WrSceneParam *param = &wr_scene_params[WR_SCENE_PARAM_CELL_HEIGHT];
     const WrNumber spec = wr_param_slider(param);

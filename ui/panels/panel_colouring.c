@@ -61,7 +61,7 @@ static WrEdit height_field(WrHeightColormap *own, int i, double width)
                                                       : low + 1e-6,
                             .reset = *height,
                             .decimals = 3,
-                            .tip = "From this height on, as the table has it" };
+                            .tip = "Starts at this height of the table" };
     return wr_gui_number("height", width, &spec, height);
 }
 
@@ -87,12 +87,13 @@ static WrEdit stop_row(WrHeightColormap *own, int i)
 
 static WrEdit steep_rows(WrHeightColormap *own)
 {
-    static const WrNumber spec = { .low = 0,
-                                   .high = 90,
-                                   .decimals = 0,
-                                   .unit = "deg",
-                                   .tip = "Steep places: from which slope on their colour shows, "
-                                          "and from which on it alone" };
+    static const WrNumber spec = {
+        .low = 0,
+        .high = 90,
+        .decimals = 0,
+        .unit = "deg",
+        .tip = "Slopes at which the colour of steep places begins and is complete"
+    };
     bool on = own->steep && own->slope[0] < 90;
     if (wr_gui_check("Colour of steep slopes", &on)) {
         own->steep = true;
@@ -120,9 +121,8 @@ static WrEdit hollow_rows(WrHeightColormap *own)
                                     .hard_low = 0,
                                     .hard_high = NO_DEPTH,
                                     .decimals = 3,
-                                    .tip =
-                                        "Hollows: how far below the mean about them their colour "
-                                        "begins to show, and from where on it is alone" };
+                                    .tip = "Depths below the surrounding mean at which the colour "
+                                           "of hollows begins and is complete" };
     static const WrNumber within = { .low = 0.5,
                                      .high = 64,
                                      .hard_low = 0.05,
@@ -130,7 +130,7 @@ static WrEdit hollow_rows(WrHeightColormap *own)
                                      .reset = 8,
                                      .decimals = 1,
                                      .unit = "texels",
-                                     .tip = "Of the Gaussian mean that hollows are measured by" };
+                                     .tip = "Standard deviation of the Gaussian mean for hollows" };
     bool on = own->hollow && own->depth[0] < NO_DEPTH;
     if (wr_gui_check("Colour of cavities", &on)) {
         own->hollow = true;
@@ -182,8 +182,8 @@ void wr_panel_colouring(WrApp *app)
     bool on = own.count > 0;
     wr_gui_push_id(3);
     const bool turned = wr_gui_check("Colours by height", &on);
-    wr_gui_tip(
-        "Water, meadows, rock and snow by the heights and slopes of the terrain or of the table");
+    wr_gui_tip("Colours for water, meadows, rock and snow by height and slope of the terrain or "
+               "the table");
     if (turned) {
         wr_text_add(&line, on ? "colouring ramp" : "colouring off");
         wr_scene_run(app, &line);

@@ -35,8 +35,7 @@ void wr_dialog_unsaved(WrApp *app)
 {
     char text[400];
     if (!wr_gui_dialog_begin("Save the changes?", 420)) return;
-    snprintf(text, sizeof text,
-             wr_words("%.200s has changes that are not saved. They are lost otherwise."),
+    snprintf(text, sizeof text, wr_words("%.200s has unsaved changes, which would be lost."),
              wr_app_name(app));
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, text);
     wr_gui_space(8);
@@ -85,8 +84,8 @@ static void run_if_agreed(WrApp *app, WrText *line, const char *done)
 
 void wr_dialog_table(WrApp *app)
 {
-    static const char *const wraps[] = { "Repeats both ways", "Ends at left and right",
-                                         "Ends at top and bottom", "Ends all around" };
+    static const char *const wraps[] = { "Repeats both ways", "Edges at left and right",
+                                         "Edges at top and bottom", "Ends all around" };
     _Static_assert(WR_LENGTH(wraps) == WR_DOCUMENT_WRAPS, "in the order of their words");
     WrForms *f = app->forms;
     if (!wr_gui_dialog_begin("New table", 400)) return;
@@ -120,7 +119,7 @@ void wr_dialog_grid(WrApp *app)
     WrForms *f = app->forms;
     if (!wr_gui_dialog_begin("Grid", 380)) return;
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
-                        "Cells of one height, parted by lines of another. Replaces the heights.");
+                        "A grid of lines on cells. Replaces the heights.");
     number("Cells across", 1, 32, 1, 16384, 8, 0, NULL, &f->cells_u);
     number("Cells down", 1, 32, 1, 16384, 8, 0, NULL, &f->cells_v);
     number("Line width", 0, 64, 0, 16384, 8, 1, "texels", &f->line_width);
@@ -137,7 +136,8 @@ void wr_dialog_grid(WrApp *app)
 
 void wr_dialog_import(WrApp *app)
 {
-    static const char *const fits[] = { "The table gets its size", "It is fitted to the table" };
+    static const char *const fits[] = { "The table takes its size",
+                                        "The picture is resampled to the table" };
     int fit = app->forms->fit;
     if (!wr_gui_dialog_begin("Import heights", 420)) return;
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
@@ -196,7 +196,7 @@ static void variants_row(const WrApp *app)
 {
     if (!wr_variant_count(wr_app_document(app))) return;
     wr_gui_check("All variants, a file for each", &app->forms->all_variants);
-    wr_gui_tip("<VARIANT> in the name of the file becomes the name of each variant in turn");
+    wr_gui_tip("<VARIANT> in the file name is replaced by the name of each variant");
 }
 
 /* Ask for the name of a file; of one for each variant if that was chosen. */
@@ -226,10 +226,9 @@ static void mesh_numbers(WrForms *f)
     wr_gui_choice("edges", 0, edges, 2, &f->mesh_round);
     wr_gui_label("Folds");
     wr_gui_choice("folds", 0, folds, 2, &f->mesh_limited);
-    wr_gui_text_wrapped(
-        WR_FONT_SMALL, WR_COLOUR_LABEL,
-        "Size 0: as large as the file's unit says, in its own place. Else it is the "
-        "longest side without relief. Folds are places where the relief turns over.");
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
+                        "Size 0: size and position by the file's unit. Otherwise it is the longest "
+                        "side without relief. Folds are places where the relief overlaps itself.");
 }
 
 static void solid_numbers(WrForms *f)
@@ -237,10 +236,10 @@ static void solid_numbers(WrForms *f)
     number("Size", 10, 300, 1, 1e4, 100, 1, "mm", &f->solid_size);
     number("Error", 0.01, 1, 0.001, 100, 0.05, 3, "mm", &f->solid_error);
     number("Thickness", 0, 10, 0, 1e3, 0, 2, "mm", &f->solid_thickness);
-    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
-                        "Size is the longest side of the surface without its relief. No texel is "
-                        "farther from its triangle than the error. Thickness 0: 2 mm under a "
-                        "sheet, and tubes are filled.");
+    wr_gui_text_wrapped(
+        WR_FONT_SMALL, WR_COLOUR_LABEL,
+        "Size is the longest side of the surface without its relief. Error is the largest distance "
+        "of a texel from its triangle. Thickness 0: 2 mm under a sheet; tubes are solid.");
 }
 
 void wr_dialog_export(WrApp *app)
@@ -264,10 +263,9 @@ void wr_dialog_export(WrApp *app)
     if (wr_export_kinds[f->kind].solid && has_mesh(app)) mesh_numbers(f);
     else if (wr_export_kinds[f->kind].solid) solid_numbers(f);
     else if (wr_export_kinds[f->kind].channels > 0)
-        wr_gui_text_wrapped(
-            WR_FONT_SMALL, WR_COLOUR_LABEL,
-            "The format goes by the file's ending: png and tif with 16 bits, exr with "
-            "float, jpg with 8.");
+        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
+                            "The file name's extension chooses the format: png and tif have 16 "
+                            "bits, exr floats, jpg 8 bits.");
     wr_gui_label("More");
     wr_gui_hint_field("##more", "repeat=2x2 resize=pot border=on", 0, f->export_more,
                       sizeof f->export_more);
@@ -300,14 +298,14 @@ void wr_dialog_render(WrApp *app)
     WrText line = { 0 };
     if (!wr_gui_dialog_begin("Render a picture", 440)) return;
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
-                        "A picture of the scene, turned as the view is now. A large one needs no "
-                        "more memory than a "
-                        "band of it.");
+                        "A picture of the scene in the present view. Large pictures are rendered "
+                        "in bands, with little memory.");
     number("Width", 16, 4096, 1, 16384, 2048, 0, "pixels", &f->picture_width);
     number("Height", 16, 4096, 1, 16384, 2048, 0, "pixels", &f->picture_height);
-    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
-                        "The format goes by the file's ending: exr and tif hold linear float with "
-                        "coverage, png, jpg and others 8-bit sRGB over the background.");
+    wr_gui_text_wrapped(
+        WR_FONT_SMALL, WR_COLOUR_LABEL,
+        "The file name's extension chooses the format: exr and tif store linear floats with "
+        "coverage, png, jpg and others 8-bit sRGB over the background.");
     variants_row(app);
     add_render_line(app, "x.png", &line);
     const bool agreed = wr_dialog_buttons(app, "Choose a file...", true) > 0;
@@ -353,7 +351,7 @@ static void film_numbers(WrForms *f)
     number("Width", 16, 1920, 1, 8192, 640, 0, "pixels", &f->film_width);
     number("Height", 16, 1920, 1, 8192, 640, 0, "pixels", &f->film_height);
     if (f->film_fps > most) f->film_fps = most;
-    wr_words_print(text, sizeof text, wr_words("%.4g seconds, %.3g degrees a frame."),
+    wr_words_print(text, sizeof text, wr_words("%.4g seconds, %.3g degrees per frame."),
                    f->film_frames / f->film_fps, 360.0 / f->film_frames);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
 }
@@ -365,8 +363,8 @@ void wr_dialog_film(WrApp *app)
     char name[24];
     if (!wr_gui_dialog_begin("Save a turntable as a film", 440)) return;
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
-                        "Once round the world's upright axis, beginning as the view is turned now. "
-                        "The program ffmpeg makes it.");
+                        "One turn about the world's vertical axis, starting from the present view. "
+                        "Films are made by the program ffmpeg.");
     film_numbers(f);
     variants_row(app);
     add_film_line(app, "x.png", &line);

@@ -58,17 +58,17 @@ static const struct {
     void (*take)(WrApp *app, const char *path);
     bool each; /* of several files, else of the first one */
 } uses[] = {
-    [WR_ROW(WR_DROP_LAYER)] = { "New layer", "White is high; then drag it to its place", as_layer,
+    [WR_ROW(WR_DROP_LAYER)] = { "New layer", "White is high; then drag it into place", as_layer,
                                 true },
     [WR_ROW(WR_DROP_STAMP)] = { "Stamp", "For the stamp tool", as_stamp, true },
-    [WR_ROW(WR_DROP_COLOUR)] = { "Colour", "Colours the object on the patch, over u and v",
-                                 wr_map_take_colour, false },
-    [WR_ROW(WR_DROP_NORMALS)] = { "Normal map", "A layer of the heights that it was made of",
+    [WR_ROW(WR_DROP_COLOUR)] = { "Colour", "Colours the object, over u and v", wr_map_take_colour,
+                                 false },
+    [WR_ROW(WR_DROP_NORMALS)] = { "Normal map", "Adds the heights of the normal map as a layer",
                                   as_normals, true },
     [WR_ROW(WR_DROP_SURROUND)] = { "Environment", "An HDRI that lights the scene from all sides",
                                    wr_light_take_surround, false },
-    [WR_ROW(WR_DROP_OPEN)] = { "New document", "Opens the picture by itself", wr_app_open_path,
-                               false },
+    [WR_ROW(WR_DROP_OPEN)] = { "New document", "Opens the picture as a new document",
+                               wr_app_open_path, false },
 };
 WR_ROWS_END(uses, WR_DROP_USES);
 

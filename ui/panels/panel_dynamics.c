@@ -58,9 +58,8 @@ static bool is_shown(int setting)
 void wr_dialog_dynamics_open(WrApp *app, int setting)
 {
     if (!app->shelf->preset) {
-        wr_app_say(app,
-                   "The round brush has no curves of its own: choose a preset; the pen's curve "
-                   "is in the tablet tester");
+        wr_app_say(app, "The round brush has no curves: choose a preset. The pen's pressure curve "
+                        "is in the tablet tester");
         return;
     }
     if (!app->dynamics) {
@@ -215,9 +214,8 @@ static void curve(WrApp *app)
     wr_points_draw(&pad, &d->hand, d->value, at, d->value);
     wr_gui_pad_end();
     if (!pad.held && !d->hand.chosen)
-        wr_gui_tip("The input from left to right; the amount added to the setting, up, or "
-                   "subtracted, down. Drag the points; click to add one; drag one out, or press "
-                   "Delete, to remove it");
+        wr_gui_tip("Horizontal: the input. Vertical: the amount added to the setting. Drag the "
+                   "points; click to add one; drag one out, or press Delete, to remove it");
 }
 
 /* ---- choice of setting and input ---- */
@@ -287,7 +285,7 @@ static void height_of_pad(WrDynamics *d)
                       .reset = now.high,
                       .decimals = 2,
                       .logarithmic = true,
-                      .tip = "Amount that the upper edge adds and the lower one subtracts" };
+                      .tip = "Amount added at the upper edge and subtracted at the lower edge" };
     double reach = now.high;
     wr_gui_label("Up to");
     if (wr_gui_number("reach", 0, &spec, &reach) != WR_EDIT_NONE) d->reach = reach;
@@ -302,7 +300,7 @@ static void chips(WrApp *app)
     const bool any = wr_preset_curve(app->shelf->tuned, d->setting, d->input, &points) > 0;
     if (d->before.count > 0) {
         if (wr_gui_chip(WR_ICON_BACK, "Take back")) take_back(app);
-        wr_gui_tip("The last change of a curve");
+        wr_gui_tip("Undoes the last change of a curve");
         if (any) wr_gui_same_line(6);
     }
     if (any) {
@@ -310,7 +308,7 @@ static void chips(WrApp *app)
             keep_step(app);
             put(app, "");
         }
-        wr_gui_tip("The input has nothing to do with the setting");
+        wr_gui_tip("Removes the effect of the input on the setting");
     }
     if (wr_tuning_has(app->brush_files->set, name)) {
         if (wr_gui_chip(NULL, "As the preset has it")) {

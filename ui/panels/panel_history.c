@@ -37,8 +37,10 @@ static void tip_of(const WrApp *app, int step, bool kept)
     char text[760], bytes[24];
     const char *line = wr_session_history_line(app->session, step);
     print_bytes((double)wr_session_history_step_bytes(app->session, step), bytes, sizeof bytes);
-    snprintf(text, sizeof text, "%.640s%s\n%s", line, strlen(line) > 640 ? " ..." : "",
-             kept ? bytes : wr_words("The state after it was given up to keep within the budget"));
+    snprintf(
+        text, sizeof text, "%.640s%s\n%s", line, strlen(line) > 640 ? " ..." : "",
+        kept ? bytes
+             : wr_words("The state after this step was dropped to stay within the memory limit"));
     wr_gui_as_it_is(true);
     wr_gui_tip(text);
     wr_gui_as_it_is(false);
@@ -199,9 +201,8 @@ void wr_panel_history(WrApp *app)
     print_bytes((double)wr_session_history_budget(app->session), budget, sizeof budget);
     snprintf(text, sizeof text, wr_words("%s of %s"), used, budget);
     wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
-    wr_gui_tip(
-        "Memory that the states on the way take, and how much they may: the oldest are given "
-        "up first. `history budget=` changes it.");
+    wr_gui_tip("Memory of the undo states, and its limit: the oldest states are dropped first. "
+               "`history budget=` changes the limit.");
     double wide = wr_gui_text_width(WR_FONT_TEXT, wr_words("Save as script...")) + wr_gui_px(28);
     wr_gui_same_line(8);
     wr_gui_move_to(wr_gui_width() - wide);
@@ -211,12 +212,12 @@ void wr_panel_history(WrApp *app)
     static const char *const ways[] = { "In words", "As commands" };
     int way = app->settings->history_lines;
     if (wr_gui_segments("ways", ways, NULL, 2, &way)) app->settings->history_lines = way == 1;
-    wr_gui_tip("The steps, or the lines of text that run them, as in a script");
+    wr_gui_tip("Shows the steps, or the lines of text that run them, as in a script");
     wr_gui_space(2);
     if (count == 0) {
-        wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
-                            "Nothing yet. Every change is one line of text here, as a script would "
-                            "have it.");
+        wr_gui_text_wrapped(
+            WR_FONT_TEXT, WR_COLOUR_LABEL,
+            "Nothing yet. Every change appears here as a line of text, as in a script.");
         return;
     }
     int last = count > ROWS_MAX ? count - ROWS_MAX : 0;

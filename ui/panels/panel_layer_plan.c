@@ -45,7 +45,7 @@ static void row(const WrLayer *layer, const WrLayerPlan *plan, double longest)
     wr_gui_move_to(right);
     wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
     wr_gui_as_it_is(false);
-    wr_gui_tip("Time of its last making, and memory that no other layer shares");
+    wr_gui_tip("Time of its last computation, and memory that no other layer shares");
     wr_gui_space(-4);
     if (plan->seconds > 0.0) wr_gui_bar(plan->seconds / longest);
     const char *run = plan->run == WR_LAYER_EVALUATED ? wr_words("evaluated")

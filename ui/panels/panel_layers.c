@@ -87,14 +87,16 @@ static void settings(WrApp *app, int index)
                                            .reset = 100,
                                            .decimals = 0,
                                            .unit = "%",
-                                           .tip = "How much of the layer shows" };
-    static const WrNumber radius_spec = { .low = 0,
-                                          .high = 1,
-                                          .hard_low = 0,
-                                          .hard_high = 1e30,
-                                          .reset = 0.1,
-                                          .decimals = 3,
-                                          .tip = "How near heights must be to melt together" };
+                                           .tip = "Opacity of the layer" };
+    static const WrNumber radius_spec = {
+        .low = 0,
+        .high = 1,
+        .hard_low = 0,
+        .hard_high = 1e30,
+        .reset = 0.1,
+        .decimals = 3,
+        .tip = "Height difference within which the blend rounds the crease"
+    };
     const char *labels[WR_BLEND_COUNT];
     const WrLayer *layer = &wr_app_document(app)->layers[index];
     for (int i = 0; i < WR_BLEND_COUNT; i++) labels[i] = wr_blends[i].label;
@@ -251,8 +253,8 @@ static void row_generator(WrApp *app, int i, double *x)
         wr_gui_tip(tip);
         wr_gui_as_it_is(false);
     } else {
-        wr_gui_tip(links ? "A linked copy, which follows its layer. Click to change its values"
-                         : "A generator layer. Click to change its values");
+        wr_gui_tip(links ? "A linked copy, which follows its layer. Click to change its settings"
+                         : "A generator layer. Click to change its settings");
     }
     *x += side + wr_gui_px(2);
     wr_gui_row_set_cursor(*x, wr_gui_px(THUMB_UNITS));
@@ -266,11 +268,11 @@ static bool row_group(WrApp *app, int i, double *x)
     wr_gui_row_set_cursor(*x, side);
     bool pressed = wr_gui_glyph("fold", group->collapsed ? WR_ICON_CLOSED : WR_ICON_OPENED, 16,
                                 WR_COLOUR_TEXT);
-    wr_gui_tip(group->collapsed ? "Show the layers of this group here"
-                                : "Leave the layers of this group out of the list");
+    wr_gui_tip(group->collapsed ? "Show the layers of this group in the list"
+                                : "Hide the layers of this group in the list");
     wr_gui_row_set_cursor(*x + side, folder);
     pressed |= wr_gui_glyph("group", WR_ICON_FOLDER, 22, WR_COLOUR_CELL);
-    wr_gui_tip("A group: its layers are joined by themselves first");
+    wr_gui_tip("A group: its layers are composited on their own first");
     *x += side + folder + wr_gui_px(6);
     wr_gui_row_set_cursor(*x, wr_gui_px(THUMB_UNITS));
     return pressed && wr_app_run_linef(app, "layer set %d collapsed=%s", i + 1,
@@ -291,7 +293,7 @@ static bool row_pictures(WrApp *app, int i, bool active, double *x)
     }
     if (layer->filter.op) {
         if (wr_gui_glyph("filter", WR_ICON_TUNE, THUMB_UNITS, WR_COLOUR_CELL)) edit_values(app, i);
-        wr_gui_tip("A filter over the layers below. Click to change its values");
+        wr_gui_tip("A filter layer. Click to change its settings");
         *x += side + gap;
         if (!layer->mask) return false;
         wr_gui_row_set_cursor(*x, side);
@@ -336,8 +338,8 @@ static bool row_lock(WrApp *app, int i)
                      locked ? WR_COLOUR_CELL : WR_COLOUR_OFF))
         return wr_layers_run(app, "set", wr_layers_of_row(app, i, layers),
                              locked ? "lock=off" : "lock=on");
-    wr_gui_tip(locked ? "Locked: edits refuse it. Click to unlock"
-                      : "Click to lock: edits then refuse this layer");
+    wr_gui_tip(locked ? "Locked: the layer cannot be edited. Click to unlock"
+                      : "Click to lock this layer, so that it cannot be edited");
     return false;
 }
 
@@ -453,15 +455,14 @@ void wr_dialog_rasterize(WrApp *app)
         return;
     }
     if (!wr_gui_dialog_begin(mask ? "Rasterize this mask?" : "Rasterize this layer?", 440)) return;
-    snprintf(
-        text, sizeof text,
-        mask ? wr_words("The mask of %s follows the layers below. Rasterized, it can be painted "
-                        "on, but follows them no longer. A painted mask of a layer below, as "
-                        "another term, keeps both.")
-             : wr_words("The heights of %s come from a generator. Rasterized, they can be painted "
-                        "on, but its values can no longer be changed. A mask, or a new layer "
-                        "above, keeps them."),
-        layer->name);
+    snprintf(text, sizeof text,
+             mask ? wr_words("The mask of %s follows the layers below. Once rasterized, it can be "
+                             "painted on, but no longer follows them. To keep both, add the "
+                             "painted mask of a layer below as another term.")
+                  : wr_words("The heights of %s come from a generator. Once rasterized, they can "
+                             "be painted on, but the generator's values can no longer be changed. "
+                             "To keep them, use a mask or a new layer above."),
+             layer->name);
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, text);
     wr_gui_space(8);
     const int done = wr_dialog_buttons(app, "Rasterize", true);
@@ -486,7 +487,7 @@ static void filter_button(WrApp *app)
 {
     wr_gui_same_line(8);
     if (wr_gui_glyph("filters", WR_ICON_TUNE, 24, WR_COLOUR_TEXT)) wr_gui_popup_open("filters");
-    wr_gui_tip("New filter layer: an operation over the layers below");
+    wr_gui_tip("Add a filter layer: an operation on the layers below");
     if (!wr_gui_popup_begin("filters")) return;
     wr_menu_filters(app);
     wr_gui_popup_end();

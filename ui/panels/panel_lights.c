@@ -46,7 +46,7 @@ static bool one_light(WrApp *app, int i)
     WrEdit b = wr_gui_colour(tint->name, 0, rgb);
     wr_gui_label(round->label);
     WrEdit c = wr_gui_number(round->name, 0, &size, &light.size_deg);
-    wr_gui_tip("Angular radius of the light, in degrees: how soft shadows are");
+    wr_gui_tip("Angular radius of the light in degrees, which softens shadows");
     const bool thrown = wr_gui_check(hides->label, &light.shadow);
     wr_gui_tip("Objects cast shadows in this light, on each other and on themselves");
     light.colour = (WrVec3){ rgb[0], rgb[1], rgb[2] };
@@ -114,8 +114,8 @@ static void surroundings(WrApp *app)
     }
     wr_gui_tip(now->path
                    ? now->path
-                   : "Image-based light from all sides. A picture: an HDRI by longitude and "
-                     "latitude, HDR or EXR. Shift and the right button rotate it on the patch");
+                   : "Image-based light from all sides, built in or an equirectangular HDRI (HDR "
+                     "or EXR). Shift and dragging with the right button on the patch rotates it");
     if (now->kind == WR_ENVIRONMENT_MAP_OFF) return;
     wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_ENVIRONMENT_TURN]);
     wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_ENVIRONMENT_STRENGTH]);

@@ -28,15 +28,15 @@ static const struct {
     { "scale",
       "Scale u",
       0,
-      { .low = -2, .high = 2, .reset = 1, .decimals = 2, .tip = "Below 0 it is mirrored" } },
+      { .low = -2, .high = 2, .reset = 1, .decimals = 2, .tip = "Negative values mirror" } },
     { "scale",
       "Scale v",
       1,
-      { .low = -2, .high = 2, .reset = 1, .decimals = 2, .tip = "Below 0 it is mirrored" } },
+      { .low = -2, .high = 2, .reset = 1, .decimals = 2, .tip = "Negative values mirror" } },
     { "factor",
       "Height",
       0,
-      { .low = -2, .high = 2, .reset = 1, .decimals = 2, .tip = "A factor of all heights" } },
+      { .low = -2, .high = 2, .reset = 1, .decimals = 2, .tip = "Factor of all heights" } },
 };
 
 static void change(WrApp *app, const char *words, WrEdit edit)

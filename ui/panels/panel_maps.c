@@ -54,24 +54,23 @@ static const Map colour = {
 };
 static const Map facets[WR_FACET_KINDS] = {
     [WR_FACET_ROUGHNESS] = { "roughness", "Roughness",
-                             "Choose a picture of how rough the surface is where; of three "
-                             "channels G is taken, as glTF packs it",
-                             "The material's own roughness again", "as set above",
-                             WR_FILE_ROUGHNESS, roughness_laid },
+                             "Choose a roughness map; of three channels G is used, as in glTF",
+                             "Removes the roughness map", "as set above", WR_FILE_ROUGHNESS,
+                             roughness_laid },
     [WR_FACET_METALNESS] = { "metalness", "Metalness",
-                             "Choose a picture of where the surface is of metal; of three "
-                             "channels B is taken, as glTF packs it",
-                             "The material's own metalness again", "as set above",
-                             WR_FILE_METALNESS, metalness_laid },
+                             "Choose a metalness map; of three channels B is used, as in glTF",
+                             "Removes the metalness map", "as set above", WR_FILE_METALNESS,
+                             metalness_laid },
 };
-static const Map normals = { "normalmap",
-                             "Normals",
-                             "Choose a picture of normals, as other programs bake or `export "
-                             "normal` writes it",
-                             "Take the normal map off",
-                             "none",
-                             WR_FILE_NORMALS,
-                             normals_laid };
+static const Map normals = {
+    "normalmap",
+    "Normals",
+    "Choose a normal map, as other programs bake it or `export normal` writes it",
+    "Removes the normal map",
+    "none",
+    WR_FILE_NORMALS,
+    normals_laid
+};
 
 /* Run "VERB FILE" or "VERB name=value". */
 static void run(WrApp *app, const char *verb, const char *name, const char *value)
@@ -143,7 +142,7 @@ static void repeat_row(WrApp *app, const Map *map, const WrTextureSample *laid)
                                    .hard_high = 1e9,
                                    .reset = 1,
                                    .decimals = 2,
-                                   .tip = "How often it is laid along u, and along v" };
+                                   .tip = "Repeats along u and v" };
     const bool once = laid->own && laid->ru == 1 && laid->rv == 1;
     const int now = !laid->own ? 0 : once ? 1 : 2;
     double ru = laid->ru, rv = laid->rv;
@@ -153,7 +152,7 @@ static void repeat_row(WrApp *app, const Map *map, const WrTextureSample *laid)
         run(app, map->verb, "repeat", words[way]);
         return;
     }
-    wr_gui_tip("How often it is laid over the object");
+    wr_gui_tip("Repeats over the object");
     if (now != 2) return;
     wr_gui_label("");
     const double half = (wr_gui_available() - wr_gui_px(8)) / 2;
@@ -204,20 +203,19 @@ static void normal_rows(WrApp *app)
                                        .tip = "Its slopes times this" };
     const WrNormalMap map = wr_app_scene(app)->normals;
     word_row(app, "Space", "space", spaces, space_words, 2, map.object,
-             "Axes of its three numbers: u, v and up, or the object's own axes");
+             "Axes of its three channels: u, v and up, or the object's own axes");
     word_row(app, "Green", "green", greens, green_words, 2, map.green_down,
-             "Which way its second number runs: up the picture (OpenGL, +Y) or down (DirectX, -Y)");
+             "Direction of its second channel: up the picture (OpenGL, +Y) or down (DirectX, -Y)");
     if (!map.object)
         word_row(app, "Frame", "frame", frames, wr_normal_frame_names, WR_FRAME_OBJECT,
                  (int)map.frame,
-                 "Which way it turns the normal: as slopes of heights, as our own export writes "
-                 "them, or in the frames that other programs bake in. Automatic: on a mesh those "
-                 "of MikkTSpace");
+                 "Tangent frame: slopes of heights, as our own export writes them, or unit vectors "
+                 "in the frames of other programs. Automatic: MikkTSpace on a mesh");
     word_row(app, "Relief over it", "combine", combines, wr_combine_names, WR_COMBINE_COUNT,
              (int)map.combine,
-             "How the table's relief lies on this map. Slopes add: as heights over the object. "
-             "Turned with it: its normals turn as the map turned the object's. On its surface: "
-             "also flatter where the map's slope stretches it");
+             "Combination with the table's relief. Slopes add: like heights. Turned with it: the "
+             "relief's normals are rotated with the map's. On its surface: also flatter where the "
+             "map's slope stretches it");
     double value = map.strength;
     wr_gui_label("Strength");
     const WrEdit edit = wr_gui_number("strength", 0, &strength, &value);

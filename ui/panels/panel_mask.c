@@ -238,7 +238,7 @@ void wr_dialog_mask(WrApp *app)
     }
     if (wr_gui_dialog_begin_at("Live mask", wr_dialog_side(app))) {
         wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
-                            "It follows the layers below. Terms join in order.");
+                            "It follows the layers below. Terms are combined in order.");
         wr_gui_space(4);
         bool changed = false;
         wr_busy_hold(app);

@@ -32,9 +32,8 @@ static void bump(WrApp *app)
     wr_gui_label("Normal");
     if (wr_gui_choice("mode", 0, modes, WR_BUMP_COUNT, &mode))
         wr_text_addf(&line, "bump mode=%s", wr_bumps[mode].name);
-    wr_gui_tip(
-        "How the normal is made: the paper's N + D, the same whatever the scale, or the true "
-        "normal of the displaced surface");
+    wr_gui_tip("Normal formula: the paper's N + D, a scale-independent form of it, or the true "
+               "normal of the displaced surface");
     wr_gui_label("Derivative");
     if (wr_gui_choice("scheme", 0, schemes, WR_SCHEME_COUNT, &scheme))
         wr_text_addf(&line, "bump scheme=%s", wr_schemes[scheme].name);
@@ -73,8 +72,7 @@ static void reflection(WrApp *app)
         wr_gui_label("Energy");
         if (wr_gui_choice("energy", 0, wr_energies, WR_ENERGY_COUNT, &energy))
             wr_text_addf(&line, "material energy=%s", wr_energies[energy]);
-        wr_gui_tip("Kept: never more light leaves than came. Published: as the model's source has "
-                   "it");
+        wr_gui_tip("Kept: conserves energy. Published: as in the model's source");
     }
     if (line.length) wr_scene_run(app, &line);
     wr_text_fini(&line);
@@ -87,7 +85,7 @@ static void material(WrApp *app)
     wr_material_grid(app);
     wr_gui_label("From a file");
     if (wr_gui_chip(WR_ICON_FOLDER, "glTF...")) wr_action_run(app, WR_ACT(gltf));
-    wr_gui_tip("Material and pictures of a .gltf or .glb file, for the object at hand");
+    wr_gui_tip("Uses material and pictures of a .gltf or .glb file for the active object");
     reflection(app);
     const WrReflectInfo *model = &wr_reflects[wr_app_scene(app)->material.model];
     for (int i = 0; (param = wr_scene_param("material", NULL, i)) != NULL; i++)

@@ -70,8 +70,8 @@ static void surface_row(WrNewForm *form)
 
 void wr_dialog_new(WrApp *app)
 {
-    static const char *const wraps[] = { "Repeats both ways", "Ends at left and right",
-                                         "Ends at top and bottom", "Ends all around" };
+    static const char *const wraps[] = { "Repeats both ways", "Edges at left and right",
+                                         "Edges at top and bottom", "Ends all around" };
     _Static_assert(WR_LENGTH(wraps) == WR_DOCUMENT_WRAPS, "in the order of their words");
     WrNewForm *form = &app->forms->fresh;
     const char *starters[WR_STARTERS];
@@ -92,7 +92,7 @@ void wr_dialog_new(WrApp *app)
         wr_gui_dialog_end();
         return;
     }
-    wr_gui_tip("Its greys become heights, and the table gets its size and shape");
+    wr_gui_tip("Converts its greys to heights; the table takes its size");
     if (wr_dialog_buttons(app, "Make it", true) > 0) {
         WrText lines = { 0 };
         wr_new_document_lines(form, wr_document_wrap_name(form->wrap), &lines);

@@ -101,22 +101,22 @@ static void buttons(WrApp *app)
     const int floor_at = wr_scene_object_find(wr_app_scene(app), "ground");
     const bool ground = floor_at >= 0 && wr_scene_object(wr_app_scene(app), floor_at)->still;
     if (wr_gui_icon_button("add", WR_ICON_PLUS, 26, false)) add(app, "add");
-    wr_gui_tip("Add an object: a plane, beside the chosen one; its surface is chosen below");
+    wr_gui_tip("Adds an object, a plane beside the active one; choose its surface below");
     wr_gui_same_line(4);
     if (wr_gui_icon_button("copy", WR_ICON_COPY, 26, false)) add(app, "copy");
-    wr_gui_tip("A copy of the chosen object, beside it");
+    wr_gui_tip("Duplicates the active object beside it");
     wr_gui_same_line(4);
     wr_gui_disable(wr_scene_object_count(wr_app_scene(app)) == 1);
     if (wr_gui_icon_button("remove", WR_ICON_DELETE, 26, false))
         wr_app_run_linef(app, "object remove");
-    wr_gui_tip("Remove the chosen object");
+    wr_gui_tip("Removes the active object");
     wr_gui_disable_end();
     wr_gui_same_line(12);
     wr_gui_next_id("ground");
     if (wr_gui_chip(NULL, ground ? "Ground off" : "Ground")) wr_action_run(app, WR_ACT(ground));
     wr_gui_tip(ground
                    ? "Take the floor away"
-                   : "A floor where the lowest of the objects stands; it does not turn with them");
+                   : "Adds a floor at the lowest point of the objects; it does not turn with them");
 }
 
 /* ---- active object ---- */
@@ -200,7 +200,7 @@ static void sizes(WrApp *app, bool always)
         .hard_high = 1e9,
         .reset = 1,
         .decimals = 3,
-        .tip = "Size along the object's own axes x, y, z: below 0 it is mirrored, at 0 flat"
+        .tip = "Size along the object's own axes x, y, z; negative values mirror, 0 is flat"
     };
     const WrScene *scene = wr_app_scene(app);
     const bool three = v3_len(scene->sizes) > 0;
@@ -245,9 +245,8 @@ static void table(WrApp *app)
         else if (now > 0) wr_app_run_linef(app, "object set layer=%d", now);
         else wr_app_run_linef(app, "object set layer=all");
     }
-    wr_gui_tip(
-        "Its heights: the composite of all layers, one layer alone, or those of a document or "
-        "picture, which becomes a layer that only this object shows");
+    wr_gui_tip("Its heights: the composite of all layers, one layer, or a document or picture, "
+               "which becomes a layer that only this object shows");
 }
 
 void wr_object_table_file_chosen(WrApp *app, const char *path)

@@ -26,9 +26,9 @@ static void eye(WrApp *app, int effect, bool runs)
         look->force = forced ? WR_FORCE_NONE : runs ? WR_FORCE_OFF : WR_FORCE_ON;
     }
     wr_gui_pop_id();
-    wr_gui_tip(forced ? "As the plan has it again"
-               : runs ? "The picture without it, to compare; another click switches it on again"
-                      : "The picture with it, to compare");
+    wr_gui_tip(forced ? "Restores the plan's choice"
+               : runs ? "Switches it off to compare; another click switches it on again"
+                      : "Switches it on to compare");
     wr_gui_same_line(6);
 }
 
@@ -99,7 +99,7 @@ static void print_time(const WrPreviewPicture *picture, double seconds, double l
     wr_gui_same_line(8);
     wr_gui_move_to(wr_gui_width() - wr_gui_text_width(WR_FONT_SMALL, text) - wr_gui_px(24));
     wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
-    wr_gui_tip("Milliseconds of the newest picture, measured");
+    wr_gui_tip("Measured milliseconds of the newest picture");
     wr_gui_space(-4);
     wr_gui_bar(longest > 0.0 ? seconds / longest : 0.0);
 }

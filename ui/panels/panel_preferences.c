@@ -45,8 +45,8 @@ static void dialogs_row(WrApp *app)
     wr_gui_label("File dialogs");
     if (wr_gui_choice("dialogs", 0, ways, WR_FILE_WAY_COUNT, &app->settings->dialogs))
         wr_files_choose_way(app->files, (WrFileWay)app->settings->dialogs);
-    wr_gui_tip("Who asks for files: the desktop by its portal, or this program. "
-               "Automatic: the desktop if it answers within a second.");
+    wr_gui_tip("File dialogs: of the desktop, through its portal, or of this program. Automatic: "
+               "the desktop's if it answers within a second.");
 }
 
 static void window_rows(WrApp *app)
@@ -211,7 +211,7 @@ static void key_list(WrApp *app)
     wr_gui_space(-6);
     for (const WrAction *a = app->registry->actions; a->name; a++)
         if (is_wanted(app, a)) key_row(app, shown++, a);
-    if (shown == 0) wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "No action has these words.");
+    if (shown == 0) wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "No action matches these words.");
     wr_gui_list_end();
     wr_gui_text_wrapped(WR_FONT_SMALL, p->bad ? WR_COLOUR_BAD : WR_COLOUR_LABEL,
                         p->message[0] ? p->message : "Click an action, then press its new key.");

@@ -156,9 +156,8 @@ void wr_profile_row(WrApp *app)
     draw_curve(hand, &pad, shape);
     draw_points(hand, &pad, over);
     wr_gui_pad_end();
-    wr_gui_tip(
-        "The profile and its mirror; drag its points, click beside them to add one. Ctrl and "
-        "a click removes one, Shift and a click makes it a corner, or smooth.");
+    wr_gui_tip("The profile and its mirror image. Drag its points, click beside them to add one. "
+               "Ctrl+click removes one, Shift+click makes it a corner or smooth.");
     if (pad.pressed) press(app, hand, over, r, z);
     if (hand->held > 0 && (pad.held || pad.released)) drag(app, hand, r, z);
     if (hand->held == 0 || (!pad.released && pad.held)) return;

@@ -108,7 +108,7 @@ static void place_rows(WrApp *app)
         .hard_low = -360,
         .hard_high = 360,
         .decimals = 1,
-        .tip = "Turns the projection about the mesh's x, then y, then z, in degrees"
+        .tip = "Rotates the projection about the mesh's x, then y, then z axis, in degrees"
     };
     WrProjection is = wr_app_scene(app)->projection;
     const double reach =
@@ -141,25 +141,24 @@ static void number_row(WrApp *app, const char *label, const char *name, const Wr
 static void normals_row(WrApp *app)
 {
     WrProjection is = wr_app_scene(app)->projection;
-    const WrNumber spec = { .low = 0,
-                            .high = WR_CREASE_NONE,
-                            .reset = WR_CREASE_NONE,
-                            .decimals = 0,
-                            .tip = "Edges of a larger angle are sharp, others smooth; 180: the "
-                                   "normals of the file" };
+    const WrNumber spec = {
+        .low = 0,
+        .high = WR_CREASE_NONE,
+        .reset = WR_CREASE_NONE,
+        .decimals = 0,
+        .tip = "Edges with a larger angle are sharp, others smooth; 180: the normals of the file"
+    };
     number_row(app, "Crease", "crease", &spec, &is, &is.crease_deg);
 }
 
 static void blend_row(WrApp *app)
 {
     WrProjection is = wr_app_scene(app)->projection;
-    const WrNumber spec = {
-        .low = 0,
-        .high = 1,
-        .decimals = 2,
-        .tip = "Mixes the box's planes near their borders, so that the relief runs on; 0: "
-               "each triangle has one plane"
-    };
+    const WrNumber spec = { .low = 0,
+                            .high = 1,
+                            .decimals = 2,
+                            .tip = "Blends the planes of the box near their borders, so that the "
+                                   "relief is continuous; 0: each triangle uses one plane" };
     number_row(app, "Blend", "blend", &spec, &is, &is.blend);
 }
 
@@ -177,15 +176,14 @@ static void facing_rows(WrApp *app)
     const WrNumber soft = { .low = 0,
                             .high = 180,
                             .decimals = 0,
-                            .tip = "Fades the relief out over so many degrees more; 0: whole "
-                                   "triangles have it or not" };
+                            .tip = "Width of the fade beyond that angle, in degrees; 0: no fade, "
+                                   "each triangle is inside or outside" };
     int facing = (int)is.facing;
     wr_gui_label("Relief on");
     if (wr_gui_choice("facing", 0, labels, WR_FACINGS, &facing))
         run_word(app, "facing", wr_facing_names[facing]);
-    wr_gui_tip(
-        "Limits relief to faces of that direction, along the projection's axes; outwards and "
-        "inwards: from and to its z axis");
+    wr_gui_tip("Limits relief to faces in that direction, along the projection's axes; outwards "
+               "and inwards: away from and towards its z axis");
     if (is.facing == WR_FACING_ANY) return;
     number_row(app, "Angle", "angle", &angle, &is, &is.facing_deg);
     number_row(app, "Soft", "soft", &soft, &is, &is.facing_soft_deg);
@@ -199,7 +197,7 @@ static void mask_row(WrApp *app)
     if (!wr_scene_mesh_source(scene)->mapped) return;
     wr_gui_label("Mask");
     const bool chosen = wr_layer_choice(app, "mask layer", scene->mask_layer, &which);
-    wr_gui_tip("Limits relief to where this layer is above 0, in full from 1 on; it lies in the "
+    wr_gui_tip("Scales the relief by this layer: none at 0 or less, full at 1 or more. It uses the "
                "file's own texture coordinates, whatever the projection");
     if (!chosen) return;
     char number[16] = "\"\"";
@@ -233,16 +231,15 @@ static void tile_row(WrApp *app)
     const bool chosen = wr_gui_choice("udim", 0, labels, 1 + hand->tile_count, &which);
     wr_gui_as_it_is(false);
     if (chosen) run_word(app, "udim", which > 0 ? labels[which] : "all");
-    wr_gui_tip(
-        "The tile of the mesh that shows the table; the others have no relief. A document has "
-        "one table: paint each tile in a document of its own");
+    wr_gui_tip("UDIM tile that shows the table; other tiles have no relief. A document has one "
+               "table: paint each tile in a document of its own");
 }
 
 static void handle_row(WrApp *app)
 {
     bool on = wr_is_projecting(app);
     if (wr_gui_check("Handle in the view", &on)) wr_action_run(app, WR_ACT(projection_handle));
-    wr_gui_tip("The disc moves the projection, the ring turns it, the square scales its cell");
+    wr_gui_tip("The disc moves the projection, the ring rotates it, the square scales its cell");
 }
 
 /* ---- seams ---- */
@@ -298,7 +295,7 @@ static void seam_rows(WrApp *app)
     const WrTextureSeams *seams = &app->surface->seams;
     char text[160];
     if (seams->edges == 0) return;
-    snprintf(text, sizeof text, wr_words("Edges where the table breaks: %d. Longest runs:"),
+    snprintf(text, sizeof text, wr_words("Edges where the table is discontinuous: %d. Longest:"),
              (int)seams->edges);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
     for (int i = 0; i < WR_TEXTURE_SEAMS && i < seams->runs; i++) {
@@ -308,7 +305,7 @@ static void seam_rows(WrApp *app)
         wr_gui_label(text);
         wr_gui_as_it_is(false);
         if (wr_gui_chip(NULL, "Go there")) go_to(app, &seams->run[i]);
-        wr_gui_tip("Looks at the middle of the run's longest edge");
+        wr_gui_tip("Shows the middle of the longest edge there");
         wr_gui_pop_id();
     }
 }
@@ -348,7 +345,7 @@ void wr_projection_rows(WrApp *app)
     int kind = (int)scene->projection.kind, unit = (int)scene->projection.unit;
     wr_gui_label("Projection");
     if (wr_gui_choice("projection", 0, labels, WR_PROJECTIONS, &kind)) choose(app, kind);
-    wr_gui_tip("How the table is laid on the mesh");
+    wr_gui_tip("Projection of the table onto the mesh");
     if (kind_of(app) != WR_PROJECTION_UV) {
         cell_row(app);
         if (kind_of(app) == WR_PROJECTION_BOX) blend_row(app);

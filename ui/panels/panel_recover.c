@@ -207,7 +207,7 @@ static void tell(const WrRecovery *recovery)
         wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, recovery->partial_report);
         wr_gui_as_it_is(false);
         wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
-                            "The rest of it stays until it is discarded.");
+                            "The rest is kept until it is discarded.");
         return;
     }
     rows((WrRecovery *)recovery);
@@ -224,10 +224,12 @@ static void tell(const WrRecovery *recovery)
                      : wr_words("It is damaged after step %d; %d steps behind that can be read."),
                  r->commands, r->beyond);
     else
-        snprintf(text, sizeof text, "%s",
-                 r->unfinished
-                     ? wr_words("Its last command had not ended. It is tried apart first.")
-                     : "");
+        snprintf(
+            text, sizeof text, "%s",
+            r->unfinished
+                ? wr_words(
+                      "Its last command had not ended. It is tried in a separate process first.")
+                : "");
     if (*text) wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
 }
 
@@ -281,7 +283,7 @@ void wr_dialog_recover(WrApp *app)
     wr_gui_same_line(8);
     bool later = wr_gui_button(partial_report ? "Keep it" : "Later", partial_report) ||
                  (key && (wr_gui_escape_pressed() || (partial_report && wr_gui_return_pressed())));
-    wr_gui_tip("It is offered again the next time");
+    wr_gui_tip("Keeps it; it is offered again at the next start");
     if (app->dialog->now != WR_DIALOG_RECOVER) lose = later = false;
     if (lose) discard(app);
     else if (later) wr_dialog_close(app);

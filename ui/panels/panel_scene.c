@@ -209,9 +209,10 @@ static void surface_file(WrApp *app)
     const bool done =
         wr_gui_text_field("##surface file", room, hand->file, sizeof hand->file, false);
     const bool left = wr_gui_field_left();
-    wr_gui_tip(shape->kind == WR_SURFACE_terrain   ? "A picture: black is low, white is high"
-               : shape->kind == WR_SURFACE_patches ? "A text of bicubic patches, such as teapot.bpt"
-                                                   : "OBJ, PLY, STL, glTF, 3MF and others");
+    wr_gui_tip(shape->kind == WR_SURFACE_terrain ? "A picture: black is low, white is high"
+               : shape->kind == WR_SURFACE_patches
+                   ? "A text file of bicubic patches, such as teapot.bpt"
+                   : "OBJ, PLY, STL, glTF, 3MF and others");
     wr_gui_same_line(4);
     if (wr_gui_glyph("browse", WR_ICON_FOLDER, GLYPH, WR_COLOUR_LABEL)) browse(app, file);
     wr_gui_tip("Choose a file");
@@ -224,9 +225,9 @@ static void surface_file(WrApp *app)
                                                          "Own cells" };
     wr_gui_label("Table");
     const bool chosen = wr_gui_choice("patch table", 0, labels, WR_PATCH_TABLES, &table);
-    wr_gui_tip("Which part of the table each patch has: the whole of it by its own u and v; the "
-               "whole, running "
-               "on across shared edges; a part, the set unfolded; a cell of its own");
+    wr_gui_tip("Part of the table on each patch: the whole table by its own u and v; the whole "
+               "table, continuous across shared edges; a part of the table, with the set unfolded; "
+               "a cell of its own");
     if (!chosen) return;
     WrText line = { 0 }; /* reuse the loaded set, since its file may have moved */
     wr_text_addf(&line, "surface patches table=%s", wr_patch_tables[table]);

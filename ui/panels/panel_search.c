@@ -56,8 +56,7 @@ static void command_line(WrApp *app, const WrCommand *command, bool enter)
     wr_gui_list_begin("found", ROW_UNITS * ROWS * wr_gui_scale() + wr_gui_px(12));
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, command->help);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
-                        "Enter carries the line out. Its values are on the guide's pages of the "
-                        "commands (F1). For example:");
+                        "Enter runs the line. The guide explains the commands (F1). For example:");
     wr_gui_as_it_is(true);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_MUTED, command->example);
     wr_gui_as_it_is(false);
@@ -225,7 +224,7 @@ static int results(WrApp *app, bool enter)
     wr_gui_space(-6);
     for (int i = 0; i < count; i++)
         if (row(app, &entries[found[i].entry], i, i == chosen)) go = found[i].entry;
-    if (count == 0) wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "Nothing has these words.");
+    if (count == 0) wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "Nothing matches these words.");
     wr_gui_list_end();
     help_line(count > 0 ? entries[found[chosen].entry].help : NULL);
     /* Return with an empty field must not run the first row. */

@@ -24,12 +24,15 @@ static const struct {
     [WR_ROW(WR_OUTLINE_PRESENT)] = { NULL, NULL, NULL }, /* not requested */
     [WR_ROW(WR_OUTLINE_GROW)] = { "Grow the selection", "Moves its edge outwards.", "grow" },
     [WR_ROW(WR_OUTLINE_SHRINK)] = { "Shrink the selection", "Moves its edge inwards.", "shrink" },
-    [WR_ROW(WR_OUTLINE_FEATHER)] = { "Feather the selection",
-                                     "Blurs its edge. The outline is where it is half selected.",
-                                     "feather" },
-    [WR_ROW(WR_OUTLINE_HEIGHT)] = { "Select by height", "All that is as high as this.", "height" },
+    [WR_ROW(
+        WR_OUTLINE_FEATHER)] = { "Feather the selection",
+                                 "Blurs its edge. The outline is drawn at a selection of one half.",
+                                 "feather" },
+    [WR_ROW(WR_OUTLINE_HEIGHT)] = { "Select by height",
+                                    "Selects everything in this range of heights.", "height" },
     [WR_ROW(WR_OUTLINE_SLOPE)] = { "Select by slope",
-                                   "All that is as steep as this, at the scene's bump height.",
+                                   "Selects everything in this range of slopes, at the scene's "
+                                   "bump height.",
                                    "slope" },
 };
 WR_ROWS_END(kinds, WR_OUTLINE_KINDS);
@@ -89,7 +92,7 @@ static bool range_fields(WrApp *app)
     changed |= number("From", low, high, least, most, 0, unit, "The lower end", &a->low);
     changed |= number("To", low, high, least, most, high, unit, "The upper end", &a->high);
     changed |= number("Softness", 0, slope ? 30.0 : 0.5, 0, most, 0, unit,
-                      "Over how much it fades beyond the ends", &a->soft);
+                      "Width of the fade beyond both ends", &a->soft);
     if (a->low > a->high) a->high = a->low;
     int mode = (int)a->mode;
     if (a->to_mask) return changed;

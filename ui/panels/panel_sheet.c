@@ -401,8 +401,8 @@ static void choose_what(WrSheetState *sheet)
     label("For");
     if (wr_gui_choice("as", 0, labels, count, &chosen))
         snprintf(sheet->ask.as, sizeof sheet->ask.as, "%s", words[chosen]);
-    wr_gui_tip("A program, for all maps that it needs, with its names; or one map alone. Sets of "
-               "your own are files NAME.set in the folder sets of your settings");
+    wr_gui_tip("All maps that a program needs, with its names; or one map. Your own sets are files "
+               "NAME.set in the folder sets of your settings");
     const WrSheetLook *look = sheet->shown;
     const WrExportKind *kind = wr_export_find(sheet->ask.as);
     const char *about = kind                                    ? kind->help
@@ -438,10 +438,11 @@ static void choose_how(const WrApp *app, WrSheetState *sheet)
     label("As");
     const double third = (wr_gui_available() - wr_gui_px(16)) / 3;
     wr_gui_choice("size", third, sizes, WR_SHEET_SIZES, &sheet->ask.size);
-    wr_gui_tip("Texels of each file. In smaller files a texel is the mean of those it covers");
+    wr_gui_tip(
+        "Size of each file in texels. In smaller files a texel is the mean of those it covers");
     wr_gui_same_line(8);
     wr_gui_choice("depth", third, depths, WR_SHEET_DEPTHS, &sheet->ask.depth);
-    wr_gui_tip("Bits of each number; floats go into EXR files, codes into PNG");
+    wr_gui_tip("Bits per channel; floats are written to EXR files, integers to PNG");
     wr_gui_same_line(8);
     wr_gui_choice("range", third, ranges, WR_SHEET_RANGES, &sheet->ask.range);
     wr_gui_tip("Heights of the first and the last code");
@@ -454,8 +455,8 @@ static void choose_material(WrSheetState *sheet)
     label("With");
     wr_gui_choice("material", (wr_gui_available() - wr_gui_px(16)) / 3, labels,
                   (int)WR_LENGTH(material_choices), &sheet->material);
-    wr_gui_tip("A material that uses these maps, with their scale, the direction of green and the "
-               "repeat: NAME.mtlx, NAME.usda or NAME.gltf, beside the maps");
+    wr_gui_tip("Writes a material that uses these maps, with their scale, direction of green and "
+               "repeat: NAME.mtlx, NAME.usda or NAME.gltf");
 }
 
 /* The check that puts <VARIANT> into the cell's name, or removes it. */
@@ -471,7 +472,7 @@ static void choose_variants(const WrApp *app, WrSheetState *sheet)
         snprintf(name, sizeof sheet->ask.name, "%s", made);
         wr_free(made);
     }
-    wr_gui_tip("<VARIANT> in the name of the file becomes the name of each variant in turn");
+    wr_gui_tip("<VARIANT> in the file name is replaced by the name of each variant");
 }
 
 static void choose_where(WrSheetState *sheet)
@@ -483,7 +484,7 @@ static void choose_where(WrSheetState *sheet)
     wr_gui_tip("The folder");
     wr_gui_same_line(8);
     wr_gui_text_field("##name", name, sheet->ask.name, sizeof sheet->ask.name, false);
-    wr_gui_tip("The cell's name, in the files' names");
+    wr_gui_tip("Name of the cell in the file names");
 }
 
 /* ---- maps ---- */
@@ -602,8 +603,7 @@ static void histogram(const WrSheetLook *look, double wide, double high)
         wr_gui_draw_line(x, pad.y, x, pad.y + pad.h, WR_COLOUR_LABEL, 1);
     }
     wr_gui_pad_end();
-    wr_gui_tip(
-        "How many texels have which height; the line is 0. Orange: beyond the range, clipped");
+    wr_gui_tip("Histogram of the heights; the line is 0. Orange: outside the range, clipped");
 }
 
 /* A round bump as a normal map: its upper side is bright green, or dark. */
@@ -703,8 +703,8 @@ static void buttons(WrApp *app, WrSheetState *sheet)
     wr_gui_same_line(16);
     if (wr_gui_check("Live: write again after each pause", &sheet->live) && sheet->live && good)
         sheet_write(app, false);
-    wr_gui_tip("As long as this is on, the files follow the brush: half a second or less after "
-               "the last change they are written again, all at once. An error ends it");
+    wr_gui_tip("While this is on, the files are written again within half a second after each "
+               "change. An error switches it off");
 }
 
 void wr_dialog_sheet(WrApp *app)

@@ -35,12 +35,12 @@ static void relief(WrApp *app)
     flag(app, WR_SCENE_PARAM_OCCLUSION, "Ambient occlusion",
          "Darkens cavities: ambient and environment light by the visible part of the sky");
     flag(app, WR_SCENE_PARAM_PARALLAX, "Parallax",
-         "Rays go on from the base to the relief, a rung between bump mapping and true "
-         "displacement. Outlines are true on planes, spheres and cylinders, on other bases they "
-         "stay the base's");
+         "Continues rays from the base surface to the relief: between bump mapping and true "
+         "displacement. Silhouettes are correct on planes, spheres and cylinders; on other "
+         "surfaces they are those of the base");
     flag(app, WR_SCENE_PARAM_DISPLACED, "Displacement",
-         "True displacement, outline included, in place of bump mapping that imitates it. Slower; "
-         "each edit cuts the surface anew");
+         "True displacement, silhouettes included, in place of bump mapping. Slower: each edit "
+         "tessellates the surface again");
 }
 
 /* True if this solid texture uses the number. */
@@ -94,8 +94,7 @@ static void solid(WrApp *app)
     wr_gui_label("Drives");
     choose(app, "drives", drives, WR_SOLID_TEXTURE_DRIVES - 1, grain->drives - 1,
            "grain drives=", wr_solid_texture_drives + 1);
-    wr_gui_tip("Effect of the pattern: the colour, the roughness of facets, and heights that turn "
-               "the normal");
+    wr_gui_tip("Effect of the pattern: colour, roughness, or heights that tilt the normal");
     if (info->ringed && info->noisy) {
         wr_gui_label("Axis");
         choose(app, "axis", axes, WR_SOLID_TEXTURE_AXES, (int)grain->axis,

@@ -73,7 +73,7 @@ static void under_pointer(const WrApp *app)
     pair("v", text);
     wr_words_print(text, sizeof text, "%.4g", f);
     pair("F", text);
-    wr_gui_tip("Height in the table; the inspector's F is this times the bump height");
+    wr_gui_tip("Height in the table; F in the inspector is this times the bump height");
     wr_words_print(text, sizeof text, "%.1f\xc2\xb0", wr_atan2(slope, 1.0) / WR_RAD_PER_DEG);
     pair("slope", text);
     wr_gui_tip("Angle of the relief over the unit cell at the scene's bump height");
@@ -131,7 +131,7 @@ static void unread_errors(WrApp *app)
         wr_gui_popup_open("messages");
         dismiss(app);
     }
-    wr_gui_tip("Errors that were not read yet");
+    wr_gui_tip("Unread errors");
     wr_gui_same_line(8);
 }
 
@@ -408,12 +408,12 @@ static void right_side(WrApp *app)
         wr_gui_as_it_is(false);
         if (i == PART_PICTURE && end.picture[0]) picture_tip(app);
         if (i == PART_LIVE)
-            wr_gui_tip("Maps are written again after each pause of the hand: File, Export maps...");
+            wr_gui_tip("Maps are written again after each pause in painting: File, Export maps...");
         if (i == PART_JOURNAL)
-            wr_gui_tip(end.safe
-                           ? "Should the program or the computer stop, every change so far can "
-                             "be brought back."
-                           : end.reason);
+            wr_gui_tip(
+                end.safe
+                    ? "If the program or the computer stops, every change so far can be recovered."
+                    : end.reason);
         wr_gui_same_line(18);
     }
 }

@@ -297,8 +297,8 @@ static WrEdit tester_curve(WrApp *app, double side, WrPenCurve *curve)
     wr_points_draw(&pad, hand, value, curve_at, curve);
     wr_gui_pad_end();
     if (!pad.held && !hand->chosen)
-        wr_gui_tip("How hard a touch counts. Drag the points; click for one more; drag one out, or "
-                   "press Delete, to take it away");
+        wr_gui_tip("Pressure curve. Drag the points; click to add one; drag one out, or press "
+                   "Delete, to remove it");
     if (pad.released || (changed && !pad.held)) return WR_EDIT_DONE;
     return changed ? WR_EDIT_LIVE : WR_EDIT_NONE;
 }
@@ -430,11 +430,12 @@ static void curve_row(WrApp *app, double side)
     WrEdit edit = tester_curve(app, side, &c), by[3];
     wr_gui_same_line(16);
     wr_gui_group_begin();
-    by[0] = number("Minimum: lighter touches count as none", 0, 1, false, 0,
-                   "Raise it when the pen draws before it touches", &c.minimum);
-    by[1] = number("Maximum: harder ones as full", 0, 1, false, 1,
-                   "Lower it when full pressure needs too much force", &c.maximum);
-    by[2] = number("Gain", 0.1, 10, true, 1, "Times the curve, at most 1", &c.gain);
+    by[0] = number("Minimum: lighter touches are ignored", 0, 1, false, 0,
+                   "Raise it if the pen draws before it touches", &c.minimum);
+    by[1] = number("Maximum: harder touches count as full pressure", 0, 1, false, 1,
+                   "Lower it if full pressure needs too much force", &c.maximum);
+    by[2] =
+        number("Gain", 0.1, 10, true, 1, "Factor of the curve; the result is at most 1", &c.gain);
     wr_gui_space(2);
     if (wr_gui_button("Straight line", false)) {
         c = wr_pen_curve_default();

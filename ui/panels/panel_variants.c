@@ -46,7 +46,7 @@ static void menu(WrApp *app)
 {
     if (wr_gui_glyph("variant_menu", WR_ICON_MORE, 24, WR_COLOUR_TEXT))
         wr_gui_popup_open("variants");
-    wr_gui_tip("New, renamed and deleted variants");
+    wr_gui_tip("Add, rename and delete variants");
     if (!wr_gui_popup_begin("variants")) return;
     wr_menu_item(app, WR_ACT(variant_add));
     wr_menu_item(app, WR_ACT(variant_set));
@@ -77,8 +77,8 @@ void wr_panel_variants(WrApp *app)
     const bool uses = wr_gui_choice("variant", wr_gui_available() - wr_gui_px(64), labels,
                                     count + (now == count), &chosen);
     wr_gui_as_it_is(false);
-    wr_gui_tip(differs ? "The layers' values differ from this variant: choose it to give them back"
-                       : "Gives all layers the values of a variant");
+    wr_gui_tip(differs ? "The layers differ from this variant: choose it to restore them"
+                       : "Applies a variant to all layers");
     if (uses && chosen < count) {
         run(app, "use", names[chosen], NULL);
         return;
@@ -88,7 +88,7 @@ void wr_panel_variants(WrApp *app)
     if (wr_gui_glyph("variant_set", WR_ICON_SAVE, 24, differs ? WR_COLOUR_CELL : WR_COLOUR_OFF))
         wr_action_run(app, WR_ACT(variant_set));
     wr_gui_disable_end();
-    wr_gui_tip("Stores the layers' values in this variant");
+    wr_gui_tip("Stores the layers' settings in this variant");
     wr_gui_same_line(8);
     menu(app);
 }
@@ -138,8 +138,8 @@ void wr_dialog_variant(WrApp *app)
     if (!wr_gui_dialog_begin(renames ? "Rename variant" : "New variant", 380)) return;
     if (!renames)
         wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
-                            "It keeps what each layer shows: visibility, blend, opacity and the "
-                            "values of generators, filters and live masks.");
+                            "A variant stores visibility, blend mode, opacity and the settings of "
+                            "generators, filters and live masks of each layer.");
     wr_gui_space(4);
     wr_gui_label("Name");
     const bool enter =

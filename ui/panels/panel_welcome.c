@@ -87,13 +87,13 @@ void wr_dialog_welcome(WrApp *app)
     if (!wr_gui_dialog_begin("Welcome to Wrinkle", 3 * (TILE + 6) + 50)) return;
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT,
                         "Paint heights on the canvas at the left: the surface at the right shows "
-                        "them as relief. Begin with:");
+                        "them as relief. Start with:");
     const bool there = starter_of(app, 0) && starter_of(app, 1);
     const int pressed =
         there ? wr_picture_grid(app, WR_THUMB_WELCOME, "Begin with", 3, TILE, -1, beginning) : -1;
     wr_gui_space(4);
     const bool tour = wr_gui_button("Take the tour", false);
-    wr_gui_tip("Shows the parts of the window in a minute");
+    wr_gui_tip("Show the parts of the window in one minute");
     wr_gui_same_line(6);
     wr_dialog_close_button(app, "Skip");
     if (pressed >= 0) begin_with(app, pressed);
@@ -114,7 +114,7 @@ typedef struct Stop {
 #define PART(member) offsetof(WrLayout, member)
 
 static const Stop stops[] = {
-    { PART(canvas), "The canvas is the table of heights. Drag to paint; a stroke over one side "
+    { PART(canvas), "The canvas is the table of heights. Drag to paint; a stroke across an edge "
                     "continues on the opposite side." },
     { PART(patch), "The patch shows the heights on a lit surface. Drag to turn it; the wheel "
                    "zooms." },

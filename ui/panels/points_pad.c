@@ -210,7 +210,7 @@ bool wr_curves_pad(WrApp *app)
     wr_points_draw(&pad, &adjust->points, value, at, &curve);
     wr_gui_pad_end();
     if (!pad.held && !adjust->points.chosen)
-        wr_gui_tip("Old heights from left to right, new heights from bottom to top. Drag the "
-                   "points; click to add one; drag one out, or press Delete, to remove it");
+        wr_gui_tip("Horizontal: old heights. Vertical: new heights. Drag the points; click to add "
+                   "one; drag one out, or press Delete, to remove it");
     return changed;
 }

@@ -367,18 +367,17 @@ void wr_patch_overlay(WrApp *app)
         wr_gui_next_id("paint");
         if (wr_gui_chip(WR_ICON_BRUSH, app->paint->on ? "painting" : "paint"))
             wr_action_run(app, WR_ACT(paint_patch));
-        wr_gui_tip(app->paint->on ? "The brush paints on the object, which stands still under it. "
-                                    "Click to turn it by hand again."
+        wr_gui_tip(app->paint->on ? "The brush paints on the object, which does not turn "
+                                    "meanwhile. Click to turn it by hand again."
                                   : "Paint on the object itself.");
         wr_gui_same_line(6);
     }
     wr_gui_next_id("turning");
     if (wr_gui_chip(turning ? WR_ICON_PAUSE : WR_ICON_PLAY, turning ? "turning" : "paused"))
         wr_action_run(app, WR_ACT(turn));
-    wr_gui_tip(
-        "Space over the patch. Drag it to turn it by hand, with the middle button to go round it, "
-        "with Shift to move the view, with the right button to move the light; wheel to come "
-        "closer, with Ctrl to widen the angle of view.");
+    wr_gui_tip("Key: Space over the patch. Drag to turn the object, with the middle button to "
+               "orbit, with Shift to pan, with the right button to move the light; the wheel "
+               "zooms, with Ctrl it changes the angle of view.");
     wr_gui_overlay_end();
     bool over = app->hand->on_patch;
     wr_preview_point(app->preview, over ? (app->hand->at.x - room->x) / room->w : -1.0,

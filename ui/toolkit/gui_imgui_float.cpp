@@ -110,7 +110,7 @@ try {
     ImGui::SetCursorScreenPos(
         ImVec2(at.x + (float)rect->w - icon - px(6), at.y + (head - icon) / 2));
     out.docks = wr_gui_glyph("##dock", WR_ICON_CLOSE, 22, WR_COLOUR_LABEL);
-    wr_gui_tip("Puts it back among the tabs");
+    wr_gui_tip("Docks it among the tabs");
     gui->float_id = id;
     gui->float_rect = *rect;
     out.moving = gui->float_held == id && !gui->float_resized;

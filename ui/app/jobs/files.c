@@ -448,12 +448,12 @@ int wr_files_panel(WrFiles *files, const char *note, char *const recent[])
     show_entries(files, &done);
     if (files->hidden > 0 || files->all) {
         if (wr_gui_check("All files", &files->all)) list_folder(files);
-        wr_gui_tip("Those too that by their names cannot be read here");
+        wr_gui_tip("Also files whose names suggest that they cannot be read");
     }
     bool entered = wr_gui_text_field("##name", 0, files->field, sizeof files->field, files->focus);
     files->focus = false;
     if (files->trouble.text[0]) wr_gui_note(WR_COLOUR_BAD, wr_error_message(&files->trouble), 1);
-    else wr_gui_note(WR_COLOUR_CELL, overwrites(files) ? "There is a file of this name." : "", 1);
+    else wr_gui_note(WR_COLOUR_CELL, overwrites(files) ? "A file with this name exists." : "", 1);
     wr_gui_space(4);
     if (wr_gui_button(purposes[files->purpose].done, true)) done = true;
     wr_gui_same_line(8);

@@ -190,7 +190,7 @@ bool wr_busy_greys(const WrApp *app)
 
 void wr_busy_hold(const WrApp *app)
 {
-    wr_gui_hold(wr_busy_greys(app) ? "Not while this is being done: wait or cancel" : NULL);
+    wr_gui_hold(wr_busy_greys(app) ? "Busy: wait, or cancel the work" : NULL);
 }
 
 void wr_busy_hold_end(void)
@@ -313,8 +313,8 @@ static void say(const WrApp *app, bool refused, double wide)
     char waits[300], text[400];
     if (refused || busy->closes || count == 0) {
         wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_STRONG,
-                        refused        ? "Not while this is being done: wait or cancel"
-                        : busy->closes ? "Closes when this is done: wait or cancel"
+                        refused        ? "Busy: wait, or cancel the work"
+                        : busy->closes ? "Closes when this work is done: wait, or cancel it"
                                        : busy->what,
                         wide);
         return;
@@ -513,7 +513,7 @@ static void waits_drop(WrApp *app, WrDropped why)
     if (why == WR_DROPPED_CANCELLED)
         wr_app_say(app, "Cancelled, with the actions that waited for it: %s", words);
     if (why == WR_DROPPED_LAYERS)
-        wr_app_say(app, "Not done, since the layers are others now: %s", words);
+        wr_app_say(app, "Not done, because the layers have changed: %s", words);
     if (why == WR_DROPPED_WISH) wr_app_say(app, "Not done any more: %s", words);
 }
 

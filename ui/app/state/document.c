@@ -346,7 +346,7 @@ void wr_app_new_of(WrApp *app, const char *lines)
         return;
     }
     app->file->starter = false;
-    if (app->gave_up) wr_app_say(app, "Cancelled: the document is made as far as it came");
+    if (app->gave_up) wr_app_say(app, "Cancelled: the document contains the steps done so far");
     else if (!good) wr_app_fail(app, &err);
     wr_app_changed_document(app);
     /* unmodified: it can be opened again */

@@ -14,13 +14,13 @@ static const struct {
 } plains[] = {
     { "%s is locked: `layer set %d lock=off` unlocks it", "This layer is locked.", { NULL } },
     { "%s is hidden: `layer set %d visible=on` shows it",
-      "This layer is hidden: painting on it would not be seen.",
+      "This layer is hidden: changes to it would be invisible.",
       { NULL } },
     { "%s is not shown while layer %d is alone: `layer solo off` shows all",
-      "Another layer is shown alone, so that this one is not seen.",
+      "Another layer is shown alone, so this one is invisible.",
       { NULL } },
     { "%s has a live mask: `layer mask %d live=off` makes a mask of it that can be painted on",
-      "This mask is made by its terms. Change them, or rasterize the mask to paint on it.",
+      "This mask is computed from its terms. Change them, or rasterize the mask to paint on it.",
       { WR_ACT(mask_live) } },
     { "%s is a group, without heights of its own: `layer use` chooses one of its layers, or its "
       "mask",
@@ -31,8 +31,7 @@ static const struct {
       { WR_ACT(mask_edit), WR_ACT(mask_white), WR_ACT(layer_below) } },
     { "%s is a generator layer: `layer set %d change=` changes its values, `layer rasterize %d` "
       "makes heights of it that can be painted on",
-      "This layer is made by a generator. Change its values, or rasterize it to paint on "
-      "it.",
+      "This is a generator layer. Change its settings, or rasterize it to paint on it.",
       { WR_ACT(filter_edit) } },
     { "%s is hidden: only layers that are visible can be joined",
       "A hidden layer cannot be merged. Show it first.",
@@ -47,13 +46,13 @@ static const struct {
       "This layer has no mask yet.",
       { WR_ACT(mask_white) } },
     { "layer %d is no generator layer and no group: there is nothing to rasterize",
-      "This layer is painted already: there is nothing to rasterize.",
+      "This layer is already a plain layer: there is nothing to rasterize.",
       { NULL } },
     { "the mesh has no texture coordinates to paint on; give it some: `surface mesh "
       "projection=box`",
       "This mesh has no UVs to paint on. Choose a projection in Scene.",
       { NULL } },
-    { "not while something else is being done", "Wait until the present work is done.", { NULL } },
+    { "not while something else is being done", "Wait until the current work is done.", { NULL } },
 };
 
 static const char *after_verb(const char *message)

@@ -107,9 +107,9 @@ const WrSearchWords wr_search_words[] = {
     { "100 %", "actual size, actual pixels, one to one" },
     { "Mirror the view", "flip canvas, flip view, mirror canvas, canvas flip" },
     { "Turn the table left", "rotate canvas, rotate view, canvas rotation" },
-    { "Copies straight beside it", "tile view, tiled view, wrap around mode, wraparound, repeat "
-                                   "view, tiling preview, tile preview" },
-    { "Columns half a cell lower: half-drop", "half drop, textile repeat" },
+    { "Copies in rows and columns", "tile view, tiled view, wrap around mode, wraparound, repeat "
+                                    "view, tiling preview, tile preview" },
+    { "Copies in a half-drop", "half drop, textile repeat" },
     { "Panels", "hide panels, toggle ui, tab key, docks, sidebar" },
     { "Table alone", "hide 3d view, 2d view, canvas only" },
     { "Patch alone", "3d view, viewport only, hide canvas" },

@@ -61,7 +61,7 @@ void wr_option_hardness(WrApp *app, double width)
                       .high = 1,
                       .reset = wr_preset_browser_own(app).hardness,
                       .decimals = 2,
-                      .tip = "Part of the radius that is fully covered." };
+                      .tip = "Share of the radius with full coverage." };
     wr_gui_number("hardness", width, &spec, &app->settings->brush.hardness);
 }
 
@@ -98,21 +98,22 @@ void wr_option_to_height(WrApp *app, double width)
         .hard_high = 1e30,
         .reset = 0,
         .decimals = 3,
-        .tip = "Target height of the brush. Ctrl and a click on the table pick it."
+        .tip = "Target height of the brush. Ctrl+click on the table picks it."
     };
     wr_gui_number("to", width, &spec, &app->settings->brush.to);
 }
 
 static void reach(WrApp *app, double width)
 {
-    static const WrNumber spec = { .low = 0,
-                                   .high = 64,
-                                   .hard_high = 16384,
-                                   .reset = 0,
-                                   .decimals = 1,
-                                   .unit = "px",
-                                   .tip =
-                                       "Radius of its filter; 0: an eighth of the brush's radius" };
+    static const WrNumber spec = {
+        .low = 0,
+        .high = 64,
+        .hard_high = 16384,
+        .reset = 0,
+        .decimals = 1,
+        .unit = "px",
+        .tip = "Radius of the neighbourhood that the mode reads; 0: an eighth of the brush's radius"
+    };
     wr_gui_number("reach", width, &spec, &app->settings->brush.reach);
 }
 
@@ -264,7 +265,7 @@ void wr_option_row(WrApp *app, const WrOption *items, int count)
     if (wr_gui_icon_button("more", WR_ICON_TUNE, 28, false) || found)
         wr_gui_popup_open("more_options");
     wr_gui_centre_end(wr_gui_px(28));
-    wr_gui_tip("The rest of the options");
+    wr_gui_tip("More options");
     if (!wr_gui_popup_begin("more_options")) return;
     wr_gui_width_at_least(280);
     for (; i < count; i++)

@@ -364,22 +364,25 @@ double *wr_strength_setting(WrApp *app)
 void wr_strength_number(WrApp *app, const char *id, double width)
 {
     const bool mask = wr_paints_mask(app);
-    const WrNumber percent = { .low = 0,
-                               .high = 100,
-                               .reset = 100,
-                               .decimals = 0,
-                               .unit = "%",
-                               .tip = "How much one stroke changes the mask at its middle: 100 % "
-                                      "shows or hides the layer in full" };
-    const WrNumber height = { .low = 0.001,
-                              .high = 1,
-                              .hard_low = -1e30,
-                              .hard_high = 1e30,
-                              .reset = wr_preset_browser_own(app).strength,
-                              .decimals = -1,
-                              .logarithmic = true,
-                              .tip = "How much one stroke changes the height at its middle, in "
-                                     "units of the table." };
+    const WrNumber percent = {
+        .low = 0,
+        .high = 100,
+        .reset = 100,
+        .decimals = 0,
+        .unit = "%",
+        .tip =
+            "Change of the mask at the centre of a stroke: 100 % shows or hides the layer in full"
+    };
+    const WrNumber height = {
+        .low = 0.001,
+        .high = 1,
+        .hard_low = -1e30,
+        .hard_high = 1e30,
+        .reset = wr_preset_browser_own(app).strength,
+        .decimals = -1,
+        .logarithmic = true,
+        .tip = "Change of the height at the centre of a stroke, in units of the table."
+    };
     double *strength = wr_strength_setting(app), value = mask ? *strength * 100.0 : *strength;
     if (wr_gui_number(id, width, mask ? &percent : &height, &value))
         *strength = mask ? rint(value * 100.0) / 1e4 : value;

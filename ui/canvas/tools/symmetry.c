@@ -146,10 +146,10 @@ static bool mirrors(WrSymmetry *s)
 {
     wr_gui_label("Mirror");
     bool changed = wr_gui_check("u", &s->mirror_u);
-    wr_gui_tip("Left and right of an upright axis through the centre");
+    wr_gui_tip("Mirrors strokes left and right about a vertical axis through the centre");
     wr_gui_same_line(12);
     changed |= wr_gui_check("v", &s->mirror_v);
-    wr_gui_tip("Above and below a level axis through the centre");
+    wr_gui_tip("Mirrors strokes above and below a horizontal axis through the centre");
     return changed;
 }
 
@@ -161,7 +161,7 @@ static bool mesh_mirrors(bool mirror[3])
     for (int k = 0; k < 3; k++) {
         if (k > 0) wr_gui_same_line(12);
         changed |= wr_gui_check(labels[k], &mirror[k]);
-        wr_gui_tip("Strokes on a mesh are drawn again in mirrors across its axes");
+        wr_gui_tip("Repeats strokes on a mesh mirrored across its axes");
     }
     return changed;
 }
@@ -177,20 +177,20 @@ static bool numbers(WrSymmetry *s)
                          .high = 0.99,
                          .reset = 0,
                          .decimals = 3,
-                         .tip =
-                             "How much higher each column lies than the one before, in rows: 0.5 "
-                             "and an even number of columns is a half-drop" };
+                         .tip = "Upward shift of each column relative to the one before, in rows: "
+                                "0.5 and an even number of columns is a half-drop" };
     wr_gui_label("Turns");
-    bool changed = whole("radial", 0, 1, 24, "So many copies round the centre", &s->radial);
+    bool changed = whole("radial", 0, 1, 24, "Number of copies around the centre", &s->radial);
     wr_gui_label("Centre");
     double half = wr_gui_available() / 2.0 - wr_gui_px(3);
     changed |= wr_gui_number("cu", half, &place, &s->centre_u) != WR_EDIT_NONE;
     wr_gui_same_line(6);
     changed |= wr_gui_number("cv", half, &place, &s->centre_v) != WR_EDIT_NONE;
     wr_gui_label("Repeat");
-    changed |= whole("ru", half, 1, 16, "Columns of the lattice in the cell", &s->repeat_u);
+    changed |=
+        whole("ru", half, 1, 16, "Number of columns of the lattice in the cell", &s->repeat_u);
     wr_gui_same_line(6);
-    changed |= whole("rv", half, 1, 16, "Rows of the lattice in the cell", &s->repeat_v);
+    changed |= whole("rv", half, 1, 16, "Number of rows of the lattice in the cell", &s->repeat_v);
     wr_gui_label("Stagger");
     changed |= wr_gui_number("stagger", 0, &stagger, &s->stagger) != WR_EDIT_NONE;
     return changed;
@@ -216,11 +216,11 @@ void wr_panel_symmetry(WrApp *app)
     wr_gui_area_begin("##symmetry", WR_AREA_PANEL, place, WR_COLOUR_PANEL);
     bool on = settings->symmetric;
     bool changed = wr_gui_check("Symmetry", &on);
-    wr_gui_tip("Strokes, shapes and stamps are painted with all their copies");
+    wr_gui_tip("Paints strokes, shapes and stamps with all copies");
     wr_gui_same_line(0);
     wr_gui_move_to(wr_gui_width() - wr_gui_px(36));
     if (wr_gui_glyph("close", WR_ICON_CLOSE, 24, WR_COLOUR_LABEL)) settings->symmetry_panel = false;
-    wr_gui_tip("Close; the symmetry stays as it is");
+    wr_gui_tip("Close, and keep the symmetry");
     bool moved = mirrors(&settings->symmetry);
     moved |= mesh_mirrors(settings->mesh_mirror);
     moved |= numbers(&settings->symmetry);

@@ -244,24 +244,21 @@ void wr_brush_options(WrApp *app)
 
 /* ---- the rows ---- */
 
-const WrTool wr_tool_brush = {
-    .action = WR_ACT(brush),
-    .icon = WR_ICON_BRUSH,
-    .help = "Paint heights. Ctrl picks a height, Shift and dragging sizes the brush, Shift and a "
-            "click "
-            "draws a straight line from the last stroke.",
-    .press = wr_brush_press,
-    .drag = wr_brush_drag,
-    .release = wr_brush_release,
-    .overlay = wr_brush_overlay,
-    .options = wr_brush_options,
-    .paints = true
-};
+const WrTool wr_tool_brush = { .action = WR_ACT(brush),
+                               .icon = WR_ICON_BRUSH,
+                               .help =
+                                   "Paint heights. Ctrl+click picks a height, Shift+drag sizes the "
+                                   "brush, Shift+click draws a straight line from the last stroke.",
+                               .press = wr_brush_press,
+                               .drag = wr_brush_drag,
+                               .release = wr_brush_release,
+                               .overlay = wr_brush_overlay,
+                               .options = wr_brush_options,
+                               .paints = true };
 
 const WrTool wr_tool_smooth = { .action = WR_ACT(smooth),
                                 .icon = WR_ICON_DROP,
-                                .help =
-                                    "Let heights flow together under the brush; their mean stays.",
+                                .help = "Smooth heights under the brush; their mean stays.",
                                 .press = wr_brush_press,
                                 .drag = wr_brush_drag,
                                 .release = wr_brush_release,

@@ -54,7 +54,7 @@ static void press(WrApp *app, const WrPointer *at)
         return;
     }
     if (!draw->source) {
-        wr_app_say(app, "Ctrl and a click first sets the source of the heights");
+        wr_app_say(app, "First set the source of the heights by Ctrl+click");
         return;
     }
     if (!draw->anchored) {
@@ -95,19 +95,18 @@ static void marks(WrApp *app)
 
 /* ---- the row ---- */
 
-const WrTool wr_tool_clone = {
-    .action = WR_ACT(clone),
-    .icon = WR_ICON_CLONE,
-    .help = "Paint with heights from elsewhere: Ctrl and a click sets the source.",
-    .press = press,
-    .drag = drag,
-    .release = wr_brush_release,
-    .overlay = wr_brush_overlay,
-    .marks = marks,
-    .options = wr_brush_options,
-    .paints = true,
-    .mode = 1 + WR_BRUSH_CLONE
-};
+const WrTool wr_tool_clone = { .action = WR_ACT(clone),
+                               .icon = WR_ICON_CLONE,
+                               .help =
+                                   "Paint with heights from elsewhere: Ctrl+click sets the source.",
+                               .press = press,
+                               .drag = drag,
+                               .release = wr_brush_release,
+                               .overlay = wr_brush_overlay,
+                               .marks = marks,
+                               .options = wr_brush_options,
+                               .paints = true,
+                               .mode = 1 + WR_BRUSH_CLONE };
 
 static void another(WrApp *app)
 {

@@ -89,6 +89,6 @@ static void options(WrApp *app)
 
 const WrTool wr_tool_flood = { .action = WR_ACT(flood),
                                .icon = WR_ICON_BUCKET,
-                               .help = "Click to fill the connected texels of the same height.",
+                               .help = "Click to fill a connected region of similar height.",
                                .press = press,
                                .options = options };

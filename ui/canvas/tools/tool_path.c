@@ -281,30 +281,28 @@ static void marks(WrApp *app)
 
 /* ---- the rows ---- */
 
-const WrTool wr_tool_shape_polygon = {
-    .action = WR_ACT(shape_polygon),
-    .icon = WR_ICON_POLYGON,
-    .help = "Click the corners; Enter or a double click paints it, Backspace removes the last.",
-    .press = press,
-    .drag = drag,
-    .release = release,
-    .marks = marks,
-    .options = wr_shape_options,
-    .key = key,
-    .leave = wr_draw_leave,
-    .meanwhile = true
-};
+const WrTool wr_tool_shape_polygon = { .action = WR_ACT(shape_polygon),
+                                       .icon = WR_ICON_POLYGON,
+                                       .help = "Click the corners; Enter or a double click paints "
+                                               "the polygon, Backspace removes the last corner.",
+                                       .press = press,
+                                       .drag = drag,
+                                       .release = release,
+                                       .marks = marks,
+                                       .options = wr_shape_options,
+                                       .key = key,
+                                       .leave = wr_draw_leave,
+                                       .meanwhile = true };
 
-const WrTool wr_tool_shape_path = {
-    .action = WR_ACT(shape_path),
-    .icon = WR_ICON_CURVE,
-    .help = "Click anchors, drag for their arms, move both; Enter or a double click paints it.",
-    .press = press,
-    .drag = drag,
-    .release = release,
-    .marks = marks,
-    .options = wr_shape_options,
-    .key = key,
-    .leave = wr_draw_leave,
-    .meanwhile = true
-};
+const WrTool wr_tool_shape_path = { .action = WR_ACT(shape_path),
+                                    .icon = WR_ICON_CURVE,
+                                    .help = "Click to add points, drag their handles, move both; "
+                                            "Enter or a double click paints the curve.",
+                                    .press = press,
+                                    .drag = drag,
+                                    .release = release,
+                                    .marks = marks,
+                                    .options = wr_shape_options,
+                                    .key = key,
+                                    .leave = wr_draw_leave,
+                                    .meanwhile = true };

@@ -171,7 +171,7 @@ static void ramp_end(const char *id, double width, const char *tip, double reset
 
 static void ramp_low(WrApp *app, double width)
 {
-    ramp_end("low", width, "Height where the drag begins", 0, &app->settings->drawing.low);
+    ramp_end("low", width, "Height at the start of the drag", 0, &app->settings->drawing.low);
 }
 
 static void ramp_high(WrApp *app, double width)

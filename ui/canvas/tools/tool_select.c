@@ -250,7 +250,7 @@ static void options(WrApp *app)
 const WrTool wr_tool_select_rect = {
     .action = WR_ACT(select_rect),
     .icon = WR_ICON_RECT,
-    .help = "Drag a rectangle, across the cell's edges if need be: edits then keep to it.",
+    .help = "Drag a rectangle, across the cell's edges if needed, which limits edits.",
     .press = press,
     .drag = drag,
     .release = release,
@@ -259,7 +259,7 @@ const WrTool wr_tool_select_rect = {
 
 const WrTool wr_tool_select_ellipse = { .action = WR_ACT(select_ellipse),
                                         .icon = WR_ICON_ELLIPSE,
-                                        .help = "Drag an ellipse: edits then keep to it.",
+                                        .help = "Drag an ellipse, which limits edits.",
                                         .press = press,
                                         .drag = drag,
                                         .release = release,
@@ -267,7 +267,7 @@ const WrTool wr_tool_select_ellipse = { .action = WR_ACT(select_ellipse),
 
 const WrTool wr_tool_select_lasso = { .action = WR_ACT(select_lasso),
                                       .icon = WR_ICON_LASSO,
-                                      .help = "Draw an outline by hand: edits then keep to it.",
+                                      .help = "Draw an outline by hand, which limits edits.",
                                       .press = press,
                                       .drag = drag,
                                       .release = release,

@@ -217,7 +217,7 @@ void wr_shape_options(WrApp *app)
 const WrTool wr_tool_shape_rect = {
     .action = WR_ACT(shape_rect),
     .icon = WR_ICON_BOX,
-    .help = "Drag a rectangle: Shift makes it a square, Ctrl begins in its middle.",
+    .help = "Drag a rectangle: Shift makes it a square, Ctrl draws it from its centre.",
     .press = press,
     .drag = drag,
     .release = release,
@@ -231,7 +231,7 @@ const WrTool wr_tool_shape_rect = {
 const WrTool wr_tool_shape_ellipse = {
     .action = WR_ACT(shape_ellipse),
     .icon = WR_ICON_ROUND,
-    .help = "Drag an ellipse: Shift makes it a circle, Ctrl begins in its middle.",
+    .help = "Drag an ellipse: Shift makes it a circle, Ctrl draws it from its centre.",
     .press = press,
     .drag = drag,
     .release = release,

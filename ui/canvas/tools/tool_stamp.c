@@ -547,21 +547,20 @@ static void options(WrApp *app)
 
 /* ---- the row ---- */
 
-const WrTool wr_tool_stamp = {
-    .action = WR_ACT(stamp),
-    .icon = WR_ICON_STAMP,
-    .help = "Press where a picture goes, drag for its turn and size, let go; the wheel sizes it.",
-    .press = press,
-    .drag = drag,
-    .release = release,
-    .overlay = overlay,
-    .marks = marks,
-    .options = options,
-    .key = key,
-    .wheel = wheel,
-    .leave = leave,
-    .meanwhile = true
-};
+const WrTool wr_tool_stamp = { .action = WR_ACT(stamp),
+                               .icon = WR_ICON_STAMP,
+                               .help = "Press at the position of the stamp, drag to set angle and "
+                                       "size, and release; the wheel sizes it.",
+                               .press = press,
+                               .drag = drag,
+                               .release = release,
+                               .overlay = overlay,
+                               .marks = marks,
+                               .options = options,
+                               .key = key,
+                               .wheel = wheel,
+                               .leave = leave,
+                               .meanwhile = true };
 
 void wr_stamp_file_chosen(WrApp *app, const char *path)
 {

@@ -634,7 +634,7 @@ static void percent(WrApp *app, double width)
                             .reset = 100,
                             .decimals = 1,
                             .unit = "%",
-                            .tip = "Width and height together" };
+                            .tip = "Keep the proportions of width and height" };
     double value = size * 100.0;
     measure(app);
     if (number(app, "scale", width, &spec, &value))
@@ -707,15 +707,16 @@ static void options(WrApp *app)
 
 /* ---- the row ---- */
 
-const WrTool wr_tool_transform = { .action = WR_ACT(transform),
-                                   .icon = WR_ICON_TRANSFORM,
-                                   .help = "Drag the selection or the layer's content to move it, "
-                                           "its handles to scale it, outside of it to "
-                                           "turn it; Enter applies, Escape cancels.",
-                                   .press = press,
-                                   .drag = drag,
-                                   .release = release,
-                                   .marks = marks,
-                                   .options = options,
-                                   .key = key,
-                                   .leave = leave };
+const WrTool wr_tool_transform = {
+    .action = WR_ACT(transform),
+    .icon = WR_ICON_TRANSFORM,
+    .help = "Drag the selection or the layer's content to move it, its handles to scale it, "
+            "outside of it to rotate it; Enter applies, Escape cancels.",
+    .press = press,
+    .drag = drag,
+    .release = release,
+    .marks = marks,
+    .options = options,
+    .key = key,
+    .leave = leave
+};

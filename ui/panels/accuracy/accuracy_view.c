@@ -295,7 +295,7 @@ static const struct {
     [WR_PATCH_DROPPED] = { "Left out by the small-F approximation", "\xc2\xb0" },
     [WR_PATCH_TILT] = { "Angle between n and n'", "\xc2\xb0" },
     [WR_PATCH_LEVEL] = { "Mip level, log2 of texels a pixel", "" },
-    [WR_PATCH_HEIGHT] = { "F, height of the bump included", "" },
+    [WR_PATCH_HEIGHT] = { "F times the height of the bump", "" },
 };
 
 static void draw_scale(const WrApp *app)

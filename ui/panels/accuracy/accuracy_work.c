@@ -160,34 +160,34 @@ int wr_accuracy_probe_rows(const WrProbe *p, bool seen, WrProbeRow rows[WR_PROBE
     rows[n++] = one("Fu", p->fu, "", "dF/du, replication included");
     rows[n++] = one("Fv", p->fv, "", "dF/dv, replication included");
     rows[n++] = vector("D", p->d, "Fu (n x Pv) - Fv (n x Pu), n = N/|N|: the vector added to N");
-    rows[n++] = vector("A", p->a, "Fv Pu - Fu Pv: the axis that the normal is turned about");
-    rows[n++] = vector("n'", p->perturbed, "The turned normal, unit, by the scene's formula");
+    rows[n++] = vector("A", p->a, "Fv Pu - Fu Pv: the axis about which the normal is rotated");
+    rows[n++] = vector("n'", p->perturbed, "The bumped unit normal, by the scene's formula");
     rows[n++] = one("tilt", p->tilt_deg, "\xc2\xb0", "Angle between N and n'");
     rows[n++] = one("tan", at->n_len > 0 ? v3_len(p->d) / at->n_len : (double)NAN, "",
                     "|D| / |N|, the tangent of the paper's angle");
     rows[n++] =
         one("dropped", p->dropped_deg, "\xc2\xb0",
-            "Between the paper's n' and the exact one: the effect of leaving out the terms in F");
+            "Angle between the paper's n' and the exact one: the effect of the omitted terms in F");
     if (!seen) return n;
     rows[n++] = (WrProbeRow){ "dx, dy/dX",
                               "tx",
-                              "The pixel's side to the right, in the table, texels",
+                              "The pixel's side to the right in the table, in texels",
                               2,
                               { p->footprint[0], p->footprint[1] } };
     rows[n++] = (WrProbeRow){ "dx, dy/dY",
                               "tx",
-                              "The pixel's side down, in the table, texels",
+                              "The pixel's side down in the table, in texels",
                               2,
                               { p->footprint[2], p->footprint[3] } };
     rows[n++] =
         one("level", p->level, "", "Mip level: log2 of the footprint's longer side in texels");
     rows[n++] = (WrProbeRow){ "samples",
                               "",
-                              "Along each side of the pixel, as the dials say",
+                              "Samples along each side of the pixel, as set by the dials",
                               2,
                               { p->samples, p->samples } };
     rows[n++] = (WrProbeRow){
-        "RGB", "", "Linear intensity at this very point", 3, { p->rgb[0], p->rgb[1], p->rgb[2] }
+        "RGB", "", "Linear intensity at this point", 3, { p->rgb[0], p->rgb[1], p->rgb[2] }
     };
     return n;
 }

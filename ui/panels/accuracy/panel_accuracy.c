@@ -40,12 +40,11 @@ static void show(WrApp *app)
     wr_gui_label("Patch shows");
     if (wr_gui_choice("look", 0, wr_patch_look_names, WR_PATCH_LOOKS, &look))
         wr_accuracy_set_view(app, (WrPatchLook)look);
-    wr_gui_tip(
-        "A is the scene with its own dials, B has dials of its own. Split has a line to drag. Maps "
-        "lie over the patch: its distance from the reference, the error of the small-F "
-        "approximation of the paper, the angle by which the normal turns, the number of texels in "
-        "a pixel. The patch stands still for all of them. Effects that ran have the colours of the "
-        "plan, and are as live as the picture.");
+    wr_gui_tip("A is the scene with its dials, B has dials of its own. Split has a line to drag. "
+               "Maps cover the patch: its error against the reference, the error of the paper's "
+               "small-F approximation, the angle between smooth and bumped normal, the number of "
+               "texels in a pixel. The patch does not turn while they are shown. Effects that ran "
+               "have the colours of the plan, and are updated with the picture.");
 }
 
 /* ---- numbers in two columns ---- */
@@ -91,8 +90,8 @@ static void error_state(const WrApp *app)
     const bool old = a->error && a->error->of != a->state;
     char why[WR_WORDS_MESSAGE];
     if (failed) wr_words_message(wr_error_message(&a->error_why), why, sizeof why);
-    const char *text = failed                   ? why
-                       : old                    ? "Of the view before; measured anew when it rests."
+    const char *text = failed ? why
+                       : old  ? "For the previous view; measured again when the view rests."
                        : app->settings->turning ? "Measured while the patch rests."
                        : !a->error              ? "Measuring ..."
                                                 : "Of this view.";
@@ -114,15 +113,15 @@ static void caption(const WrWork *error)
     snprintf(text, sizeof text, wr_words("%d \xc3\x97 %d pixels, a reference of %d \xc3\x97 %d"),
              error->measured_w, error->measured_h, error->samples, error->samples);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_MUTED, text);
-    wr_gui_tip(
-        "The view is measured scaled down to at most 256 pixels along its longer side. The "
-        "reference "
-        "is rendered in double precision, by code of its own, with so many samples a pixel.");
-    snprintf(text, sizeof text, wr_words("samples, itself off by about %s"),
+    wr_gui_tip("The view is measured at a size of at most 256 pixels along its longer side. The "
+               "reference is rendered in double precision, by separate code, with this number of "
+               "samples per pixel.");
+    snprintf(text, sizeof text, wr_words("samples, with an error of about %s itself"),
              wr_plot_number(error->change, number));
     wr_gui_space(-6);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_MUTED, text);
-    wr_gui_tip("Change by the last doubling of its samples, rms: smaller errors may be its own");
+    wr_gui_tip("Change by the last doubling of its samples, rms: smaller errors may be those of "
+               "the reference");
 }
 
 static void error(WrApp *app)
@@ -132,9 +131,8 @@ static void error(WrApp *app)
     if (!wr_gui_fold("ERROR AGAINST THE REFERENCE", true)) return;
     error_state(app);
     Cell c[4] = {
-        { 0, "rms", "Root mean square of the error of linear intensity, over all covered pixels",
-          "" },
-        { 0, "max", "The largest error of a channel of any pixel", "" },
+        { 0, "rms", "Root mean square error of linear intensity over all covered pixels", "" },
+        { 0, "max", "Largest error of any channel of any pixel", "" },
         { 0, "99.9 %", "Error that 99.9 % of the pixels do not exceed", "" },
         { 0, "angle",
           "Root mean square angle between normals and the reference's, at pixel centres; not "
@@ -177,10 +175,10 @@ static void stage_bar(const double ms[WR_PICTURE_STAGES], double all)
 static void stages(WrApp *app)
 {
     static const char *const tips[] = {
-        "Copies of the table, slopes, meshes: only where something changed",
+        "Tables, slopes and meshes, updated only where something changed",
         "u, v of each sample",
         "P, Pu, Pv and N there",
-        "F, its slopes and the turned normal",
+        "F, its slopes and the bumped normal",
         "Light and material",
         "Samples become pixels"
     };
@@ -229,18 +227,20 @@ static void run_tolerance(WrApp *app, int kind, double value)
 static void tolerance_value(WrApp *app, const WrTolerance *t)
 {
     const bool timed = t->kind == WR_TOLERANCE_TIME;
-    WrNumber spec = { .low = timed ? 0.5 : 1e-4,
-                      .high = timed ? 200 : 0.2,
-                      .hard_low = timed ? 0.1 : 1e-9,
-                      .hard_high = timed ? 3.6e6 : 1e6,
-                      .reset = timed                         ? 8
-                               : t->kind == WR_TOLERANCE_RMS ? 0.004
-                                                             : 0.05,
-                      .decimals = -1,
-                      .unit = timed ? "ms" : NULL,
-                      .logarithmic = true,
-                      .tip = timed ? "A picture may take so long: the least error that it buys"
-                                   : "Of linear intensity: the least time that keeps to it" };
+    WrNumber spec = {
+        .low = timed ? 0.5 : 1e-4,
+        .high = timed ? 200 : 0.2,
+        .hard_low = timed ? 0.1 : 1e-9,
+        .hard_high = timed ? 3.6e6 : 1e6,
+        .reset = timed                         ? 8
+                 : t->kind == WR_TOLERANCE_RMS ? 0.004
+                                               : 0.05,
+        .decimals = -1,
+        .unit = timed ? "ms" : NULL,
+        .logarithmic = true,
+        .tip = timed ? "Time limit of a picture: the smallest error within it"
+                     : "Limit of the error of linear intensity: the shortest time within it"
+    };
     double value = timed ? 1e3 * t->value : t->value;
     wr_gui_label(timed ? "At most" : "Error up to");
     if (wr_gui_number("tolerance_value", 0, &spec, &value) == WR_EDIT_DONE)
@@ -258,7 +258,7 @@ static void report_chosen(const WrApp *app, const WrChosen *c)
     wr_gui_text_wrapped(WR_FONT_SMALL, c->met ? WR_COLOUR_TEXT : WR_COLOUR_CELL, c->reason);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, c->line);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
-                        c->kept ? "Kept with the document for this very view: nothing was chosen."
+                        c->kept ? "Stored in the document for this view: nothing had to be chosen."
                                 : "Chosen for this view; saved with the document.");
 }
 
@@ -272,8 +272,7 @@ static void chosen(WrApp *app)
     wr_gui_disable(!c->any);
     if (wr_gui_button("Keep these dials", false)) wr_accuracy_keep(app);
     wr_gui_disable_end();
-    wr_gui_tip("The chosen dials become the scene's own setting, and the tolerance is switched "
-               "off");
+    wr_gui_tip("Copies the chosen dials to the scene, and switches the tolerance off");
 }
 
 static void panel_accuracy_tolerance(WrApp *app)
@@ -296,9 +295,8 @@ static void panel_accuracy_tolerance(WrApp *app)
     if (!wr_gui_fold("TOLERANCE", false)) return;
     if (wr_gui_segments("tolerance", names, NULL, WR_TOLERANCE_COUNT, &kind))
         run_tolerance(app, kind, fresh[kind].value);
-    wr_gui_tip("The cheapest dials that keep to an error, or the nearest that a time allows, found "
-               "by measuring "
-               "samples of this very picture");
+    wr_gui_tip("The cheapest dials within an error, or the most accurate within a time, found by "
+               "measuring samples of this picture");
     if (t.kind == WR_TOLERANCE_NONE || kind == WR_TOLERANCE_NONE) return;
     tolerance_value(app, &t);
     chosen(app);
@@ -358,7 +356,7 @@ static void axis_dials(WrApp *app, int side, WrAxis axis, const WrScene *scene,
         wr_gui_disable_end();
         snprintf(tip, sizeof tip, "%s=: %s%s", dial->name, wr_words(dial->help),
                  chooses    ? wr_words(". The tolerance sets it.")
-                 : !matters ? wr_words(". As the other dials stand it changes nothing.")
+                 : !matters ? wr_words(". With the present other dials it has no effect.")
                             : "");
         wr_gui_tip(tip);
     }
@@ -369,13 +367,13 @@ static void which_side(WrApp *app)
     static const char *const sides[] = { "A: the scene", "B: to compare" };
     WrAccuracy *a = app->accuracy;
     wr_gui_segments("side", sides, NULL, 2, &a->chooses);
-    wr_gui_tip("The setting that the rows below, and a click in the plot, change");
+    wr_gui_tip("Setting that is changed by the rows below and by clicks in the plot");
     if (a->chooses == 0) return;
     if (wr_gui_chip(NULL, "Take A's")) wr_action_run(app, WR_ACT(compare_take));
-    wr_gui_tip("B gets the dials that the scene has now");
+    wr_gui_tip("Copies the scene's dials to B");
     wr_gui_same_line(6);
     if (wr_gui_chip(NULL, "Swap A and B")) wr_action_run(app, WR_ACT(compare_swap));
-    wr_gui_tip("The scene gets B's dials, B the scene's");
+    wr_gui_tip("Swaps the dials of the scene and B");
 }
 
 static void panel_accuracy_dials(WrApp *app)
@@ -527,7 +525,7 @@ static void tell(const WrAccuracy *a, int present, bool old)
     else if (old)
         wr_gui_text_wrapped(
             WR_FONT_SMALL, WR_COLOUR_CELL,
-            "Of another state of table or scene.\nMeasured anew when the view rests.");
+            "For another state of table or scene.\nMeasured again when the view rests.");
     else if (present >= 0 && wr_plot_has_point(&a->plot->benchmark.rungs[present]))
         report_rung(&a->plot->benchmark, present, true);
     else
@@ -571,9 +569,9 @@ static void foot(WrApp *app)
         return;
     }
     if (wr_gui_button("Measure", false)) wr_action_run(app, WR_ACT(accuracy_measure));
-    wr_gui_tip("Render this very view with each rung of each dial and with their combinations, "
-               "time them, compare "
-               "each with the reference. It also begins by itself, when the view rests.");
+    wr_gui_tip("Renders this view with each setting of each dial and their combinations, measures "
+               "the times, and compares each with the reference. It also starts by itself when the "
+               "view rests.");
     if (!a->plot) return;
     const WrAccuracyBenchmark *benchmark = &a->plot->benchmark;
     snprintf(text, sizeof text, wr_words("%d \xc3\x97 %d, one thread"), benchmark->width,
@@ -640,8 +638,8 @@ void wr_panel_accuracy(WrApp *app)
     wr_panel_illusion(app);
     if (wr_gui_fold("HARD CASES", false)) {
         if (wr_gui_button("Hard cases...", false)) wr_action_run(app, WR_ACT(hard_cases));
-        wr_gui_tip("120 inputs at which a naive program fails: the required result, and the error "
-                   "of this one");
+        wr_gui_tip("120 inputs at which a naive program fails: the required result, and this "
+                   "program's error");
     }
     wr_gui_space(8);
 }

@@ -166,8 +166,7 @@ static void detail(const WrCases *cases)
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_text_get(&text));
     wr_gui_as_it_is(false);
     wr_text_clear(&text);
-    for (const char *c = row->scene ? row->scene : "Nothing of it is to be seen on a patch."; *c;
-         c++)
+    for (const char *c = row->scene ? row->scene : "It cannot be shown on a patch."; *c; c++)
         wr_text_add_n(&text, *c == '\n' ? "  \xc2\xb7  " : c, *c == '\n' ? 6 : 1);
     wr_gui_as_it_is(true);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_MUTED, wr_text_get(&text));
@@ -213,7 +212,8 @@ void wr_dialog_cases(WrApp *app)
     wr_gui_same_line(8);
     bool open =
         wr_gui_text_field("##cases", 0, cases->filter, sizeof cases->filter, app->dialog->fresh);
-    wr_gui_tip("Words of a case, its subject, its verdict; \"open\" for those with a picture");
+    wr_gui_tip(
+        "Search words: of the case, its subject, its result; \"open\" for those with a picture");
     head();
     wr_gui_list_begin("cases", fmax(wr_gui_px(140), app->height - wr_gui_px(350)));
     wr_gui_space(-8);
@@ -236,7 +236,7 @@ void wr_dialog_cases(WrApp *app)
     open |=
         wr_gui_button("Open", true) || (scene && !app->dialog->fresh && wr_gui_return_pressed());
     wr_gui_disable_end();
-    wr_gui_tip(scene ? "As a new document" : "Nothing of it is to be seen on a patch");
+    wr_gui_tip(scene ? "As a new document" : "It cannot be shown on a patch");
     wr_gui_same_line(8);
     bool close = wr_gui_button("Close", false) || (!app->dialog->fresh && wr_gui_escape_pressed());
     wr_gui_same_line(16);

@@ -28,21 +28,24 @@ static void results(const WrWork *work, bool old)
 {
     const WrIllusion *it = &work->illusion;
     WrText advice = { 0 };
-    line(
-        "outline, mean", it->outline_mean, " px",
-        "The area between the outlines of the bumped and the displaced picture, over their length");
+    line("outline, mean", it->outline_mean, " px",
+         "Area between the outlines of the bumped and the displaced picture, divided by their "
+         "length");
     line("outline, farthest", it->hausdorff, " px",
-         "The largest distance of a point of one outline to the other (Hausdorff)");
+         "Largest distance of a point of one outline to the other (Hausdorff)");
     line("shading", it->shading, "",
-         "Root mean square of displaced without shadow less bumped, where both cover the pixel");
+         "Root mean square of the displaced picture without shadows minus the bumped one, where "
+         "both cover the pixel");
     line("at the same u, v", it->shading_at, "",
-         "The same for each place of the surface, from any view: the effect of the normal alone");
-    line("shadow", it->shadow, "", "Root mean square of displaced with its shadows less without");
+         "The same compared at each point of the surface, not of the picture: the effect of the "
+         "normal alone");
+    line("shadow", it->shadow, "",
+         "Root mean square of the displaced picture with shadows minus that without");
     line("places moved", it->way_mean, " px",
-         "Between where a place is seen and where bump shows it");
+         "Distance between the true position of a point and its position with bump mapping");
     wr_gui_space(8);
     wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_CELL, /* its space is kept */
-                    old ? "Of the view before; measure it anew." : " ", wr_gui_available());
+                    old ? "For the previous view; measure again." : " ", wr_gui_available());
     wr_illusion_advice(it, &advice);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_text_get(&advice));
     wr_text_fini(&advice);
@@ -64,16 +67,15 @@ void wr_panel_illusion(WrApp *app)
         app->settings->turning = false;
         a->illusion_wanted = true;
     }
-    wr_gui_tip(
-        "Render this view bump mapped, displaced, and displaced with shadows, and tell how far "
-        "they are apart: outline, shading and shadow.");
+    wr_gui_tip("Renders this view bump mapped, displaced, and displaced with shadows, and reports "
+               "their differences: outline, shading and shadow.");
     if (a->illusion) {
         wr_gui_same_line(8);
         const bool shown = a->look == WR_PATCH_LACKS;
         wr_gui_next_id("map");
         if (wr_gui_button(shown ? "Picture" : "Map on the patch", false))
             wr_accuracy_set_view(app, shown ? WR_PATCH_PLAIN : WR_PATCH_LACKS);
-        wr_gui_tip("Lay the differences from bump over the patch: its outline red, shading green, "
-                   "shadow blue");
+        wr_gui_tip("Shows the differences from bump mapping over the patch: outline red, shading "
+                   "green, shadow blue");
     }
 }

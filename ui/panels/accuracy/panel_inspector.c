@@ -83,7 +83,7 @@ static void table(const WrInspector *in)
         wr_gui_space(6);
         wr_gui_text_wrapped(
             WR_FONT_SMALL, WR_COLOUR_LABEL,
-            "The view does not show this place: no footprint, level, samples and intensity.");
+            "This point is not visible: no footprint, level, samples and intensity.");
     }
 }
 
@@ -93,16 +93,15 @@ void wr_panel_inspector(WrApp *app)
     wr_gui_next_id("pin");
     if (wr_gui_chip(in->pinned ? WR_ICON_LOCK : WR_ICON_UNLOCK, in->pinned ? "pinned" : "follows"))
         wr_action_run(app, WR_ACT(inspector_pin));
-    wr_gui_tip("Follows the pointer over the patch and over the table, or keeps to its place while "
-               "the scene "
-               "changes");
+    wr_gui_tip("Follows the pointer over the patch and the table, or stays at its point while the "
+               "scene changes");
     wr_gui_same_line(6);
     wr_gui_disable(!in->known);
     wr_gui_next_id("copy");
     if (wr_gui_chip(WR_ICON_COPY, in->copied ? "copied" : "copy"))
         wr_action_run(app, WR_ACT(inspector_copy));
     wr_gui_disable_end();
-    wr_gui_tip("All of it with all digits, as text");
+    wr_gui_tip("Copies everything with all digits, as text");
     if (!in->have || !in->known) {
         wr_gui_space(4);
         wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,

@@ -155,7 +155,7 @@ static bool omitted_angle(const WrApp *app, const Step *step, WrText *out)
     const WrPatchLayer *map = &app->accuracy->map;
     char number[16];
     if (map->of != app->accuracy->state || map->look != (int)step->look) return false;
-    wr_text_addf(out, wr_words("The brightest colour is %s\xc2\xb0 and more."),
+    wr_text_addf(out, wr_words("The brightest colour means %s\xc2\xb0 and more."),
                  print_number(map->full, number));
     return true;
 }
@@ -198,14 +198,12 @@ static const Step steps[] = {
       "this view. Nothing in the document changes.",
       WR_PATCH_PLAIN, WR_AXIS_COUNT, picture_time, WR_WORK_ERROR },
     { "Where it is wrong",
-      "The patch is compared with a reference: double precision, a renderer of its own, many "
-      "samples a pixel. The "
-      "map shows the distance from it.",
+      "The patch is compared with a reference: double precision, a separate renderer, many samples "
+      "per pixel. The map shows the error.",
       WR_PATCH_ERROR, WR_AXIS_COUNT, error_numbers, WR_WORK_ERROR },
     { "What runs",
-      "Effects that this scene does not need are left out. The colours show which ran in each "
-      "pixel; the Plan tab has "
-      "the reasons, dearest first.",
+      "Effects that this scene does not need are left out. The colours show the effects that ran "
+      "in each pixel; the Plan tab lists the reasons, the most expensive first.",
       WR_PATCH_RAN, WR_AXIS_COUNT, effects_that_ran, WR_WORK_ERROR },
     { "Slopes",
       "The bump needs slopes of the table between its texels. Left is your setting, right the "
@@ -213,9 +211,8 @@ static const Step steps[] = {
       "look closely at fine relief.",
       WR_PATCH_SPLIT, WR_AXIS_DERIVATIVE, axis_prices, WR_WORK_BENCHMARK },
     { "Normals",
-      "Blinn's formula turns the normal by the slopes and leaves out what is small when F is "
-      "small. Left is your "
-      "setting, right the fastest.",
+      "Blinn's formula tilts the normal by the slopes and omits terms that are small when F is "
+      "small. Left is your setting, right the fastest.",
       WR_PATCH_SPLIT, WR_AXIS_NORMAL, axis_prices, WR_WORK_BENCHMARK },
     { "What the formula leaves out",
       "The angle between the approximate and the exact normal. It grows with the height of the "
@@ -228,14 +225,12 @@ static const Step steps[] = {
       "fastest.",
       WR_PATCH_SPLIT, WR_AXIS_ANTIALIASING, axis_prices, WR_WORK_BENCHMARK },
     { "Bump beside displacement",
-      "Bump mapping turns normals and moves nothing. Red: the outline differs. Green: the shading. "
-      "Blue: shadows of "
-      "the relief are missing.",
+      "Bump mapping tilts normals and moves nothing. Red: the outline differs. Green: the shading. "
+      "Blue: shadows of the relief are missing.",
       WR_PATCH_LACKS, WR_AXIS_COUNT, illusion_height, WR_WORK_ILLUSION },
     { "The best for your time",
-      "Each dot of the plot below is a setting, measured. The line joins those that no other beats "
-      "in both time and "
-      "error.",
+      "Each dot in the plot below is a measured setting. The line joins those that no other "
+      "setting beats in both time and error.",
       WR_PATCH_PLAIN, WR_AXIS_COUNT, recommendation, WR_WORK_BENCHMARK },
 };
 
@@ -291,7 +286,7 @@ static void buttons(WrApp *app)
     wr_gui_disable_end();
     wr_gui_same_line(6);
     const bool ends = wr_gui_button("End the tour", false);
-    wr_gui_tip("The patch and side B are as before the tour");
+    wr_gui_tip("Restores the patch and side B as before the tour");
     snprintf(text, sizeof text, wr_words("%d of %d"), step, count);
     wr_gui_same_line(10);
     wr_gui_text(WR_FONT_SMALL, WR_COLOUR_MUTED, text);
@@ -341,5 +336,5 @@ void wr_panel_study(WrApp *app)
     wr_gui_disable(rung < 0);
     if (wr_gui_button("Use this setting", false)) wr_accuracy_take_rung(app, 0, rung);
     wr_gui_disable_end();
-    wr_gui_tip("The scene gets these dials; undo restores its own");
+    wr_gui_tip("Copies these dials to the scene; undo restores the present ones");
 }

@@ -362,7 +362,7 @@ static int rows(const WrApp *app, WrFontChoice *choice, int param)
     else if (choice->err.text[0])
         wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_BAD, wr_error_message(&choice->err));
     else if (choice->shown.count == 0)
-        wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "Nothing has these words.");
+        wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "Nothing matches these words.");
     return pressed;
 }
 
@@ -394,7 +394,7 @@ static bool list(WrApp *app, int param)
     wr_gui_width_at_least(WIDE);
     const bool enter =
         wr_gui_text_field("##filter", 0, choice->filter, sizeof choice->filter, choice->fresh);
-    wr_gui_tip("Only those that have these words");
+    wr_gui_tip("Shows only those that match these words");
     const bool typed = strcmp(before, choice->filter) != 0;
     if (typed || choice->stale) sort_shown(app, choice);
     if (choice->fresh) find_current(app, choice, param);

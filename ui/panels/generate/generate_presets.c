@@ -326,7 +326,7 @@ static const WrGenerator *tiles(WrApp *app, const WrGallery *gallery, const WrGe
         if (column++ % COLUMNS) wr_gui_same_line(8);
         if (tile(app, g, i)) pressed = g;
     }
-    if (!*first) wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "Nothing has these words.");
+    if (!*first) wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "Nothing matches these words.");
     return pressed;
 }
 
@@ -347,7 +347,7 @@ void wr_gallery_list(WrApp *app)
     wr_gui_width_at_least(COLUMNS * (TILE_UNITS + 8) + 30);
     bool enter =
         wr_gui_text_field("##filter", 0, gallery->filter, sizeof gallery->filter, gallery->fresh);
-    wr_gui_tip("Only those that have these words");
+    wr_gui_tip("Shows only those that match these words");
     gallery->fresh = false;
     double most = app->height - wr_gui_px(150);
     wr_gui_list_begin("tiles", fmin(wr_gui_px(LIST_UNITS), most));

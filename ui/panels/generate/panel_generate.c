@@ -48,7 +48,7 @@ static const Group groups[] = {
     { "fade", "Finer points", false, false },
     { "way", "Finer points", false, false },
     { "direction", "Script", false, false },
-    { "face", "Finer points of the font", false, false },
+    { "face", "More settings of the font", false, false },
     { "align", "Lines and place", false, true },
     { "points", "Along a path", false, false },
     { "edge", "Relief", false, true },
@@ -132,7 +132,7 @@ static bool seed(const WrParam *p, WrGenerateValue *value)
         value->number[0] = value->number[0] < SEED_LAST ? value->number[0] + 1.0 : 0.0;
         changed = true;
     }
-    wr_gui_tip("Another one by chance: the next seed");
+    wr_gui_tip("Another random variation: the next seed");
     return changed;
 }
 
@@ -243,7 +243,7 @@ static bool joining(WrGenerateState *hand)
                         .hard_low = -1e30,
                         .hard_high = 1e30,
                         .decimals = 3,
-                        .tip = "Added to its heights before blending" };
+                        .tip = "Added to the heights before blending" };
     for (int i = 0; i < WR_BLEND_COUNT; i++) labels[i] = wr_blends[i].label;
     if (!wr_gui_fold("BLENDING", true)) return false;
     wr_gui_label("Blend");
@@ -382,7 +382,7 @@ static void choose_generator(WrApp *app, const WrFamily *family)
     wr_gui_tip(family->rows[index].help);
     wr_gui_same_line(4);
     if (wr_gui_glyph("all", WR_ICON_GRID, 24, WR_COLOUR_LABEL)) wr_gallery_open(app);
-    wr_gui_tip("Pictures of all that can be made");
+    wr_gui_tip("Pictures of all generators and presets");
     wr_gallery_list(app);
 }
 
@@ -398,7 +398,7 @@ static void save_popup(WrApp *app)
     if (fresh) hand->name[0] = '\0';
     bool done = wr_gui_text_field("##name", wr_gui_px(220), hand->name, sizeof hand->name, fresh);
     bool taken = wr_generate_preset_taken(app, hand->name);
-    if (taken) wr_gui_text(WR_FONT_SMALL, WR_COLOUR_CELL, "There is a preset of this name.");
+    if (taken) wr_gui_text(WR_FONT_SMALL, WR_COLOUR_CELL, "A preset with this name exists.");
     if (wr_gui_button(taken ? "Replace it" : "Save it", !taken) || (done && !taken)) {
         if (wr_generate_preset_save(app, hand->name)) wr_gui_popup_close();
     }
@@ -439,7 +439,7 @@ static void presets(WrApp *app)
     if (wr_gui_choice("preset", wr_gui_available() - wr_gui_px(60), labels, count, &index) &&
         ids[index] != -2)
         take_preset(app, ids[index]);
-    wr_gui_tip("Values to begin with: the defaults, and those you saved");
+    wr_gui_tip("Presets: the defaults, and those you saved");
     wr_gui_same_line(4);
     if (wr_gui_glyph("save", WR_ICON_SAVE, 24, WR_COLOUR_LABEL)) {
         snprintf(hand->name, sizeof hand->name, "\n");
@@ -565,8 +565,8 @@ static void destination(WrApp *app)
         hand->into_active = index == 1;
         wr_generate_changed(app);
     }
-    wr_gui_tip(index == 1 ? "It becomes heights of the active layer, inside the selection"
-                          : "It becomes a generator layer: its values can be changed at any time");
+    wr_gui_tip(index == 1 ? "Paints it into the active layer, inside the selection"
+                          : "Adds it as a generator layer: its values can be changed at any time");
 }
 
 static void foot(WrApp *app)

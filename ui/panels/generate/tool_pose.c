@@ -510,19 +510,19 @@ static void options(WrApp *app)
     const int list = points_param(hand);
     if (list >= 0 && hand->value[list].text[0]) {
         wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL,
-                    "Drag the points; Ctrl and a click adds one, Delete removes it");
+                    "Drag the points; Ctrl+click adds one, Delete removes it");
         return;
     }
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL,
-                pose.turn >= 0   ? "Drag it on the table; the corner sizes it, the ring turns it"
-                : pose.size >= 0 ? "Drag it on the table; the corner sizes it"
+                pose.turn >= 0 ? "Drag it on the table; the corner resizes it, the ring rotates it"
+                : pose.size >= 0 ? "Drag it on the table; the corner resizes it"
                                  : "Drag it on the table");
     const bool data = wr_pose_path_param(hand) >= 0;
     if ((list < 0 && !data) || app->width < wr_gui_px(data ? 1400 : 1200)) return;
     wr_gui_same_line(0);
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL,
-                list >= 0 ? "; Ctrl and a click begins a path"
-                          : "; its points move, Ctrl and a click adds one, Delete removes it");
+                list >= 0 ? "; Ctrl+click begins a path"
+                          : "; its points move, Ctrl+click adds one, Delete removes it");
 }
 
 /* ---- the row ---- */

@@ -56,7 +56,7 @@ const char *const wr_picture_stages[] = { "prepare", "visibility", "geometry",
                                           "bump",    "shade",      "resolve" };
 _Static_assert(WR_LENGTH(wr_picture_stages) == WR_PICTURE_STAGES, "preview.h counts them");
 _Static_assert(sizeof(WrStageTimes) == (WR_PICTURE_STAGES + 2) * sizeof(double),
-               "each has its time; total and pyramid stand besides");
+               "each has its time, beside total and pyramid");
 
 double wr_picture_time(const WrPreviewPicture *picture, double ms[WR_PICTURE_STAGES])
 {
