@@ -6,6 +6,7 @@
 #include "ui/app/state/workspace.h"
 #include "ui/toolkit/focus.h"
 
+#include <math.h>
 #include <string.h>
 
 static void settle(Walk *walk)
@@ -210,9 +211,43 @@ static void a_workspace_remembers_its_changes(void **state)
     close_scene(&walk);
 }
 
+/* Pixels between the tabs and the first widget below them. */
+static double space_below_tabs(Walk *walk)
+{
+    const SDL_Rect *panel = &walk->app->layout->panel;
+    int count;
+    const WrKeyStop *s = wr_gui_stops(walk->app->gui, &count);
+    double tabs = panel->y, first = panel->y + panel->h;
+    for (int i = 0; i < count; i++) {
+        if (!wr_layout_inside(panel, (int)s[i].x0 + 1, (int)s[i].y0 + 1)) continue;
+        if (s[i].kind == WR_STOP_TAB) tabs = fmax(tabs, (double)s[i].y1);
+        else if (s[i].kind != WR_STOP_SCROLL) first = fmin(first, (double)s[i].y0);
+    }
+    return first - tabs;
+}
+
+/* Alternatives that do not fit are set closer together; a first row has no empty row above it. */
+static void a_panel_begins_below_its_tabs_at_every_width(void **state)
+{
+    (void)state;
+    Walk walk;
+    open_scene(&walk);
+    WrApp *app = walk.app;
+    wr_tab_show(app, "Brushes");
+    for (int width = 236; width <= 400; width += 3) {
+        app->settings->side_width = width;
+        settle(&walk);
+        const double space = space_below_tabs(&walk);
+        if (!(space >= 0.0 && space < 20.0)) fail_msg("%d units wide: %g pixels", width, space);
+    }
+    app->settings->side_width = 0.0;
+    close_scene(&walk);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_panel_begins_below_its_tabs_at_every_width),
         cmocka_unit_test(sections_fold_and_are_remembered),
         cmocka_unit_test(a_tab_is_torn_off_and_docked_by_the_pointer),
         cmocka_unit_test(a_pinned_row_works_above_the_tabs),

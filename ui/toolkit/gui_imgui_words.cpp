@@ -88,7 +88,9 @@ float wr_gui_row_room(float width)
     const float room = ImGui::GetContentRegionAvail().x;
     const ImGuiWindowFlags grows = ImGuiWindowFlags_AlwaysAutoResize;
     if (window->Flags & (ImGuiWindowFlags_NoScrollWithMouse | grows)) return FLT_MAX; /* a bar */
-    const bool begun = fabsf(window->DC.CursorPos.y - window->DC.CursorPosPrevLine.y) < 0.5f;
+    const float left = window->Pos.x + window->DC.Indent.x + window->DC.ColumnsOffset.x;
+    const bool begun = window->DC.CursorPos.x > left + 0.5f &&
+                       fabsf(window->DC.CursorPos.y - window->DC.CursorPosPrevLine.y) < 0.5f;
     if (width <= room || !begun) return room;
     ImGui::NewLine();
     return ImGui::GetContentRegionAvail().x;
