@@ -102,10 +102,8 @@ bool wr_choice_check(const char *text, WrError *err)
     Written written;
     const char *damaged = parse(text, &written);
     if (!damaged) return true;
-    return wr_fail(err,
-                   "no dials as save writes them: damaged in its %s (leave it out, and they "
-                   "are chosen anew)",
-                   damaged);
+    return wr_fail(
+        err, "chosen= is damaged in its %s: leave it out, and the dials are chosen again", damaged);
 }
 
 /* ---- reading ---- */

@@ -368,9 +368,8 @@ static bool any_to_move(const WrIllusionRequest *request, WrError *err)
         if (!object->hidden && object->height != 0 && !wr_shape_unmoved(&object->shape))
             return true;
     }
-    return wr_fail(err,
-                   "nothing here can be displaced: it needs a height other than 0 on a surface "
-                   "that is neither a mesh nor without end");
+    return wr_fail(err, "nothing to displace: needs a bump height other than 0, on a surface that "
+                        "is neither a mesh nor endless");
 }
 
 static bool measure(Pictures *p, WrIllusion *out, WrError *err)

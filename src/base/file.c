@@ -172,7 +172,7 @@ int wr_fd_in_memory(const char *name, const void *bytes, size_t length, WrError 
 {
     int fd = wr_fd_memory("wrinkle");
     if (fd >= 0 && wr_fd_write(fd, bytes, length) && wr_fd_seek(fd, 0) == 0) return fd;
-    wr_fail(err, "%s: no memory to read it from (%s)", name, strerror(errno));
+    wr_fail(err, "%s: not enough memory to read it (%s)", name, strerror(errno));
     if (fd >= 0) wr_fd_close(fd);
     return -1;
 }
@@ -182,7 +182,8 @@ char *wr_scratch_new(WrError *err)
     const char *root = getenv("TMPDIR");
     char *folder = wr_path_join(root && *root ? root : "/tmp", "wrinkle-XXXXXX");
     if (wr_folder_make_temporary(folder)) return folder;
-    wr_fail(err, "%s: the folder for temporary files cannot be made; set TMPDIR to another",
+    wr_fail(err,
+            "%s: the folder for temporary files cannot be created; set TMPDIR to another folder",
             folder);
     wr_free(folder);
     return NULL;
@@ -671,11 +672,10 @@ static bool check_letters(const char *path, WrError *err)
     if (!found) return true;
     for (char *c = shown; *c; c++)
         if (is_control(*c)) *c = '?';
-    return wr_fail(
-        err,
-        "%s: the name of a file to write holds the control character 0x%02x, such as a line break; "
-        "choose a name without",
-        shown, found);
+    return wr_fail(err,
+                   "%s: the file name contains the control character 0x%02x, such as a line break; "
+                   "choose another name",
+                   shown, found);
 }
 
 bool wr_file_begin(WrFileTarget *target, const char *path, WrError *err)
@@ -985,8 +985,8 @@ static void put_all_back(WrFileGroup *group, WrError *err)
     }
     if (new.length && err) {
         const WrError first = *err;
-        wr_fail(err, "%s; these could not be put back and are new: %s", wr_error_message(&first),
-                new.data);
+        wr_fail(err, "%s; these files could not be restored and are already replaced: %s",
+                wr_error_message(&first), new.data);
     }
     wr_text_fini(&new);
 }

@@ -114,7 +114,8 @@ void *wr_try_alloc(size_t count, size_t size, const char *what, WrError *err)
     size_t bytes;
     void *block = NULL;
     if (!__builtin_mul_overflow(count, size, &bytes)) block = aligned(bytes, true);
-    if (!block) wr_fail(err, "%s: no memory for %.0f MB", what, (double)count * (double)size / 1e6);
+    if (!block)
+        wr_fail(err, "%s: not enough memory for %.0f MB", what, (double)count * (double)size / 1e6);
     return block;
 }
 

@@ -109,8 +109,10 @@ bool wr_brush_fill(const WrBrushGround *ground, const WrBrush *brush, const WrFi
 {
     WrBrush sane = wr_brush_sane(brush);
     if (!wr_mode_work(sane.mode)->cover)
-        return wr_fail(err, "mode=%s: moves heights along a path; a shape needs one that covers",
-                       wr_brush_modes[sane.mode].name);
+        return wr_fail(
+            err,
+            "mode=%s: moves heights along the path, so it cannot fill a shape: choose another mode",
+            wr_brush_modes[sane.mode].name);
     if (wr_field_width(coverage) != wr_field_width(ground->field) ||
         wr_field_height(coverage) != wr_field_height(ground->field))
         return wr_fail(err, "a shape of %dx%d: must be of the table's size, %dx%d",

@@ -64,7 +64,7 @@ char *wr_library_user_folder(WrError *err)
 {
     char *folder = user_folder();
     if (!folder) {
-        wr_fail(err, "presets of your own need a folder: neither XDG_DATA_HOME nor HOME is set");
+        wr_fail(err, "no folder for your own presets: set XDG_DATA_HOME or HOME");
         return NULL;
     }
     for (char *slash = folder + 1;; slash++) {
@@ -73,7 +73,7 @@ char *wr_library_user_folder(WrError *err)
         *slash = '\0';
         bool made = wr_folder_make(folder, WR_FOLDER_FOR_ALL) || errno == EEXIST;
         if (!made) {
-            wr_fail(err, "%s: cannot be made: %s", folder, strerror(errno));
+            wr_fail(err, "%s: cannot be created: %s", folder, strerror(errno));
             wr_free(folder);
             return NULL;
         }
@@ -275,12 +275,11 @@ static bool fail_find(const WrLibrary *library, const char *name, WrError *err)
     int places[WR_NEAREST_MAX];
     const int count = wr_nearest(name, called, library, places);
     if (count > 0)
-        return wr_fail(err, "brush preset '%.80s' is not there; did you mean %s%s%s?", name,
+        return wr_fail(err, "no brush preset '%.80s': did you mean %s%s%s?", name,
                        id_called(library, places[0]), count > 1 ? " or " : "",
                        count > 1 ? id_called(library, places[1]) : "");
     return wr_fail(err,
-                   "brush preset '%.80s' is not there: must be one of the %d of the library, "
-                   "or a .myb file",
+                   "no brush preset '%.80s': must be one of the %d of the library, or a .myb file",
                    name, library->found.count);
 }
 

@@ -654,13 +654,13 @@ static bool load_tip(WrPreset *preset, const char *folder, WrError *err)
 {
     if (!preset->tip_file) return true;
     if (!folder)
-        return wr_fail(err, "%.100s: wrinkle: tip: %.100s: a tip needs a preset that is a file",
+        return wr_fail(err, "%.100s: wrinkle: tip: %.100s: only a preset in a file can have a tip",
                        preset->name, preset->tip_file);
     char *path = tip_path(folder, preset->tip_file), hex[65];
     bool ok = wr_sha256_file(path, hex, err);
     if (ok && strcmp(hex, preset->tip_sha256) != 0)
-        ok = wr_fail(err, "%s: its SHA-256 is %s: the preset was made for another file, %s", path,
-                     hex, preset->tip_sha256);
+        ok = wr_fail(err, "%s: file has changed: SHA-256 is %s, the preset expects %s", path, hex,
+                     preset->tip_sha256);
     if (ok) preset->tip = wr_tip_read(path, err);
     wr_free(path);
     if (preset->tip) return true;
@@ -721,7 +721,7 @@ static json_object *parse_with(int flags, const char *text, size_t size, const c
 {
     json_tokener *tokener = json_tokener_new_ex(DEPTH);
     if (!tokener) {
-        wr_fail(err, "%.100s: no memory to read it", name);
+        wr_fail(err, "%.100s: not enough memory to read it", name);
         return NULL;
     }
     json_tokener_set_flags(tokener, flags);
@@ -978,12 +978,11 @@ static bool read_curve_point(WrCurve *curve, Piece point, WrError *err)
     double at, by;
     char most[WR_NUMBER_SIZE];
     if (!read_in(x, -WR_CURVE_FAR, WR_CURVE_FAR, &at) || !read_in(point, -reach, reach, &by))
-        return wr_fail(
-            err,
-            "settings: %s:%s: point '%.*s': must be x,y with the input's value x and the "
-            "number y that is added to the setting there, -%s..%s",
-            info->name, wr_preset_input(curve->input)->name, shown(whole), whole.at,
-            wr_number_print(reach, most), most);
+        return wr_fail(err,
+                       "settings: %s:%s: point '%.*s': must be x,y: a value of the input, and the "
+                       "number added to the setting there, -%s..%s",
+                       info->name, wr_preset_input(curve->input)->name, shown(whole), whole.at,
+                       wr_number_print(reach, most), most);
     float *to = curve->points[curve->count];
     to[0] = (float)at;
     to[1] = (float)by;
@@ -1015,8 +1014,8 @@ static bool set_curve(WrPreset *preset, int setting, Piece input, Piece points, 
     const char *of = wr_preset_setting(setting)->name;
     if (curve.input < 0)
         return wr_fail(err,
-                       "settings: %s:%.*s: is no input of brushes: must be pressure, speed1, "
-                       "random, direction or another of MyPaint's",
+                       "settings: %s:%.*s: unknown input: must be pressure, speed1, random, "
+                       "direction or another of MyPaint's",
                        of, shown(input), input.at);
     while (points.length > 0) {
         if (curve.count == WR_PRESET_POINTS)
@@ -1025,9 +1024,8 @@ static bool set_curve(WrPreset *preset, int setting, Piece input, Piece points, 
     }
     if (curve.count == 1)
         return wr_fail(err,
-                       "settings: %s:%s: one point: must be 2..%d, or none to take the curve "
-                       "away",
-                       of, name, WR_PRESET_POINTS);
+                       "settings: %s:%s: one point: must be 2..%d, or none to remove the curve", of,
+                       name, WR_PRESET_POINTS);
     put_curve(preset, &curve);
     return true;
 }

@@ -25,8 +25,8 @@ bool wr_symmetry_check(const WrSymmetry *s, WrError *err)
     double rows = s->stagger * at_least_1(s->repeat_u);
     if (fabs(rows - rint(rows)) > 1e-9)
         return wr_fail(err,
-                       "stagger=%g: %d columns of it must make whole rows, as with %g, so that the "
-                       "repeat closes round the cell",
+                       "stagger=%g: times %d columns must be a whole number of rows, as with %g, "
+                       "so that the repeat tiles",
                        s->stagger, at_least_1(s->repeat_u),
                        at_least_1(s->repeat_u) > 1 ? 1.0 / at_least_1(s->repeat_u) : 0.0);
     int64_t count = (int64_t)at_least_1(s->radial) * at_least_1(s->repeat_u) *

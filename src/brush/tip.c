@@ -299,7 +299,8 @@ static bool read_header(const uint8_t *bytes, size_t size, Header *header, const
                         WrError *err)
 {
     if (size < WR_GBR_V1)
-        return wr_fail(err, "%s: a .gbr brush of %zu bytes: its header alone has 20", what, size);
+        return wr_fail(err, "%s: a .gbr brush of %zu bytes: must be more than its header of 20",
+                       what, size);
     Header h = { big32(bytes),
                  big32(bytes + 4),
                  big32(bytes + 8),
@@ -326,7 +327,7 @@ static bool read_header(const uint8_t *bytes, size_t size, Header *header, const
                        h.width, h.height, WR_TIP_SIDE);
     size_t need = (size_t)h.width * h.height * h.bytes;
     if (need > size - h.length)
-        return wr_fail(err, "%s: cut short: %ux%u pixels need %zu bytes, %zu are there", what,
+        return wr_fail(err, "%s: truncated: %ux%u pixels need %zu bytes, the file has %zu", what,
                        h.width, h.height, need, size - h.length);
     *header = h;
     return true;
@@ -575,7 +576,7 @@ bool wr_tip_cell_alloc(WrTip *tip, int cell, int width, int height, const char *
     }
     size_t bytes = count * sizeof *made.values;
     if (bytes > WR_TIP_BYTES - tip->bytes)
-        return wr_fail(err, "%s: over %u MB with its smaller sizes: a tip must be smaller", what,
+        return wr_fail(err, "%s: over %u MB with its mip levels: use a smaller tip", what,
                        WR_TIP_BYTES >> 20);
     made.values = wr_try_alloc(count, sizeof *made.values, "a brush tip", err);
     if (!made.values) return false;

@@ -19,7 +19,8 @@ static int start(const WrCli *cli)
     cli->argv[0] = path.data;
     if (!wr_path_can_run(path.data))
         wr_fail(&err,
-                "%s needs the program wrinkle-bench, looked for at: %.200s; build it with `cmake "
+                "%s needs the program wrinkle-bench, which was not found at: %.200s; build it with "
+                "`cmake "
                 "--build BUILD-FOLDER --target wrinkle-bench`, install it with `cmake --install "
                 "BUILD-FOLDER --component bench`",
                 cli->command->name, path.data);

@@ -48,8 +48,8 @@ static void add_tiles(const WrScene *object, bool json, WrText *text)
         if (tiles.crossing)
             wr_text_addf(text, "; triangles across their borders: %d", (int)tiles.crossing);
         if (tiles.outside) wr_text_addf(text, "; triangles outside UDIM: %d", (int)tiles.outside);
-        if (udim) wr_text_addf(text, "; the table is that of %d\n", udim);
-        else wr_text_add(text, "; the table repeats on all\n");
+        if (udim) wr_text_addf(text, "; tile %d shows the table\n", udim);
+        else wr_text_add(text, "; all tiles show the table\n");
     }
     wr_uv_tiles_fini(&tiles);
 }

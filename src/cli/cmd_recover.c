@@ -109,7 +109,7 @@ static bool report_rest(const char *word, WrRecovered *recovered, WrError *err)
         "`wrinkle recover %s --script -o OUT.wrinkle` writes all that can be read as text\n"
         "`wrinkle recover discard %s` removes it\n",
         word, word);
-    return wr_fail(err, "recover %.100s: %d of %d commands were brought back; the journal was kept",
+    return wr_fail(err, "recover %.100s: %d of %d commands were recovered; the journal was kept",
                    word, recovered->done, recovered->commands);
 }
 

@@ -47,13 +47,12 @@ static bool check_cage(const void *ctx, const char *name, const char *value, WrE
 static bool check_object(const WrScene *scene, WrBakeKind kind, WrError *err)
 {
     if (scene->shape.kind != WR_SURFACE_mesh || !scene->triangles)
-        return wr_fail(err,
-                       "the object is a %s: a detailed mesh is baked onto a mesh (`surface mesh "
-                       "file=FILE`)",
+        return wr_fail(err, "the object is a %s: baking needs a mesh (`surface mesh file=FILE`)",
                        wr_surfaces[scene->shape.kind]->name);
     if (kind != WR_BAKE_HEIGHT) return true;
     if (!(fabs(scene->height) > 0))
-        return wr_fail(err, "bump height=0: heights have no size on it; choose another height");
+        return wr_fail(err,
+                       "bump height=0: baked heights would be infinite; choose another height");
     if (scene->replicate_u != 1 || scene->replicate_v != 1)
         return wr_fail(err,
                        "replicate %g,%g: the table repeats on the object; bake heights at "
@@ -75,8 +74,8 @@ static bool check(const WrSession *session, const WrCall *call, WrBakeKind kind,
     if (wr_call_given(call, "size") &&
         (size[0] != wr_field_width(like) || size[1] != wr_field_height(like)))
         return wr_fail(err,
-                       "size=%gx%g: heights become a layer, which has the table's size %dx%d; "
-                       "change that first (`adjust resize`)",
+                       "size=%gx%g: heights are baked into a layer of the table's size, %dx%d; "
+                       "resize the table first (`adjust resize`)",
                        size[0], size[1], wr_field_width(like), wr_field_height(like));
     return true;
 }
@@ -125,7 +124,8 @@ static bool put_normals(WrSession *session, const char *path, WrImage *image, bo
     WrImage *taken = object ? wr_image_share(image) : wr_normal_map_raised(image, &away, err);
     if (!taken) return false;
     if (away)
-        wr_session_note(session, "%lld texels that look away were brought to the horizon",
+        wr_session_note(session,
+                        "%lld normals that point below the surface were clamped to the horizon",
                         (long long)away);
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     WrNormalMap *map = &scene->normals;
@@ -178,25 +178,26 @@ static void note_bake(WrSession *session, const char *path, const WrBakeOptions 
         wr_message_addf(&text, ", distances %.4g to %.4g", report->low, report->high);
     wr_message_addf(&text, "; %lld texels", (long long)report->texels);
     if (report->missed)
-        wr_message_addf(&text,
-                        ", %lld of which missed it (%lld met only backs) and took values of "
-                        "neighbours",
-                        (long long)report->missed, (long long)report->backs);
+        wr_message_addf(
+            &text,
+            ", %lld of which missed it (%lld hit only back faces) and were filled from neighbours",
+            (long long)report->missed, (long long)report->backs);
     else wr_message_addf(&text, ", none missed");
     if (report->frameless)
         wr_message_addf(&text, "; without a tangent frame: %lld", (long long)report->frameless);
     if (overlap.share > WR_UV_OVERLAP_NOTED)
         wr_message_addf(&text,
-                        "; %.1f%% of the object's texture coordinates are met twice, the first at "
-                        "u, v of %.3g,%.3g: one of the places is baked there",
+                        "; %.1f%% of the object's texture coordinates overlap, first at u, v of "
+                        "%.3g,%.3g: one of the places is baked there",
                         100 * overlap.share, overlap.at[0], overlap.at[1]);
     if (report->alone)
-        wr_message_addf(&text, "; parts of the object without one of their name in the file: %d",
+        wr_message_addf(&text,
+                        "; parts of the object without a part of the same name in the file: %d",
                         report->alone);
     const double radius = session->state.document->scene->triangles->radius;
     if (!(options->cage > 0) && report->missed > 0 && report->cage > radius)
-        wr_message_addf(&text, "; the cage exceeds the object's radius: are both meshes at one "
-                               "place, in one unit and with the same axis up?");
+        wr_message_addf(&text, "; the cage exceeds the object's radius: do both meshes have the "
+                               "same position, unit and up axis?");
     wr_session_note(session, "%s", wr_text_get(&text));
     wr_text_fini(&text);
 }
@@ -206,8 +207,8 @@ static bool check_hits(const char *name, const WrBakeReport *report, WrError *er
 {
     return report->missed < report->texels ||
            wr_fail(err,
-                   "%s: none of %lld rays met its front within the cage distance %g (%lld met "
-                   "backs): do both meshes have one place and unit?",
+                   "%s: none of %lld rays hit a front face within the cage distance %g (%lld hit "
+                   "back faces): do both meshes have the same position and unit?",
                    name, (long long)report->texels, report->cage, (long long)report->backs);
 }
 
@@ -414,7 +415,7 @@ static bool find_tiles(Tiles *tiles, const WrTriangles *low, WrError *err)
     if (tiles->count == 0)
         return wr_fail(err, "the mesh has no UDIM tile: its u must be 0 to 10, v 0 or more");
     if (tiles->count == 1 || wr_udim_is_pattern(tiles->out)) return true;
-    return wr_fail(err, "%s: the mesh has %d tiles, and the name no <UDIM> for their numbers",
+    return wr_fail(err, "%s: the mesh has %d tiles: the file name needs <UDIM> for their numbers",
                    tiles->out, tiles->count);
 }
 

@@ -183,8 +183,8 @@ static bool slide_of(const WrCall *call, const WrField *source, WrMeshSlide *sli
     const WrVec3 none = { 0, 0, 0 }, line = v3_unit(v3_sub(slide->middle, slide->eye), none);
     const WrVec3 right = v3_unit(v3_cross(line, vector_of(call, "up")), none);
     if (!(v3_len(right) > 0.5))
-        return wr_fail(err, "eye=, at= and up= give no direction: eye and at must be apart, and up "
-                            "must not be along the line between them");
+        return wr_fail(err, "eye=, at= and up= define no view: eye and at must differ, and up must "
+                            "not be parallel to the line between them");
     slide->right = v3_scale(right, wide);
     slide->up = v3_scale(v3_cross(right, line), high);
     return true;
@@ -207,8 +207,8 @@ static WrField *slide_cover(WrMeshTexels *mesh, const WrMeshSlide *slide, const 
     wr_free(map);
     if (!cover || any) return cover;
     wr_field_free(cover);
-    wr_fail(err, "nothing of the layer is seen on the mesh from eye=: its heights above 0 do not "
-                 "meet it");
+    wr_fail(err,
+            "nothing of the layer hits the mesh from eye=: move the projector, or enlarge width=");
     return NULL;
 }
 

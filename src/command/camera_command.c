@@ -103,7 +103,8 @@ static bool run_save(WrCall *call, WrScene *scene, WrError *err)
     WrPlacement unused;
     const char *name = wr_call_arg(call, "NAME")->text;
     if (scene->view_count == WR_NAMED_VIEWS_MAX && wr_scene_find_view(scene, name) < 0)
-        return wr_fail(err, "a document keeps at most %d views", WR_NAMED_VIEWS_MAX);
+        return wr_fail(err, "a document has at most %d views: delete one first (`camera forget`)",
+                       WR_NAMED_VIEWS_MAX);
     const bool fits = wr_call_given(call, "eye") && !wr_call_given(call, "fit");
     WrScene *seen = wr_scene_clone(scene);
     if (fits) seen->camera.fit = false;
@@ -128,8 +129,8 @@ static bool find_view(const WrCall *call, const WrScene *scene, int *index, WrEr
     *index = wr_scene_find_view(scene, name);
     if (*index >= 0) return true;
     if (scene->view_count == 0)
-        return wr_fail(err, "there is no view \"%s\": `camera save` keeps the present one", name);
-    return wr_fail(err, "there is no view \"%s\"; there are %d, from \"%s\" to \"%s\"", name,
+        return wr_fail(err, "no view \"%s\": `camera save` stores the present one", name);
+    return wr_fail(err, "no view \"%s\": there are %d, from \"%s\" to \"%s\"", name,
                    scene->view_count, scene->views[0].name,
                    scene->views[scene->view_count - 1].name);
 }

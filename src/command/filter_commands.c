@@ -86,7 +86,7 @@ static bool change(WrSession *session, const WrCall *call, const WrFilter *filte
         return true;
     }
     WrText name = { 0 };
-    wr_fail(err, "%s is no filter: left out, layer= makes a new one above the active layer",
+    wr_fail(err, "%s is not a filter layer: leave layer= out to add a new one",
             wr_session_layer_name(session, index, &name));
     wr_text_fini(&name);
     return false;

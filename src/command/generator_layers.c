@@ -307,12 +307,12 @@ static WrCall *call_of(const WrSession *session, int index, WrError *err)
     WrCall *call = NULL;
     wr_session_layer_name(session, index, &name);
     if (!layer->line)
-        wr_fail(err, "%s is no generator layer: `layer add NAME from=` makes one",
+        wr_fail(err, "%s is not a generator layer: `layer add NAME from=` adds one",
                 wr_text_get(&name));
     else if (!wr_check_layer_line(NULL, "from", layer->line, &why) ||
              !wr_call_parse(layer->line, false, &call, &why))
-        wr_fail(err, "%s: its line is not known here (%s): its heights stay", wr_text_get(&name),
-                wr_error_message(&why));
+        wr_fail(err, "%s: its command is unknown to this version (%s): its heights stay",
+                wr_text_get(&name), wr_error_message(&why));
     wr_text_fini(&name);
     return call;
 }
@@ -349,7 +349,8 @@ bool wr_session_use_line(WrSession *session, int index, const char *line, WrErro
     if (!wr_check_layer_line(NULL, "line", line, &why) ||
         !wr_call_parse(line, false, &call, &why)) {
         WrText name = { 0 };
-        wr_session_note(session, "%s: its line is not known here (%s): its heights stay",
+        wr_session_note(session,
+                        "%s: its command is unknown to this version (%s): its heights stay",
                         wr_session_layer_name(session, index, &name), wr_error_message(&why));
         wr_text_fini(&name);
         return true;
@@ -503,7 +504,7 @@ bool wr_session_follow_line(WrSession *session, const WrLinks *links, int index,
         return wr_session_generate_again(session, index, err);
     if (!written) return links->copies[index] || !needed || follow_read(session, index, err);
     WrText name = { 0 }; /* another command wrote its heights */
-    wr_session_note(session, "%s is a plain layer now: its heights are no longer its line's",
+    wr_session_note(session, "%s is a plain layer now: its heights no longer follow its command",
                     wr_session_layer_name(session, index, &name));
     wr_text_fini(&name);
     wr_layer_set_line(layer, NULL, nothing);
@@ -538,14 +539,14 @@ static void note_missing(WrSession *session, int index)
     }
     if (argument && first == index && count == 1)
         wr_session_note(session,
-                        "%s: its file %s is missing here: its heights stay; `layer set %d "
-                        "change=\"%s%sPATH\"` names another place",
+                        "%s: its file %s is missing: its heights stay; `layer set %d "
+                        "change=\"%s%sPATH\"` sets another path",
                         wr_session_layer_name(session, index, &name), wr_text_get(&path), index + 1,
                         argument, *argument ? "=" : "");
     else if (argument && first == index)
         wr_session_note(session,
-                        "%s and %d more layers: their file %s is missing here: their heights stay; "
-                        "`layer set %d change=\"%s%sPATH\"` names another place",
+                        "%s and %d more layers: their file %s is missing: their heights stay; "
+                        "`layer set %d change=\"%s%sPATH\"` sets another path",
                         wr_session_layer_name(session, index, &name), count - 1, wr_text_get(&path),
                         index + 1, argument, *argument ? "=" : "");
     wr_text_fini(&path);

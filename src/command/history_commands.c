@@ -120,7 +120,7 @@ static bool save_steps(WrSession *session, const char *path, const char *steps, 
         if (wr_step_listed(steps, i + 1) && !wr_history_is_off(history, i))
             add_line(&script, wr_history_line(history, i), wr_history_folder(history, i));
     const bool good =
-        (script.text.length || wr_fail(err, "steps=%s: none of them is in force", steps)) &&
+        (script.text.length || wr_fail(err, "steps=%s: all of them are undone or off", steps)) &&
         wr_file_write(path, wr_text_get(&script.text), script.text.length, err);
     free(real);
     wr_free(folder);

@@ -120,7 +120,7 @@ static WrField *of_slope(WrSession *session, const WrCall *call, WrError *err)
 static WrField *inverse(const WrLayer *layer, int index, WrError *err)
 {
     if (layer->mask) return wr_select_invert(layer->mask);
-    wr_fail(err, "from=inverse: layer %d has no mask that could be turned over", index + 1);
+    wr_fail(err, "from=inverse: layer %d has no mask to invert", index + 1);
     return NULL;
 }
 
@@ -304,7 +304,7 @@ static bool find_group(const WrSession *session, const WrCall *call, int *group,
     if (!wr_session_find_layer(session, word, group, err)) return false;
     if (session->state.document->layers[*group].is_group) return true;
     WrText name = { 0 };
-    wr_fail(err, "%s is no group: `layer group` makes one of layers",
+    wr_fail(err, "%s is not a group: `layer group` makes one",
             wr_session_layer_name(session, *group, &name));
     wr_text_fini(&name);
     return false;
@@ -355,7 +355,8 @@ static bool layer_add(WrSession *session, WrCall *call, WrError *err)
         !find_group(session, call, &group, err))
         return false;
     if (wr_call_given(call, "in") && wr_call_given(call, "above"))
-        return wr_fail(err, "above= and in= do not go together: above= a layer of the group");
+        return wr_fail(err, "give above= or in=, not both: to place it in a group, use above= with "
+                            "a layer of that group");
     if (wr_call_given(call, "in")) below = group < 0 ? document->layer_count - 1 : group - 1;
     free_name(document, &made);
     WrLayer layer = wr_layer_make(name ? name : wr_text_get(&made), document->layers[0].heights);
@@ -418,7 +419,7 @@ static bool link_layer(WrSession *session, int index, int place, int depth, WrEr
     WrDocument *document = session->state.document;
     const WrLayer *source = &document->layers[index];
     if (source->filter.op)
-        return wr_fail(err, "linked=on: layer %d is a filter, without heights to be copied",
+        return wr_fail(err, "linked=on: layer %d is a filter layer, which has no heights to copy",
                        index + 1);
     WrLayer layer = wr_layer_share(source);
     wr_free(layer.name);
@@ -463,7 +464,7 @@ static bool check_visible(const WrSession *session, int index, WrError *err)
 {
     if (session->state.document->layers[index].visible) return true;
     WrText name = { 0 };
-    wr_fail(err, "%s is hidden: only layers that are visible can be joined",
+    wr_fail(err, "%s is hidden: only visible layers can be merged",
             wr_session_layer_name(session, index, &name));
     wr_text_fini(&name);
     return false;
@@ -488,7 +489,7 @@ static void note_hidden(WrSession *session, int from, int to)
 {
     int hidden = 0;
     for (int i = from; i < to; i++) hidden += !session->state.document->layers[i].visible;
-    if (hidden) wr_session_note(session, "%d hidden layers are gone", hidden);
+    if (hidden) wr_session_note(session, "%d hidden layers were removed", hidden);
 }
 
 static bool join_group(WrSession *session, int index)
@@ -504,10 +505,9 @@ static bool add_below(const WrSession *session, WrLayerList *layers, WrError *er
 {
     const WrDocument *document = session->state.document;
     const int index = layers->index[0];
-    if (index == 0) return wr_fail(err, "layer 1 has none below that it could be merged into");
+    if (index == 0) return wr_fail(err, "layer 1 has no layer below to merge with");
     if (index == wr_layers_first_sibling(document->layers, index))
-        return wr_fail(err, "layer %d has none below in its group that it could be merged into",
-                       index + 1);
+        return wr_fail(err, "layer %d has no layer below it in its group to merge with", index + 1);
     *layers = (WrLayerList){ .index = { index - 1, index }, .count = 2 };
     return check_all_unlocked(session, index - 1, err);
 }
@@ -570,7 +570,7 @@ static bool layer_use(WrSession *session, WrCall *call, WrError *err)
     WrLayer *layer = &document->layers[document->active];
     bool on_mask = wr_call_choice(call, "part") == 1;
     if (on_mask && !layer->mask)
-        return wr_fail(err, "part=mask: layer %d has none: `layer mask %d from=white` makes one",
+        return wr_fail(err, "part=mask: layer %d has no mask: `layer mask %d from=white` adds one",
                        document->active + 1, document->active + 1);
     layer->on_mask = on_mask;
     return true;
@@ -645,15 +645,14 @@ static bool layer_move(WrSession *session, WrCall *call, WrError *err)
     for (int i = 0; i < layers.count; i++)
         if (group == layers.index[i] ||
             (group >= 0 && wr_document_is_within(document, group, layers.index[i])))
-            return wr_fail(err, "layer %d cannot go into itself", layers.index[i] + 1);
+            return wr_fail(err, "layer %d cannot be moved into itself", layers.index[i] + 1);
     const bool in = wr_call_given(call, "in"), to_given = wr_call_given(call, "to");
     const int rows = rows_of_all(document, &layers);
     const int members = rows_of(document, layers.index[0]) - 1; /* of the lowest */
     const int to = to_given ? (int)wr_call_number(call, "to") - 1
                             : place_in(document, &layers, group) + members;
     const int most = document->layer_count - rows + members;
-    if (!in && !to_given)
-        return wr_fail(err, "where to? give to=, its new number, or in=, a group");
+    if (!in && !to_given) return wr_fail(err, "give to=, the new number, or in=, a group");
     if (to < members || to > most)
         return wr_fail(err, "to=%d: must be %d..%d", to + 1, members + 1, most + 1);
     return move_rows(document, &layers, to - members, in, group, to + 1, err);
@@ -685,7 +684,7 @@ static bool layer_rename(WrSession *session, WrCall *call, WrError *err)
 static bool set_one(WrSession *session, WrCall *call, int index, WrError *err)
 {
     if (wr_call_given(call, "collapsed") && !session->state.document->layers[index].is_group)
-        return wr_fail(err, "layer %d is no group that could be collapsed", index + 1);
+        return wr_fail(err, "collapsed=: layer %d is not a group", index + 1);
     const bool generates = wr_call_given(call, "change") || wr_call_given(call, "from");
     if (generates &&
         (!wr_session_check_unlocked(session, index, err) ||
@@ -725,8 +724,7 @@ static bool rasterize_one(WrSession *session, WrCall *call, int index, WrError *
     WrLayer *layer = &session->state.document->layers[index];
     if (layer->is_group) return join_group(session, index);
     if (!layer->line)
-        return wr_fail(err,
-                       "layer %d is no generator layer and no group: there is nothing to rasterize",
+        return wr_fail(err, "layer %d is already a plain layer: there is nothing to rasterize",
                        index + 1);
     wr_layer_set_line(layer, NULL, (WrHash){ 0, 0 });
     return true;
@@ -775,11 +773,11 @@ static bool ungroup_one(WrSession *session, int index, WrError *err)
     WrDocument *document = session->state.document;
     const WrLayer *layer = &document->layers[index];
     if (!wr_session_check_unlocked(session, index, err)) return false;
-    if (!layer->is_group) return wr_fail(err, "layer %d is no group", index + 1);
+    if (!layer->is_group) return wr_fail(err, "layer %d is not a group", index + 1);
     if (document->layer_count == 1)
         return wr_fail(err, "the last layer stays: a document has at least one");
     if (layer->mask || layer->opacity < 1.0f)
-        wr_session_note(session, "the group's mask and opacity are gone");
+        wr_session_note(session, "the group's mask and opacity were removed");
     wr_document_ungroup(document, index);
     return true;
 }
@@ -817,11 +815,9 @@ static bool clear_one(WrSession *session, WrCall *call, int index, WrError *err)
     (void)call;
     WrLayer *layer = &session->state.document->layers[index];
     if (layer->filter.op)
-        return wr_fail(err, "layer %d is a filter, without heights that could be cleared",
-                       index + 1);
+        return wr_fail(err, "layer %d is a filter layer, which has no heights to clear", index + 1);
     if (layer->is_group)
-        return wr_fail(err, "layer %d is a group, without heights that could be cleared",
-                       index + 1);
+        return wr_fail(err, "layer %d is a group, which has no heights to clear", index + 1);
     wr_session_put_field(session, &layer->heights, uniform(layer, 0.0f));
     if (layer->cover) wr_session_put_field(session, &layer->cover, uniform(layer, 0.0f));
     return true;

@@ -67,7 +67,7 @@ static bool run_light(WrSession *session, WrCall *call, WrError *err)
         const bool zero = light.where.x == 0 && light.where.y == 0 && light.where.z == 0;
         int index = wr_call_given(call, "index") ? (int)wr_call_number(call, "index") : 0;
         if (!wr_light_kinds[light.kind].placed && zero)
-            good = wr_fail(err, "to=0,0,0 points nowhere: one number must not be 0");
+            good = wr_fail(err, "to=0,0,0: has no direction; one number must not be 0");
         else good = put_light(scene, light, index, err);
     }
     if (!good) {
@@ -163,13 +163,13 @@ static void note_changes(WrSession *session, const char *name,
                          const WrEnvironmentMapChanges *changes)
 {
     if (changes->not_numbers)
-        wr_session_note(session, "%s: %lld numbers that are none became 0", name,
+        wr_session_note(session, "%s: %lld values were not numbers and became 0", name,
                         (long long)changes->not_numbers);
     if (changes->negative)
-        wr_session_note(session, "%s: %lld numbers below 0 became 0", name,
+        wr_session_note(session, "%s: %lld values below 0 became 0", name,
                         (long long)changes->negative);
     if (changes->too_large)
-        wr_session_note(session, "%s: %lld numbers beyond 1e9 became 1e9", name,
+        wr_session_note(session, "%s: %lld values above 1e9 became 1e9", name,
                         (long long)changes->too_large);
     if (changes->reduced > 1)
         wr_session_note(session, "%s: more than %d texels wide: each is the mean of %d x %d", name,
@@ -182,7 +182,7 @@ static WrImage *find_picture(WrSession *session, WrCall *call, const char *name,
     if (session->loading) {
         const WrImage *held = session->embedded ? session->embedded[0][WR_OBJECT_SURROUND] : NULL;
         if (held) return wr_image_share(held);
-        wr_fail(err, "the document names the picture %s but does not hold it", name);
+        wr_fail(err, "the document refers to the picture %s but does not contain it", name);
         return NULL;
     }
     char *path = wr_session_input_path(session, name);
@@ -236,13 +236,13 @@ static bool check_line(const WrCall *call, const WrScene *now, const char *name,
     static const char *const of_light[] = { "turn", "strength" };
     const WrEnvironmentMapKind kind = name ? kind_of(name) : WR_ENVIRONMENT_MAP_OFF;
     if (!name && now->environment.kind == WR_ENVIRONMENT_MAP_OFF)
-        return wr_fail(err, "there are no surroundings: name some");
+        return wr_fail(err, "no environment is set: name a picture or a built-in one");
     for (int i = 0; i < 3; i++)
         if (kind != WR_ENVIRONMENT_MAP_FILE && wr_call_given(call, of_file[i]))
-            return wr_fail(err, "only a line that names a file takes %s=", of_file[i]);
+            return wr_fail(err, "%s= needs a file", of_file[i]);
     for (int i = 0; i < 2; i++)
         if (name && kind == WR_ENVIRONMENT_MAP_OFF && wr_call_given(call, of_light[i]))
-            return wr_fail(err, "off takes no %s=", of_light[i]);
+            return wr_fail(err, "%s= cannot be given with off", of_light[i]);
     return true;
 }
 

@@ -125,7 +125,8 @@ bool wr_session_name_source(const WrSession *session, int place, int above, WrCa
         good =
             wr_fail(err, "%s has the name of another layer: rename it first", wr_text_get(&name));
     else if (!can_be_copied(&document->layers[found]))
-        good = wr_fail(err, "%s is a filter, without heights to be copied", wr_text_get(&name));
+        good =
+            wr_fail(err, "%s is a filter layer, which has no heights to copy", wr_text_get(&name));
     else wr_call_set_text(call, SOURCE, document->layers[found].name);
     wr_text_fini(&name);
     return good;

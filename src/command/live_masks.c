@@ -510,7 +510,7 @@ static bool name_layer(const WrSession *session, int index, WrCall *term, WrErro
         good =
             wr_fail(err, "%s has the name of another layer: rename it first", wr_text_get(&name));
     else if (strcmp(term->form_name, "mask") != 0 && !wr_layer_holds(&document->layers[found]))
-        good = wr_fail(err, "%s is a filter or a group, without heights of its own",
+        good = wr_fail(err, "%s is a filter layer or a group, which has no heights of its own",
                        wr_text_get(&name));
     else wr_call_set_text(term, OF, document->layers[found].name);
     wr_text_fini(&name);

@@ -110,10 +110,10 @@ static bool object_take_table(WrSession *session, WrCall *call, WrScene *scene, 
     WrDocument *document = session->state.document;
     if (!wr_call_given(call, "table")) {
         if (!wr_call_given(call, "sha256")) return true;
-        return wr_fail(err, "sha256= belongs to a table=");
+        return wr_fail(err, "sha256= needs table=");
     }
     if (wr_call_given(call, "layer"))
-        return wr_fail(err, "table= and layer= do not go together: the file becomes the layer");
+        return wr_fail(err, "give table= or layer=, not both: the file of table= becomes a layer");
     if (document->layer_count == WR_LAYERS_MAX)
         return wr_fail(err, "a document has up to %d layers", WR_LAYERS_MAX);
     const WrField *like = document->layers[0].heights;
@@ -231,10 +231,10 @@ static bool find(const WrScene *scene, const WrCall *call, int *index, WrError *
     if (*index >= 0) return true;
     const int count = wr_scene_object_count(scene);
     if (count == 1)
-        return wr_fail(err, "there is no object \"%s\"; the only one is \"%s\"", name->text,
+        return wr_fail(err, "no object \"%s\": the only one is \"%s\"", name->text,
                        wr_scene_object_label(scene, 0, buffer));
-    return wr_fail(err, "there is no object \"%s\"; there are %d, from \"%s\" to \"%s\"",
-                   name->text, count, wr_scene_object_label(scene, 0, buffer),
+    return wr_fail(err, "no object \"%s\": there are %d, from \"%s\" to \"%s\"", name->text, count,
+                   wr_scene_object_label(scene, 0, buffer),
                    wr_scene_object_label(scene, count - 1, last));
 }
 
@@ -243,7 +243,7 @@ static bool check_name(const WrScene *scene, int own, const char *name, WrError 
 {
     const int other = wr_scene_object_find(scene, name);
     if (other < 0 || other == own) return true;
-    return wr_fail(err, "there is an object \"%s\" already: each needs a name of its own", name);
+    return wr_fail(err, "an object \"%s\" already exists: choose another name", name);
 }
 
 /* ---- changing ---- */
@@ -291,7 +291,7 @@ static bool put(WrSession *session, WrCall *call, const char *name, WrScene *sce
 {
     if (wr_call_given(call, "turn") && scene->other_count == 0 && !session->loading) {
         wr_scene_free(scene);
-        return wr_fail(err, "turn= is for one of several objects; `rotate` turns the only one");
+        return wr_fail(err, "turn= needs several objects; `rotate` rotates the only one");
     }
     if (!take_layer(session, call, scene, err) || !object_take_table(session, call, scene, err) ||
         !take_turn(call, scene, err)) {
@@ -514,7 +514,7 @@ static bool set_end(const WrCall *call, bool fresh, WrScene *made, WrError *err)
         return true;
     }
     if (made->shape.kind != WR_SURFACE_plane)
-        return wr_fail(err, "endless=: the ground is a %s by now; only a plane has a horizon",
+        return wr_fail(err, "endless=: the ground is a %s now; only a plane can be endless",
                        wr_surfaces[made->shape.kind]->name);
     *endless = wr_call_choice(call, "endless");
     return true;
@@ -555,7 +555,7 @@ static bool run_ground(WrSession *session, WrCall *call, WrError *err)
             return wr_fail(err, "a scene holds at most %d objects", WR_OBJECTS_MAX);
         if (!run_on(call, scene, index, &made, err)) return false;
     } else {
-        if (index < 0) return wr_fail(err, "there is no ground: `ground on` lays one");
+        if (index < 0) return wr_fail(err, "there is no ground: `ground on` adds one");
         if (wr_scene_object_count(scene) == 1)
             return wr_fail(err, "the last object stays: a scene has at least one");
         made = wr_scene_remove_object(scene, index);

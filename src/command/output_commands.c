@@ -49,7 +49,7 @@ static bool run_render(WrSession *session, WrCall *call, WrError *err)
     if (wr_call_given(call, "frames")) return run_turntable(session, call, err);
     for (size_t i = 0; i < WR_LENGTH(of_frames); i++)
         if (wr_call_given(call, of_frames[i]))
-            return wr_fail(err, "%s= is of several frames: say how many, frames=N", of_frames[i]);
+            return wr_fail(err, "%s= is only for several frames: give frames=N too", of_frames[i]);
     return wr_session_render(session, wr_call_arg(call, "FILE")->text, (int)size[0], (int)size[1],
                              NULL, wr_call_arg(call, "turn")->numbers[0], err);
 }
@@ -78,7 +78,7 @@ bool wr_session_save(WrSession *session, const char *path, WrError *err)
     if (session->state.newer_path && same_file(session->state.newer_path, path))
         return wr_fail(err,
                        "%s: was saved by a newer version of the program: saving over it would lose "
-                       "what this one does not know; choose another name",
+                       "data unknown to this version; choose another name",
                        path);
     const double began = wr_clock_seconds();
     if (!make_composite(session, err)) return false;

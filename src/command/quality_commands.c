@@ -89,8 +89,8 @@ static bool run_tolerance(WrSession *session, WrCall *call, WrError *err)
                        given == 0 ? "none is" : "several are");
     const bool chosen = wr_call_given(call, "chosen");
     if (chosen && tolerance.kind == WR_TOLERANCE_NONE)
-        return wr_fail(err, "tolerance: off and chosen= do not go together: without a tolerance "
-                            "the dials hold as they are set");
+        return wr_fail(err, "tolerance: give off or chosen=, not both: without a tolerance the "
+                            "dials are used as set");
     wr_session_keep_chosen(session, chosen ? wr_call_arg(call, "chosen")->text : NULL);
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     scene->tolerance = tolerance;

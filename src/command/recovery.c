@@ -115,7 +115,7 @@ static void note_missing(Replay *r)
 static bool check_hash(const WrSession *session, const WrHash *hash, const char *what, WrError *err)
 {
     if (wr_hash_equal(*hash, wr_session_hash(session))) return true;
-    return wr_fail(err, "%s: is not what the journal began with: it was changed since", what);
+    return wr_fail(err, "%s: has changed since the journal began", what);
 }
 
 /* Load the state before the journal's first command. If the first line is damaged, this is a guess. */
@@ -180,14 +180,15 @@ static bool last_is_safe(Replay *r, const char *line)
     switch (wr_journal_trial(try_line, &attempt, TRIAL_SECONDS, 0, &why)) {
     case WR_PROBE_TRUE: return true;
     case WR_PROBE_FALSE:
-        wr_message_addf(sentence(r->messages), "the last command failed and was left out: %s",
+        wr_message_addf(sentence(r->messages), "the last command failed and was skipped: %s",
                         wr_error_message(&why));
         r->done++; /* it failed then as well, or would have: the document never contained it */
         return false;
     default:
-        wr_message_addf(sentence(r->messages),
-                        "stopped before the last command, which may be what crashed (%s): %.200s",
-                        wr_error_message(&why), line);
+        wr_message_addf(
+            sentence(r->messages),
+            "stopped before the last command, which may have caused the crash (%s): %.200s",
+            wr_error_message(&why), line);
         r->cut = true;
         return false;
     }
@@ -243,10 +244,9 @@ static bool go_carefully(Replay *r, int index, int steps, WrError *err)
     if (to < r->floor) to = r->floor;
     if (to > r->ceiling) to = r->ceiling;
     if (to != position + steps)
-        wr_message_addf(
-            command_sentence(r),
-            "command %d, %s %d, goes back to what is missing: %d of its steps were made", index + 1,
-            steps < 0 ? "undo" : "redo", abs(steps), abs(to - position));
+        wr_message_addf(command_sentence(r),
+                        "command %d, %s %d, needs missing states: %d of its steps were done",
+                        index + 1, steps < 0 ? "undo" : "redo", abs(steps), abs(to - position));
     return to == position || wr_session_go_to(r->session, to, err);
 }
 
@@ -273,13 +273,12 @@ static bool replay_line(Replay *r, int index)
     const WrJournalLine *line = &r->read->lines[index];
     bool last = r->read->unfinished && index == r->read->total - 1;
     if (line->lost) {
-        wr_message_addf(command_sentence(r), "before command %d %d lines of the journal are lost",
+        wr_message_addf(command_sentence(r), "before command %d, %d lines of the journal are lost",
                         index + 1, line->lost);
         note_missing(r);
     }
     if (line->holed)
-        wr_message_addf(command_sentence(r), "command %d is a stroke of which some points are lost",
-                        index + 1);
+        wr_message_addf(command_sentence(r), "command %d is a stroke with lost points", index + 1);
     char *text = with_copies(r->journal, line->text);
     WrProgressPart part;
     const WrProgress *whole =
@@ -350,9 +349,8 @@ static void sum_up(Replay *r, WrRecovered *out)
         wr_message_addf(sentence(r->messages), "and %d more of that kind",
                         r->sentences - SENTENCES_MAX);
     if (r->saved)
-        wr_message_addf(sentence(r->messages), "went on from %s as it was saved last",
-                        read->saved.path);
-    wr_message_addf(sentence(r->messages), "%d of %d commands were brought back", out->done,
+        wr_message_addf(sentence(r->messages), "continued from %s as last saved", read->saved.path);
+    wr_message_addf(sentence(r->messages), "%d of %d commands were recovered", out->done,
                     out->commands);
     if (*read->damage && !out->whole)
         wr_message_addf(sentence(r->messages),
@@ -435,10 +433,10 @@ static const char *own_path(const WrJournalRead *read)
 static bool own_stands(const WrJournalRead *read, WrError *err)
 {
     const char *own = own_path(read);
-    if (!own) return wr_fail(err, "it was never saved: it has no file of its own");
+    if (!own) return wr_fail(err, "it was never saved: it has no file");
     if (read->saved.path) return holds(own, &read->saved.hash, err);
     if (read->start.kind == WR_JOURNAL_DOCUMENT) return holds(own, &read->start.hash, err);
-    return wr_fail(err, "%s: what it should hold is not on record", own);
+    return wr_fail(err, "%s: no checksum was recorded for this file", own);
 }
 
 /* Restore the file name. If the file is unchanged, saving over it loses no work of other programs. */

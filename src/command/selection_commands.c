@@ -436,7 +436,7 @@ static bool run_copy(WrSession *session, WrCall *call, WrError *err)
     if (wr_progress_stopped()) return wr_fail(err, "cancelled");
     copy.box = (WrSelectBox){ 0, 0, wr_field_width(copy.heights), wr_field_height(copy.heights) };
     if (copy.selection && !wr_select_box(copy.selection, &copy.box))
-        return wr_fail(err, "nothing is inside the selection that could be copied");
+        return wr_fail(err, "the selection contains nothing to copy");
     if (!wr_image_can_write(copy.path, WR_PIXEL_F32, 2, true, err)) return false;
     const WrImageOut out = { .width = copy.box.count_i,
                              .height = copy.box.count_j,
@@ -675,7 +675,7 @@ static bool set_piece(Moving *m, const WrCall *call, const WrField *like, WrErro
     double *box = m->placing.window;
     WrSelectBox selected = { 0, 0, (int)w, (int)h };
     if (m->selection && !wr_select_box(m->selection, &selected))
-        return wr_fail(err, "nothing is inside the selection that could be moved");
+        return wr_fail(err, "the selection contains nothing to move");
     box[0] = selected.i;
     box[1] = selected.j;
     box[2] = selected.count_i;
@@ -731,7 +731,7 @@ static bool find_moved(const WrCall *call, const WrDocument *document, const WrL
     bool moved[WR_LAYERS_MAX] = { false };
     const bool of = wr_call_given(call, "of"), all = wr_call_choice(call, "layers") == 1;
     WrLayerList listed = { .index = { document->active }, .count = 1 };
-    if (of && all) return wr_fail(err, "of= and layers=all: give one of them");
+    if (of && all) return wr_fail(err, "give of= or layers=all, not both");
     if (of && !wr_layers_find(document, wr_call_arg(call, "of")->text, &listed, err)) return false;
     for (int k = 0; k < listed.count; k++) {
         const int last = listed.index[k];

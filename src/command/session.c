@@ -55,7 +55,7 @@ bool wr_session_check_export(const WrSession *session, const WrExportKind *kind,
     for (int i = 0; i < session->inputs.count && kind->ending && target.there; i++) {
         const WrFileIdentity file = wr_file_identity(session->inputs.data[i].path);
         if (file.there && file.device == target.device && file.inode == target.inode)
-            return wr_fail(err, "%s: is a file that was read here: choose another name", path);
+            return wr_fail(err, "%s: this file was read as an input: choose another name", path);
     }
     return true;
 }
@@ -145,23 +145,23 @@ static bool session_check_heights(const WrSession *session, int index, WrError *
     wr_session_layer_name(session, index, &name);
     if (layer->on_mask)
         wr_fail(err,
-                "%s has a live mask: `layer mask %d live=off` makes a mask of it that can be "
+                "%s has a live mask: `layer mask %d live=off` converts it to one that can be "
                 "painted on",
                 wr_text_get(&name), index + 1);
     else if (layer->is_group)
         wr_fail(err,
-                "%s is a group, without heights of its own: `layer use` chooses one of its "
-                "layers, or its mask",
+                "%s is a group, which has no heights of its own: `layer use` one of its layers, or "
+                "its mask",
                 wr_text_get(&name));
     else if (layer->filter.op)
         wr_fail(err,
-                "%s is a filter, without heights of its own: `layer use` chooses another, or its "
-                "mask",
+                "%s is a filter layer, which has no heights of its own: `layer use` another layer, "
+                "or its mask",
                 wr_text_get(&name));
     else
         wr_fail(err,
-                "%s is a generator layer: `layer set %d change=` changes its values, `layer "
-                "rasterize %d` makes heights of it that can be painted on",
+                "%s is a generator layer: `layer set %d change=` changes its arguments, `layer "
+                "rasterize %d` converts it to a layer that can be painted on",
                 wr_text_get(&name), index + 1, index + 1);
     wr_text_fini(&name);
     return false;
@@ -229,7 +229,7 @@ static bool find_layer(const WrDocument *document, const char *word, int *index,
         return wr_fail(err, "no layer is called \"%s\": must be a name or 1..%d",
                        wr_excerpt(word, excerpt), document->layer_count);
     if (same > 1)
-        return wr_fail(err, "%d layers are called \"%s\": say which by its number", same,
+        return wr_fail(err, "%d layers are called \"%s\": give its number", same,
                        wr_excerpt(word, excerpt));
     *index = found;
     return true;
@@ -264,7 +264,7 @@ bool wr_layers_find(const WrDocument *document, const char *words, WrLayerList *
         const size_t length = one ? strlen(p) : strcspn(p, ",");
         char excerpt[WR_EXCERPT_SIZE];
         if (!length)
-            return wr_fail(err, "\"%s\": a layer is missing beside a comma",
+            return wr_fail(err, "\"%s\": a layer is missing before or after a comma",
                            wr_excerpt(words, excerpt));
         char *word = wr_strndup(p, length);
         const bool good = list_word(document, word, listed, err);
@@ -546,7 +546,7 @@ static bool take_made(WrSession *session, const WrCall *call, WrError *err)
     bool all = wr_call_gives(call, "layers") && wr_call_choice(call, "layers") == 1;
     if (!all && !wr_session_check_layer(session, err)) return false;
     if (made->layer_count != document->layer_count)
-        return wr_fail(err, "what was made has %d layers, the document %d", made->layer_count,
+        return wr_fail(err, "the result has %d layers, the document %d", made->layer_count,
                        document->layer_count);
     for (int i = 0; i < document->layer_count; i++) {
         WrLayer *layer = &document->layers[i], taken = wr_layer_share(&made->layers[i]);
@@ -640,9 +640,9 @@ static bool run_call(WrSession *session, WrCall *call, WrError *err)
 
 bool wr_session_refuse_in_stroke(const WrSession *session, WrError *err)
 {
-    if (session->still) return wr_fail(err, "not while something else is being done");
+    if (session->still) return wr_fail(err, "busy: another command is running");
     if (!session->stroke) return true;
-    return wr_fail(err, "a stroke is being drawn: it must end first");
+    return wr_fail(err, "busy: a stroke is being drawn");
 }
 
 /* Prefix a message with the verb unless it begins with it. */
@@ -666,7 +666,7 @@ bool wr_session_takes_made(const char *line)
 bool wr_session_run_made(WrSession *session, const char *line, const WrDocument *made, WrError *err)
 {
     if (!wr_session_takes_made(line))
-        return wr_fail(err, "%.60s: its work cannot be done beforehand", line);
+        return wr_fail(err, "%.60s: cannot be computed in advance", line);
     session->made = made;
     bool good = wr_session_run(session, line, err);
     session->made = NULL;
@@ -759,9 +759,10 @@ bool wr_session_go_to(WrSession *session, int state, WrError *err)
     if (!wr_session_refuse_in_stroke(session, err)) return false;
     if (state < 0 || state > count) return wr_fail(err, "step %d: there are %d", state, count);
     if (state < oldest)
-        return wr_fail(err,
-                       "step %d was given up to keep the history in its budget: %d is the oldest",
-                       state, oldest);
+        return wr_fail(
+            err,
+            "step %d was dropped to stay within the memory limit of the history: %d is the oldest",
+            state, oldest);
     wr_session_put_document(session, wr_history_go(history, state));
     return true;
 }

@@ -49,7 +49,8 @@ WrImage *wr_input_image(const char *path, const WrImageRequest *wish, WrError *e
     if (!wr_gltf_names_picture(path, &length, &index))
         return wr_image_read_request(path, wish, err);
     if (wish->channel || wish->part) {
-        wr_fail(err, "%s: channel= and part= are of picture files, not of pictures in a glTF",
+        wr_fail(err,
+                "%s: channel= and part= are for picture files, not for pictures in a glTF file",
                 path);
         return NULL;
     }
@@ -98,7 +99,7 @@ bool wr_call_check_sha256(WrCall *call, const char *name, const char *path, cons
 {
     const WrArg *arg = wr_call_arg(call, name);
     if (arg->given && strcmp(arg->text, hex) != 0)
-        return wr_fail(err, "%s: another content than this line was written for: its SHA-256 is %s",
+        return wr_fail(err, "%s: file has changed: its SHA-256 is %s, not the one in the command",
                        path, hex);
     if (!arg->given) wr_call_set_text(call, name, hex);
     return true;
@@ -113,7 +114,7 @@ WrImageRequest wr_call_request(WrCall *call)
 void wr_session_note_read(WrSession *session, const char *path, const WrImage *image)
 {
     if (image->taken[0])
-        wr_session_note(session, "%s: took %s (channel= and part= take others)", path,
+        wr_session_note(session, "%s: used %s (channel= and part= choose others)", path,
                         image->taken);
     if (image->note[0]) wr_session_note(session, "%s: %s", path, image->note);
     if (image->filled)
@@ -135,9 +136,10 @@ char *wr_session_output_name(const WrSession *session, const char *path, WrError
 {
     const int tile = object_tile(session);
     if (tile || !wr_udim_is_pattern(path)) return wr_udim_fill(path, tile);
-    wr_fail(err,
-            "%s: the object has no tile: `surface mesh udim=1002` says which, or give its number",
-            path);
+    wr_fail(
+        err,
+        "%s: the object has no tile: choose one by `surface mesh udim=1002`, or give its number",
+        path);
     return NULL;
 }
 
@@ -150,8 +152,7 @@ static int choose_tile(const WrSession *session, const char *name, const int *nu
         if (numbers[i] == tile || tile == 0) return numbers[i];
     WrText list = { 0 };
     wr_udim_list(numbers, count, &list);
-    if (count == 0)
-        wr_fail(err, "%s: no file has such a name, with a tile's number, 1001 and on", name);
+    if (count == 0) wr_fail(err, "%s: no file has such a name with a tile number, from 1001", name);
     else
         wr_fail(err, "%s: no file of the object's tile %d; there are %s", name, tile,
                 wr_text_get(&list));
@@ -232,7 +233,7 @@ static LineResult read_line(Lines *lines, WrText *line, WrError *err)
     while ((c = next_byte(lines)) != EOF && c != '\n') {
         char byte = (char)c;
         if (byte == '\0') {
-            wr_fail(err, "a NUL byte: this is no text file");
+            wr_fail(err, "contains a NUL byte: not a text file");
             return LINE_FAILED;
         }
         if (++count > LINE_MAX_BYTES) {
@@ -322,7 +323,7 @@ static bool run_scene_lines(WrSession *session, const char *text, bool lenient, 
         WrCall *call = NULL;
         bool good = wr_call_parse(line, false, &call, err);
         if (good && call->command && !call->command->print)
-            good = wr_fail(err, "%s is no command of a scene", call->command->name);
+            good = wr_fail(err, "%s is not a command of a scene", call->command->name);
         if (good) good = wr_session_run(session, line, err);
         wr_call_free(call);
         wr_free(line);
@@ -338,9 +339,8 @@ static void note_newer(WrSession *session, const char *path, double version)
 {
     wr_session_note(
         session,
-        "%s: was saved by a newer version of the program (document version %g; this one "
-        "knows up to %d): opened without what it does not understand; saving over it is "
-        "refused",
+        "%s: was saved by a newer version of the program (document version %g; this one reads up "
+        "to %d): opened without its unknown parts; saving over it is refused",
         path, version, WR_DOCUMENT_VERSION);
     wr_free(session->state.newer_path);
     session->state.newer_path = wr_strdup(path);
@@ -398,7 +398,7 @@ bool wr_session_reads_back(WrSession *session, const char *path, WrError *err)
     WrSession *other = wr_session_new(&options);
     bool good = wr_session_load(other, path, err) &&
                 (wr_hash_equal(wr_session_hash(other), wr_session_hash(session)) ||
-                 wr_fail(err, "%s: reads back as something else than was written", path));
+                 wr_fail(err, "%s: differs from what was written when read back", path));
     wr_session_free(other);
     return good;
 }

@@ -460,7 +460,7 @@ static bool take_symmetry(const WrCall *call, WrSymmetry *out, WrError *err)
 static bool check_needs(const WrCall *call, const char *name, const char *needed, WrError *err)
 {
     if (!wr_call_gives(call, name) || wr_call_gives(call, needed)) return true;
-    return wr_fail(err, "%s= is given without %s=, which it belongs to", name, needed);
+    return wr_fail(err, "%s= needs %s=", name, needed);
 }
 
 static bool take_preset(WrSession *session, WrCall *call, WrHeldBrush *held, WrError *err)
@@ -523,7 +523,7 @@ static bool hold_brush(WrSession *session, WrCall *call, WrHeldBrush *out, WrErr
                  take_symmetry(call, &held.brush.symmetry, err));
     if (good) take_values(call, &held.brush);
     if (good && held.brush.mode == WR_BRUSH_CLONE && !wr_call_gives(call, "source"))
-        good = wr_fail(err, "mode=clone needs source=du,dv: where its heights come from");
+        good = wr_fail(err, "mode=clone needs source=du,dv, the offset of the copied heights");
     if (good) *out = held;
     else held_fini(&held);
     return good;
@@ -581,8 +581,7 @@ static bool take_texels(WrSession *session, const WrField *field, WrError *err)
     WrMeshTexelsTable table;
     const WrTriangles *mesh = painted_mesh(session->state.document, field, &table);
     if (!scene->triangles || !wr_surfaces[scene->shape.kind]->held)
-        return wr_fail(err,
-                       "the object is a %s without triangles; paint in its table with `stroke`",
+        return wr_fail(err, "the object is a %s, not a mesh; paint on its table with `stroke`",
                        wr_surfaces[scene->shape.kind]->name);
     if (session->mesh_texels && wr_mesh_texels_fit(session->mesh_texels, mesh, &table)) return true;
     WrMeshTexels *before = session->mesh_texels;
@@ -631,8 +630,8 @@ static bool take_mesh(WrSession *session, const WrCall *call, const WrBrush *bru
     const WrSymmetry *s = &brush->symmetry;
     if (!call->command->on_mesh) return true;
     if (s->mirror_u || s->mirror_v || s->radial > 1 || s->repeat_u > 1 || s->repeat_v > 1)
-        return wr_fail(err, "mirror=, radial= and repeat= are of the table; leave them out on a "
-                            "mesh");
+        return wr_fail(
+            err, "mirror=, radial= and repeat= work on the table only; leave them out on a mesh");
     if (!take_texels(session, ground->field, err)) return false;
     ground->mesh = session->mesh_texels;
     take_mirrors(session, call, ground);
@@ -648,11 +647,10 @@ static void note_sharing(WrSession *session)
     const int64_t shared = wr_mesh_texels_shared(session->mesh_texels);
     if (shared == 0 || session->mesh_sharing_told) return;
     session->mesh_sharing_told = true;
-    wr_session_note(
-        session,
-        "texels of the stroke at several places of the mesh, whose (u,v) overlap: %lld; "
-        "they change at all of them",
-        (long long)shared);
+    wr_session_note(session,
+                    "%lld texels of the stroke belong to several places of the mesh, whose (u,v) "
+                    "overlap; all of them change",
+                    (long long)shared);
 }
 
 bool wr_painting_begin(WrSession *session, WrCall *call, WrPainting *painting, WrError *err)

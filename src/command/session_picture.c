@@ -65,9 +65,10 @@ static void session_recall_chosen(WrSession *session, const WrFrameRequest *requ
     WrSessionState *state = &session->state;
     const char *misfit = wr_chosen_recall(state->chosen, request, &session->choice);
     if (misfit && !state->misfit_reported) {
-        wr_session_note(session,
-                        "the document keeps dials that were chosen for another %s: chosen anew",
-                        misfit);
+        wr_session_note(
+            session,
+            "the dials stored in the document were chosen for another %s, and are chosen again",
+            misfit);
         state->misfit_reported = true;
     }
 }
@@ -516,15 +517,14 @@ bool wr_turntable_check(const WrTurntable *turntable, const char *path, WrError 
     const bool film = is_film(path);
     if (!film && !strchr(path, '#'))
         return wr_fail(err,
-                       "%s: the name of several frames must hold #### for the frame's number, or "
-                       "end as a film's does: gif, apng, webp or mp4",
+                       "%s: for several frames the name must contain #### for the frame number, or "
+                       "end in gif, apng, webp or mp4 for a film",
                        path);
     if (film && turntable->missing)
-        return wr_fail(err, "%s: what is missing can be told of files with ####, not of a film",
+        return wr_fail(err, "%s: missing frames can be found for files with ####, not in a film",
                        path);
     if (!film && (turntable->fps > 0 || turntable->loop >= 0))
-        return wr_fail(err, "%s: frames a second and loops are of films: gif, apng, webp, mp4",
-                       path);
+        return wr_fail(err, "%s: fps= and loop= are only for films: gif, apng, webp, mp4", path);
     return true;
 }
 
@@ -666,14 +666,13 @@ static bool make_files(Turning *turning, WrError *err)
 {
     const bool good = all_frames(turning, 1.0, err);
     if (turning->there > 0)
-        wr_session_note(turning->session, "%d of %d frames were there", turning->there,
+        wr_session_note(turning->session, "%d of %d frames already existed", turning->there,
                         turning->order->last - turning->order->first + 1);
     /* Finished frames are useful and may have taken long, so they stay. */
     if (!good && turning->written > 0)
         wr_session_note(turning->session,
-                        "%s: %d of %d frames are new, the others as they were; `wrinkle render "
-                        "--missing` draws "
-                        "what is missing",
+                        "%s: %d of %d frames are new, the others are unchanged; `wrinkle render "
+                        "--missing` renders the missing ones",
                         turning->path, turning->written,
                         turning->order->last - turning->order->first + 1);
     return good;

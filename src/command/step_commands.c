@@ -199,10 +199,11 @@ static bool check_kept(const WrSession *session, int first, WrError *err)
 {
     const int oldest = wr_session_history_oldest(session);
     if (first >= oldest) return true;
-    return wr_fail(err,
-                   "step %d: the state before it was given up to keep the history in its budget; "
-                   "%d is the first that can be changed (`history budget=` allows more memory)",
-                   first + 1, oldest + 1);
+    return wr_fail(
+        err,
+        "step %d: the state before it was dropped to stay within the memory limit of the history; "
+        "%d is the first that can be changed (`history budget=` raises the limit)",
+        first + 1, oldest + 1);
 }
 
 static bool check_step(const WrSession *session, int step, WrError *err)
@@ -238,14 +239,14 @@ static char *changed_line(const char *line, const WrCall *call, WrError *err)
     WrText text = { 0 };
     char *out = NULL;
     if (!change == !other) {
-        wr_fail(err, "must have line= or change=");
+        wr_fail(err, "give line= or change=");
         return NULL;
     }
     bool good = wr_call_parse(other ? other : line, false, &step, err) &&
                 (!change || wr_call_change(step, change, err));
     const WrCommandClass kind = good && step->command ? wr_call_class(step) : WR_CLASS_OUTPUT;
     if (good && kind != WR_CLASS_EDIT && kind != WR_CLASS_SCENE)
-        good = wr_fail(err, "line=: a step is an edit or a command of the scene");
+        good = wr_fail(err, "line=: must be an edit or a command of the scene");
     if (good) wr_call_print(step, &text);
     if (good) out = wr_strdup(wr_text_get(&text));
     wr_text_fini(&text);
@@ -481,7 +482,7 @@ static char *macro_line(const char *line, int number, const char *values, WrErro
     bool good = wr_call_parse(line, false, &call, err);
     if (good && call->command && wr_call_class(call) > WR_CLASS_CHOICE)
         good = wr_fail(err, "%s: a macro writes no files and has no `undo`", call->command->name);
-    if (good && words && !call->command) good = wr_fail(err, "has no command that could change");
+    if (good && words && !call->command) good = wr_fail(err, "contains no command to change");
     good = good && (!words || wr_call_change(call, words, err));
     if (good) wr_call_print(call, &text);
     if (good) out = wr_strdup(wr_text_get(&text));
@@ -523,7 +524,7 @@ static bool run_macro(WrSession *session, WrCall *call, WrError *err)
     bool good = wr_session_check_sha256(call, path, err) &&
                 wr_file_read(path, MACRO_BYTES, &bytes, &length, err);
     if (good && strlen(bytes) != length) {
-        good = wr_fail(err, "a NUL byte: this is no text file");
+        good = wr_fail(err, "contains a NUL byte: not a text file");
         wr_error_prefix(err, "%s: ", name);
     }
     if (good) {

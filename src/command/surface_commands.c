@@ -83,12 +83,11 @@ static void note_needle(WrSession *session, const char *path, const WrImage *ima
     }
     const double span = (double)high - (double)low, side = fmin(shape->value[0], shape->value[1]);
     if (!(fabs(shape->value[2]) * span > 5 * side)) return;
-    wr_session_note(
-        session,
-        "%s: its values go from %g to %g, so height=%g makes a ground %g tall and %g wide; "
-        "height=%.2g makes it half as tall as wide",
-        path, (double)low, (double)high, shape->value[2], fabs(shape->value[2]) * span, side,
-        0.5 * side / span);
+    wr_session_note(session,
+                    "%s: its values are %g to %g, so height=%g makes ground %g high and %g wide; "
+                    "height=%.2g makes it half as high as wide",
+                    path, (double)low, (double)high, shape->value[2], fabs(shape->value[2]) * span,
+                    side, 0.5 * side / span);
 }
 
 /* Read the triangles of `surface terrain file=` and write notes about them; apply its layer= argument. */
@@ -124,15 +123,17 @@ static bool hide_layer(WrSession *session, int index, const WrScene *scene, cons
 {
     WrLayer *layer = &session->state.document->layers[index];
     if (scene->layer && strcmp(scene->layer, layer->name) == 0)
-        return wr_fail(err, is_mask
-                                ? "that layer is the object's table: choose another as its mask"
-                                : "that layer is the object's table: choose another as its form");
+        return wr_fail(
+            err,
+            is_mask
+                ? "that layer is the object's table: choose another layer as its mask"
+                : "that layer already is this object's height map: choose another for the terrain");
     if (before && strcmp(before, layer->name) == 0) return true;
     if (!layer->visible) return true;
     layer->visible = false;
     wr_session_note(session,
-                    is_mask ? "layer %d is hidden: it is a mask now, and no bump"
-                            : "layer %d is hidden: it is the ground now, and no bump",
+                    is_mask ? "layer %d was hidden: it is now a mask, not relief"
+                            : "layer %d was hidden: it is now the terrain's height map, not relief",
                     index + 1);
     return true;
 }
@@ -146,8 +147,7 @@ static bool terrain_take_layer(WrSession *session, WrCall *call, WrScene *scene,
 {
     const char *word = wr_call_arg(call, "layer")->text, *name = word;
     int index;
-    if (wr_call_given(call, "file"))
-        return wr_fail(err, "file= and layer= do not go together: the form is of one of them");
+    if (wr_call_given(call, "file")) return wr_fail(err, "give file= or layer=, not both");
     if (!session->loading) {
         if (!wr_session_find_layer(session, word, &index, err) ||
             !hide_layer(session, index, scene, session->state.document->scene->form_layer, false,
@@ -329,11 +329,10 @@ static void note_bad_uv(WrSession *session, const char *path, const WrMesh *mesh
 {
     const double *at = mesh->bad_uv_at;
     if (mesh->bad_uv > 0)
-        wr_session_note(
-            session,
-            "%s: points with texture coordinates that are no numbers, or beyond 1e6: %d, "
-            "the first at %.6g,%.6g,%.6g: their triangles have none",
-            path, (int)mesh->bad_uv, at[0], at[1], at[2]);
+        wr_session_note(session,
+                        "%s: points with texture coordinates that are not numbers, or beyond 1e6: "
+                        "%d, the first at %.6g,%.6g,%.6g; their triangles have no relief",
+                        path, (int)mesh->bad_uv, at[0], at[1], at[2]);
 }
 
 WrTriangles *wr_session_read_mesh(WrSession *session, const char *path, const double *about,
@@ -533,7 +532,7 @@ static void note_tiles(WrSession *session, const WrScene *scene)
     WrUvTiles tiles = wr_uv_tiles(wr_scene_mesh_source(scene));
     WrText text = { 0 };
     if (tiles.count > 1 || udim) {
-        wr_message_addf(&text, "UDIM tiles, with triangles: ");
+        wr_message_addf(&text, "UDIM tiles and their triangles: ");
         wr_uv_tiles_print(&tiles, &text);
         if (tiles.crossing)
             wr_message_addf(&text, "; triangles across their borders: %d", (int)tiles.crossing);
@@ -542,8 +541,8 @@ static void note_tiles(WrSession *session, const WrScene *scene)
                             "; triangles outside UDIM, which has u of 0 to 10 and v from 0: %d",
                             (int)tiles.outside);
         if (udim)
-            wr_message_addf(&text, "; the table is that of %d, the others have no relief", udim);
-        else wr_message_addf(&text, "; the table repeats on all: udim= shows it on one");
+            wr_message_addf(&text, "; tile %d shows the table, the others have no relief", udim);
+        else wr_message_addf(&text, "; all tiles show the table: udim= chooses one");
         wr_session_note(session, "%s", wr_text_get(&text));
     }
     wr_text_fini(&text);
@@ -612,7 +611,7 @@ static bool take_projection(const WrCall *call, WrProjection *to, WrError *err)
     if (wr_call_given(call, "udim")) to->udim = udim_of(call);
     else if (to->kind != WR_PROJECTION_UV) to->udim = 0;
     if (to->udim && to->kind != WR_PROJECTION_UV)
-        return wr_fail(err, "udim=%d: a projection makes no tiles; the file's own (u,v) have them",
+        return wr_fail(err, "udim=%d: needs projection=uv: only the file's own (u,v) have tiles",
                        to->udim);
     if (!take_masks(call, to, err)) return false;
     drop_unused(to);
@@ -624,7 +623,7 @@ static bool reuse_mesh(const WrSession *session, WrScene *scene, WrError *err)
 {
     const WrScene *before = session->state.document->scene;
     if (!before->triangles || before->shape.kind != WR_SURFACE_mesh)
-        return wr_fail(err, "a projection belongs to a file=: the object has no mesh yet");
+        return wr_fail(err, "settings of the projection need file=: the object has no mesh yet");
     const WrTriangles *source = wr_scene_mesh_source(before);
     wr_scene_set_triangles(scene, wr_triangles_share(source), before->triangles_path,
                            before->triangles_sha256);
@@ -649,8 +648,8 @@ static bool take_mask_layer(WrSession *session, const WrCall *call, WrScene *sce
     }
     if (!wr_scene_mesh_source(scene)->mapped)
         return wr_fail(err,
-                       "mask=%s: the mesh has no texture coordinates of its own, in which a layer "
-                       "is painted; unwrap it in a modelling program, or use facing= or materials=",
+                       "mask=%s: the mesh has no texture coordinates of its own; unwrap it in a "
+                       "modelling program, or use facing= or materials=",
                        word);
     if (!wr_session_find_layer(session, word, &index, err) ||
         !hide_layer(session, index, scene, session->state.document->scene->mask_layer, true, err))
@@ -665,9 +664,8 @@ static void add_rounded(WrText *text, const WrScene *scene)
 {
     const WrTrianglesReport *file = &wr_scene_mesh_source(scene)->report;
     if (scene->projection.crease_deg >= WR_CREASE_NONE && file->no_normal + file->bad_normal > 0)
-        wr_message_addf(text,
-                        "; the file has no normals, so that edges are rounded: crease=30 makes "
-                        "normals that keep edges above 30 degrees sharp");
+        wr_message_addf(text, "; the file has no normals, so edges look rounded: crease=30 "
+                              "computes normals that keep edges above 30 degrees sharp");
 }
 
 static bool note_projection(WrSession *session, const WrScene *scene, WrError *err)
@@ -742,7 +740,7 @@ static WrTriangles *find_mesh(WrSession *session, WrCall *call, const WrShape *s
         const int object = session->state.document->scene->chosen;
         if (session->embedded_mesh)
             return wr_scene_mesh_from_image(session->embedded_mesh, object, err);
-        wr_fail(err, "the document names the mesh %s but does not hold it", name);
+        wr_fail(err, "the document refers to the mesh %s but does not contain it", name);
         return NULL;
     }
     char *path = wr_session_input_path(session, name);
@@ -778,7 +776,7 @@ static bool run_table(const WrSession *session, const WrCall *call, WrScene *sce
     const WrScene *before = session->state.document->scene;
     const WrPatches *set = before->triangles ? before->triangles->patches : NULL;
     if (!set || before->shape.kind != WR_SURFACE_patches)
-        return wr_fail(err, "table= belongs to a file=: the object has no patches yet");
+        return wr_fail(err, "table= needs file=: the object has no patches yet");
     float(*points)[48] = wr_alloc((size_t)set->count, sizeof *points);
     for (int32_t i = 0; i < set->count; i++)
         memcpy(points[i], set->patch[i].point, sizeof points[i]);
@@ -798,7 +796,7 @@ static bool run_mesh(WrSession *session, WrCall *call, WrScene *scene, WrError *
     if (scene->shape.kind == WR_SURFACE_terrain && terrain_names_layer(call))
         return terrain_take_layer(session, call, scene, err);
     if (!wr_call_given(call, "file")) {
-        if (wr_call_given(call, "sha256")) return wr_fail(err, "sha256= belongs to a file=");
+        if (wr_call_given(call, "sha256")) return wr_fail(err, "sha256= needs file=");
         if (scene->shape.kind == WR_SURFACE_mesh && names_projection(call))
             return reuse_mesh(session, scene, err) && run_projection(session, call, scene, err);
         const bool table = scene->shape.kind == WR_SURFACE_patches && wr_call_given(call, "table");
@@ -1085,18 +1083,16 @@ static void warn_seam(WrSession *session, const WrScene *scene)
     double u = scene->replicate_u, v = scene->replicate_v;
     if ((info->closed_u && u != floor(u)) || (info->closed_v && v != floor(v)))
         wr_session_note(
-            session,
-            "replicate %g,%g leaves a seam on the %s, which is closed: whole numbers do not", u, v,
-            info->name);
+            session, "replicate %g,%g leaves a seam on the %s, which is closed: use whole numbers",
+            u, v, info->name);
     if (!scene->triangles || scene->projection.kind < WR_PROJECTION_CYLINDRICAL) return;
     double radius;
     const int round = wr_projection_round(scene->mesh_source, &scene->projection, &radius);
     if (round * u != floor(round * u))
-        wr_session_note(
-            session,
-            "replicate %g,%g leaves a seam on the mesh, which has %d cells round: whole "
-            "numbers do not",
-            u, v, round);
+        wr_session_note(session,
+                        "replicate %g,%g leaves a seam on the mesh, which has %d cells around it: "
+                        "use whole numbers",
+                        u, v, round);
 }
 
 /* Compile a surface's texts; *made stays NULL without texts. */
@@ -1160,7 +1156,7 @@ static bool rotate_as_edit(const WrCall *call, WrText *text)
 static bool run_rotate(WrSession *session, WrCall *call, WrError *err)
 {
     bool own = wr_call_given(call, "pose"), turned = wr_call_given(call, "x,y,z");
-    if (own == turned) return wr_fail(err, "needs one of x,y,z and pose=own");
+    if (own == turned) return wr_fail(err, "give x,y,z or pose=own, not both");
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     scene->posed = turned;
     scene->rotate_deg = (WrVec3){ 0 };

@@ -219,7 +219,7 @@ static void note_range(WrSession *session, const WrImage *image, const char *pat
     const WrImageLabel *label = &image->label;
     const double last = wr_pixel_type_max(image->type);
     wr_session_note(session,
-                    "%s: its label tells that codes 0 to %g are heights %g to %g: so they are read "
+                    "%s: by its metadata, codes 0 to %g are heights %g to %g, and are read as such "
                     "(labels=ignore reads 0 to 1)",
                     path, last, label->low - label->step * label->zero,
                     label->low + label->step * (last - label->zero));
@@ -231,12 +231,12 @@ WrField *wr_session_heights_of(WrSession *session, WrImageRows *rows, const char
     const WrImage *image = wr_image_rows_head(rows);
     const WrImageLabel *label = &image->label;
     if (labels && label->refused[0])
-        wr_session_note(session, "%s: its label %s makes no sense and is not used", path,
+        wr_session_note(session, "%s: its metadata %s is invalid and not used", path,
                         label->refused);
     if (labels && label->kind >= WR_LABEL_NORMAL_UP) {
         wr_session_note(session,
-                        "%s: its label tells that it holds %s: read as the heights that have "
-                        "them (labels=ignore reads its luma)",
+                        "%s: by its metadata it contains %s: read as the heights that have them "
+                        "(labels=ignore reads its luma)",
                         path,
                         label->kind == WR_LABEL_SLOPES ? "slopes" : "normals, being a normal map");
         return heights_of_map(session, label, path, like, err);
@@ -270,8 +270,8 @@ static void take_cell(WrSession *session, const WrImageLabel *label, const char 
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     scene->cell = cell;
     wr_session_replace_scene(session, scene);
-    wr_session_note(session, "%s: its label tells that the cell is %g x %g %s: so it is taken",
-                    path, cell.w, cell.h, cell.mm ? "mm" : "scene units");
+    wr_session_note(session, "%s: by its metadata the cell is %g x %g %s, which is used", path,
+                    cell.w, cell.h, cell.mm ? "mm" : "scene units");
 }
 
 static bool run_image(WrSession *session, WrCall *call, WrError *err)

@@ -113,7 +113,7 @@ static WrImage *find_laid(WrSession *session, WrCall *call, const char *name, in
         const int object = session->state.document->scene->chosen;
         const WrImage *held = session->embedded ? session->embedded[object][which] : NULL;
         if (held) return wr_image_share(held);
-        wr_fail(err, "the document names the picture %s but does not hold it", name);
+        wr_fail(err, "the document refers to the picture %s but does not contain it", name);
         return NULL;
     }
     char *path = wr_session_input_path(session, name);
@@ -328,9 +328,10 @@ static bool take_normals(WrSession *session, WrCall *call, const char *name, WrN
 {
     const bool object = wr_call_choice(call, "space") == 1;
     if (object && wr_call_given(call, "channels"))
-        return wr_fail(err, "channels= is of space=tangent: the object's axes take all three");
+        return wr_fail(
+            err, "channels= needs space=tangent; object-space maps always use three channels");
     if (object && wr_call_given(call, "frame"))
-        return wr_fail(err, "frame= is of space=tangent: the object's axes are their own");
+        return wr_fail(err, "frame= needs space=tangent; object-space maps have no tangent frame");
     WrImage *file = find_laid(session, call, name, WR_OBJECT_NORMALS, err), *image = NULL;
     map->object = object;
     map->frame = WR_FRAME_AUTO;
@@ -356,8 +357,7 @@ static bool change_green(const WrCall *call, WrNormalMap *map, WrError *err)
 {
     const int green = wr_call_choice(call, "green");
     if (!wr_call_given(call, "green")) return true;
-    if (green == WR_GREEN_AUTO)
-        return wr_fail(err, "green=auto: only a line that names a file takes it");
+    if (green == WR_GREEN_AUTO) return wr_fail(err, "green=auto: needs a file");
     if ((green == WR_GREEN_DOWN) == map->green_down) return true;
     WrImage *turned = wr_normal_map_turned(map->image, err);
     if (!turned) return false;
@@ -378,7 +378,8 @@ static bool change_space(WrSession *session, const WrCall *call, WrNormalMap *ma
         object ? wr_image_share(map->image) : wr_normal_map_raised(map->image, &away, err);
     if (!taken) return false;
     if (!object && away)
-        wr_session_note(session, "%lld texels that look away were brought to the horizon",
+        wr_session_note(session,
+                        "%lld normals that point below the surface were clamped to the horizon",
                         (long long)away);
     wr_image_free(map->image);
     map->image = taken;
@@ -395,7 +396,7 @@ static bool change_normals(WrSession *session, const WrCall *call, WrNormalMap *
     if (!refuse_without(call, of_file, "only a line that names a file takes", err)) return false;
     if (!change_green(call, map, err) || !change_space(session, call, map, err)) return false;
     if (map->object && wr_call_given(call, "frame"))
-        return wr_fail(err, "frame=: this map is of the object's axes");
+        return wr_fail(err, "frame=: this is an object-space map, which has no tangent frame");
     take_repeat(call, &map->laid);
     return true;
 }
@@ -855,7 +856,7 @@ static void print_gltf(const WrScene *scene, WrText *text)
 static bool run_gltf(WrSession *session, WrCall *call, WrError *err)
 {
     WrGltfMaterial look;
-    if (session->loading) return wr_fail(err, "gltf is no command of a document: it opens files");
+    if (session->loading) return wr_fail(err, "gltf cannot be in a document: it opens files");
     const char *name = wr_call_arg(call, "FILE")->text;
     const char *part = wr_call_given(call, "part") ? wr_call_arg(call, "part")->text : NULL;
     char *path = wr_session_input_path(session, name);
@@ -1016,7 +1017,7 @@ static bool take_stops(const WrArg *list, WrHeightColormap *to, WrError *err)
     for (int i = 0; i < list->rows; i++) {
         const double *row = list->numbers + 4 * (size_t)i;
         if (i > 0 && row[0] < row[-4])
-            return wr_fail(err, "stop %d is at %g, under the one before it: they must rise", i + 1,
+            return wr_fail(err, "stop %d is at %g, below the one before it: stops must rise", i + 1,
                            row[0]);
         to->stops[i] = (WrStop){ row[0], { row[1], row[2], row[3] } };
     }

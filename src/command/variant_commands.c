@@ -204,7 +204,7 @@ static void set_in_use(WrDocument *document, const char *variant)
 static void note_plain(WrSession *session, int index, const char *part)
 {
     WrText name = { 0 };
-    wr_session_note(session, "%s has no %s any more: that of the variant is left out",
+    wr_session_note(session, "%s no longer has a %s: the one in the variant is left out",
                     wr_session_layer_name(session, index, &name), part);
     wr_text_fini(&name);
 }
@@ -256,13 +256,13 @@ static void hide_later_layers(WrSession *session, const char *variant)
     }
     if (hidden == 1)
         wr_session_note(session,
-                        "1 layer was added after variant \"%s\" was stored: it is hidden; show it "
-                        "and run `variant set` to keep it in the variant",
+                        "1 layer was added after variant \"%s\" was stored, and is hidden; show it "
+                        "and run `variant set` to store it in the variant",
                         variant);
     else if (hidden > 1)
         wr_session_note(session,
-                        "%d layers were added after variant \"%s\" was stored: they are hidden; "
-                        "show them and run `variant set` to keep them in the variant",
+                        "%d layers were added after variant \"%s\" was stored, and are hidden; "
+                        "show them and run `variant set` to store them in the variant",
                         hidden, variant);
 }
 
@@ -297,15 +297,15 @@ static bool find(const WrDocument *document, const char *name, int *index, WrErr
 {
     char excerpt[WR_EXCERPT_SIZE];
     *index = wr_variant_find(document, name);
-    return *index >= 0 || wr_fail(err, "no variant is called \"%s\": `variant add` makes one",
-                                  wr_excerpt(name, excerpt));
+    return *index >= 0 ||
+           wr_fail(err, "no variant \"%s\": `variant add` stores one", wr_excerpt(name, excerpt));
 }
 
 static bool check_new(const WrDocument *document, const char *name, WrError *err)
 {
     char excerpt[WR_EXCERPT_SIZE];
     if (wr_variant_find(document, name) < 0) return true;
-    return wr_fail(err, "a variant is called \"%s\" already: choose another name",
+    return wr_fail(err, "a variant \"%s\" already exists: choose another name",
                    wr_excerpt(name, excerpt));
 }
 
@@ -336,7 +336,7 @@ static bool variant_set(WrSession *session, const WrCall *call, WrError *err)
     int index;
     const char *name = wr_call_arg(call, "NAME")->text;
     if (!name) name = document->variant;
-    if (!name) return wr_fail(err, "no variant is in use: say which");
+    if (!name) return wr_fail(err, "no variant is in use: give its name");
     if (!find(document, name, &index, err)) return false;
     store(document, name);
     if (name != document->variant) set_in_use(document, name);
@@ -482,14 +482,14 @@ static bool check_files(const WrDocument *document, const char *path, WrError *e
 {
     WR_ARRAY(char *) files = { 0 };
     bool good = wr_variant_count(document) > 0 ||
-                wr_fail(err, "%s: the document has no variants: `variant add` makes one", path);
+                wr_fail(err, "%s: the document has no variants: `variant add` stores one", path);
     char name[WR_VARIANT_NAME_MAX + 1];
     for (int k = 0; k < wr_variant_count(document); k++) {
         wr_variant_name(document, k, name);
         char *file = wr_variant_fill(path, name);
         for (int i = 0; i < files.count && good; i++)
             if (strcmp(files.data[i], file) == 0)
-                good = wr_fail(err, "%s: two variants would write it: rename one", file);
+                good = wr_fail(err, "%s: two variants would write this file: rename one", file);
         wr_array_push(&files, file);
     }
     for (int i = 0; i < files.count; i++) wr_free(files.data[i]);

@@ -657,8 +657,7 @@ static const WrField *filtered(Stage *stage, const WrLayer *layer, const WrField
     WrField *made = wr_op_run(filter->op, in, filter->param, &options, &err);
     if (!made && !wr_progress_stopped())
         wr_fail(&lack,
-                "the filter layer '%.60s' cannot be carried out (%.120s): hide it, or have "
-                "less open",
+                "the filter layer '%.60s' cannot be computed (%.120s): hide it, or free memory",
                 layer->name, err.text);
     if (!made) return in;
     note_time(layer, began, in, made);

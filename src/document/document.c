@@ -227,7 +227,8 @@ bool wr_document_check_groups(const WrDocument *document, WrError *err)
             return wr_fail(err, "layer %d is in %d groups: up to %d can be nested", i + 1,
                            layer->depth + layer->is_group, WR_DEPTH_MAX);
         if (layer->depth > most)
-            return wr_fail(err, "layer %d is %d groups deep, where %d are open: a group is missing",
+            return wr_fail(err,
+                           "layer %d is %d groups deep, but only %d are open: a group is missing",
                            i + 1, layer->depth, most);
         if (layer->is_group && (layer->filter.op || layer->line))
             return wr_fail(err, "layer %d is a group and a filter or generator layer", i + 1);

@@ -654,7 +654,7 @@ static bool find_parts(Loading *in, WrError *err)
         if (place_part(in, part.name, i)) {
             if (!check_part(in, i, err)) return false;
         } else if (!in->newer) {
-            return wr_fail(err, "%s: damaged: part '%.60s' has no place in a document", in->path,
+            return wr_fail(err, "%s: damaged: part '%.60s' does not belong in a document", in->path,
                            part.name);
         }
     }

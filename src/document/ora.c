@@ -364,7 +364,7 @@ static bool place_row(const Loading *in, const WrOraLayer *layer, const WrImage 
    them: 16 bits at most remain of the heights. */
 static bool read_preview(Loading *in, const WrOraLayer *from, WrLayer *layer, WrError *err)
 {
-    if (!from->src) return wr_fail(err, "%s: damaged: a layer of it names no picture", in->path);
+    if (!from->src) return wr_fail(err, "%s: damaged: a layer has no picture", in->path);
     WrImage *image = read_picture(in, from->src, err);
     if (!image) return false;
     size_t width = (size_t)in->stack.width, count = width * WR_TILE;
@@ -462,7 +462,7 @@ static bool read_settings(Loading *in, const WrOraLayer *from, WrLayer *layer, W
         if (blend < 0 && in->newer)
             note(in, layer->name, "its blend mode is not known here: replace");
         else if (blend < 0)
-            return wr_fail(err, "%s: damaged: blend mode '%.40s' of layer '%.80s' is not known",
+            return wr_fail(err, "%s: damaged: unknown blend mode '%.40s' of layer '%.80s'",
                            in->path, from->blend, layer->name);
         else layer->blend = (WrBlend)blend;
     }
@@ -612,7 +612,7 @@ static bool read_scene(Loading *in, WrLoaded *loaded, WrError *err)
                               err))
         return false;
     else if (strlen(loaded->scene_text) != length)
-        return wr_fail(err, "%s: damaged: its scene is no text", in->path);
+        return wr_fail(err, "%s: damaged: its scene is not text", in->path);
     if (in->stack.mesh && !(loaded->mesh = read_picture(in, in->stack.mesh, err))) return false;
     for (int i = 0; i < WR_OBJECTS_MAX; i++)
         for (int k = 0; k < WR_OBJECT_PICTURES; k++)

@@ -73,7 +73,7 @@ static bool check_entry(WrOraZip *zip, const char *name, size_t most, const zip_
     const zip_uint64_t needed =
         ZIP_STAT_SIZE | ZIP_STAT_COMP_SIZE | ZIP_STAT_COMP_METHOD | ZIP_STAT_ENCRYPTION_METHOD;
     if ((is->valid & needed) != needed)
-        return wr_fail(err, "%s: damaged: nothing is known of %.80s in it", zip->path, name);
+        return wr_fail(err, "%s: damaged: %.80s in it is unknown", zip->path, name);
     if (is->encryption_method != ZIP_EM_NONE)
         return wr_fail(err, "%s: %.80s in it is encrypted", zip->path, name);
     if (is->comp_method != ZIP_CM_STORE && is->comp_method != ZIP_CM_DEFLATE)
@@ -84,8 +84,8 @@ static bool check_entry(WrOraZip *zip, const char *name, size_t most, const zip_
         return wr_fail(err, "%s: %.80s in it has %.1f MB; %.1f MB is the limit", zip->path, name,
                        (double)is->size / 1e6, (double)most / 1e6);
     if (is->size > RATIO_FREE && is->size / RATIO_MAX > is->comp_size)
-        return wr_fail(err, "%s: %.80s in it grows from %llu bytes to %.1f MB: hostile", zip->path,
-                       name, (unsigned long long)is->comp_size, (double)is->size / 1e6);
+        return wr_fail(err, "%s: %.80s in it unpacks from %llu bytes to %.1f MB: hostile",
+                       zip->path, name, (unsigned long long)is->comp_size, (double)is->size / 1e6);
     if (is->size > TOTAL_MAX - zip->total)
         return wr_fail(err, "%s: its files have more than %.0f MB in all", zip->path,
                        (double)TOTAL_MAX / 1e6);
@@ -116,8 +116,7 @@ bool wr_ora_zip_read(WrOraZip *zip, const char *name, size_t most, char **bytes,
     if (n != 0 || have != is.size) {
         wr_free(block);
         if (wr_progress_stopped()) return wr_fail(err, "cancelled");
-        return wr_fail(err, "%s: %.80s in it cannot be read whole, truncated or damaged", zip->path,
-                       name);
+        return wr_fail(err, "%s: %.80s in it is truncated or damaged", zip->path, name);
     }
     *bytes = block;
     *length = have;
@@ -508,7 +507,7 @@ bool wr_ora_stack_read(const char *xml, size_t length, WrOraStack *stack, WrErro
     bool good = XML_Parse(reading->parser, xml, (int)length, 1) == XML_STATUS_OK;
     if (reading->err.text[0]) good = wr_fail(err, "%s", wr_error_message(&reading->err));
     else if (!good)
-        wr_fail(err, "damaged: its list of layers, line %lu: %s",
+        wr_fail(err, "damaged list of layers, line %lu: %s",
                 (unsigned long)XML_GetCurrentLineNumber(reading->parser),
                 XML_ErrorString(XML_GetErrorCode(reading->parser)));
     XML_ParserFree(reading->parser);

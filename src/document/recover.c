@@ -96,7 +96,7 @@ static Next next_line(Reader *reader, char **line, size_t *length, WrError *err)
         }
         if (reader->ended && have == 0) return NEXT_END;
         if (reader->ended) {
-            wr_fail(err, "torn: it has no end");
+            wr_fail(err, "truncated: it has no end");
             return NEXT_BAD;
         }
         searched = have;
@@ -241,8 +241,7 @@ static bool end_command(Collector *c, const char *text, WrError *err)
     bool hashed = strncmp(text, "ok ", 3) == 0;
     bool dropped = strcmp(text, "dropped") == 0;
     if (!dropped && !hashed && strcmp(text, "ok") != 0) return wr_fail(err, "an unknown outcome");
-    if (hashed && !wr_hash_parse(text + 3, &hash))
-        return wr_fail(err, "an outcome without its hash");
+    if (hashed && !wr_hash_parse(text + 3, &hash)) return wr_fail(err, "an outcome without a hash");
     if (!c->pending) return true; /* a stroke without samples */
     if (dropped) {
         drop(c);
@@ -257,7 +256,7 @@ static bool end_command(Collector *c, const char *text, WrError *err)
 
 static bool end_stroke(Collector *c, WrError *err)
 {
-    if (!c->drawing) return wr_fail(err, "the end of a stroke without its begin");
+    if (!c->drawing) return wr_fail(err, "the end of a stroke without a begin");
     note_hole(c);
     c->drawing = false;
     if (c->used == c->commands[c->count - 1].text + c->head) settle(c, true);
@@ -271,7 +270,7 @@ static bool take_save(Collector *c, const char *text, WrError *err)
     WrHash hash;
     strncpy(digits, text, 32);
     if (!wr_hash_parse(digits, &hash) || text[32] != ' ' || text[33] != '/')
-        return wr_fail(err, "a save without its hash or file");
+        return wr_fail(err, "a save without a hash or file");
     settle(c, true);
     c->lost = 0; /* the saved file contains all of it */
     wr_free(c->saved_path);
@@ -346,7 +345,7 @@ static bool read_header(Reader *reader, const char *path, WrJournalRead *read, W
     size_t length;
     WrJournalHeader header;
     Next next = next_line(reader, &line, &length, why);
-    if (next == NEXT_END) return wr_fail(err, "%s: empty: no journal", path);
+    if (next == NEXT_END) return wr_fail(err, "%s: empty: not a journal", path);
     if (next == NEXT_BAD && reader->end - reader->start < HEADER_MAX)
         return wr_fail(err, "%s: the journal's first line is %s", path, wr_error_message(why));
     if (next == NEXT_BAD) return wr_fail(err, "%s: not a journal of this program", path);
@@ -729,7 +728,7 @@ WrProbeEnd wr_journal_trial(WrProbeFunction function, void *ctx, double seconds,
         wr_fail(err, "it took more than %g s", seconds);
         return WR_PROBE_TIMEOUT;
     }
-    wr_fail(err, "no %s a trial: %s", result == WR_TRY_NO_PIPE ? "pipe to" : "child for",
+    wr_fail(err, "no %s a crash test: %s", result == WR_TRY_NO_PIPE ? "pipe to" : "child for",
             strerror(errno));
     return WR_PROBE_UNABLE;
 }

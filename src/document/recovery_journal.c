@@ -44,7 +44,7 @@ bool wr_journal_folder(WrText *path, WrError *err)
 /* Creates a folder and its parents, mode 0700 each; succeeds if it exists. */
 static bool journal_make_folder(const char *path, WrError *err)
 {
-    if (!*path) return wr_fail(err, "a folder without a name cannot be made");
+    if (!*path) return wr_fail(err, "a folder needs a name");
     char *part = wr_strdup(path);
     bool ok = true;
     int saved = 0;
@@ -63,7 +63,7 @@ static bool journal_make_folder(const char *path, WrError *err)
         ok = false;
         saved = ENOTDIR;
     }
-    return ok || wr_fail(err, "%s: cannot be made (%s)", path, strerror(saved));
+    return ok || wr_fail(err, "%s: cannot be created (%s)", path, strerror(saved));
 }
 
 char *wr_journal_files_folder(const char *journal_path)
@@ -276,14 +276,13 @@ static bool copy_open(int from, const char *path, const char *target, const char
     wr_path_remove(temporary);
     int to = wr_fd_open(temporary, WR_OPEN_WRITE | WR_OPEN_NEW | WR_OPEN_PRIVATE);
     bool ok = to >= 0 && copy_bytes(from, to) && wr_fd_sync(to);
-    if (!ok) wr_fail(err, "%s: no copy can be kept (%s)", path, strerror(errno));
+    if (!ok) wr_fail(err, "%s: cannot be copied (%s)", path, strerror(errno));
     if (to >= 0) wr_fd_close(to);
     *changed = ok && !content_is(temporary, sha256) && !wr_progress_stopped();
     if (*changed || (ok && wr_progress_stopped()))
-        ok = wr_fail(err, "%s: no copy can be kept: its content is not %.12s... any more", path,
-                     sha256);
+        ok = wr_fail(err, "%s: cannot be copied: its content is no longer %.12s...", path, sha256);
     if (ok && !wr_path_rename(temporary, target))
-        ok = wr_fail(err, "%s: no copy can be kept (%s)", path, strerror(errno));
+        ok = wr_fail(err, "%s: cannot be copied (%s)", path, strerror(errno));
     if (!ok) wr_path_remove(temporary);
     wr_text_fini(&half);
     return ok;
@@ -358,7 +357,7 @@ static bool journal_keep_as_named(const char *files, const char *path, WrError *
     if (ok && !wr_path_is_there(wr_text_get(&target)))
         ok = copy_named(path, wr_text_get(&target), hex, err);
     else if (ok && !content_is(wr_text_get(&target), hex))
-        ok = wr_fail(err, "%s: no copy can be kept: another file of that name is", path);
+        ok = wr_fail(err, "%s: cannot be copied: another file of that name is kept", path);
     if (ok) journal_sync_path(files, NULL);
     wr_text_fini(&target);
     return ok;
@@ -386,7 +385,7 @@ bool wr_journal_find_input_copy(const char *journal_path, const char *sha256, co
     wr_folder_close(dir);
     bool ok = best.length > 0;
     if (ok) wr_text_addf(path, "%s/%s", files, wr_text_get(&best));
-    else wr_fail(err, "%s: keeps no copy of the file with SHA-256 %.12s...", journal_path, sha256);
+    else wr_fail(err, "%s: has no copy of the file with SHA-256 %.12s...", journal_path, sha256);
     wr_free(files);
     wr_text_fini(&name);
     wr_text_fini(&best);
@@ -648,7 +647,7 @@ static char *absolute_path(const char *path)
 bool wr_journal_saved(WrJournal *journal, const char *path, const WrHash *hash, WrError *err)
 {
     if (journal->open != OPEN_NOTHING)
-        return wr_fail(err, "no save can be noted while a command is under way");
+        return wr_fail(err, "a save cannot be recorded while a command runs");
     char digits[33], *absolute = absolute_path(path);
     WrText text = { 0 };
     wr_hash_print(*hash, digits);
@@ -834,7 +833,7 @@ WrJournal *wr_journal_begin(const WrJournalOptions *options, const WrJournalStar
 bool wr_journal_restart(WrJournal *journal, const WrJournalStart *start, WrError *err)
 {
     if (journal->open != OPEN_NOTHING)
-        return wr_fail(err, "the journal cannot restart while a command is under way");
+        return wr_fail(err, "the journal cannot restart while a command runs");
     bool was_broken = journal->broken;
     if (!start_file(journal, start, err)) return false;
     const char *slash = start->snapshot ? strrchr(start->snapshot, '/') : NULL;

@@ -226,7 +226,7 @@ bool wr_journal_parse_header(char *line, size_t length, WrJournalHeader *out, Wr
         !check_body(line + rest, length - rest, &made))
         return wr_fail(err, "the journal's first line is damaged");
     if (!parse_words(line + rest + body, length - rest - body, out))
-        return wr_fail(err, "the journal's first line makes no sense");
+        return wr_fail(err, "the journal's first line is invalid");
     *seal = made;
     return true;
 }
@@ -268,14 +268,14 @@ bool wr_journal_parse_line(char *line, size_t length, WrJournalSeal *seal, uint6
     uint64_t number;
     size_t body = HASH_DIGITS + 1;
     if (!check_body(line, length, seal))
-        return wr_fail(err, "its checksum does not fit: the line is damaged");
+        return wr_fail(err, "its checksum is wrong: the line is damaged");
     size_t skip = parse_sequence(line + body, length - body, &number);
     if (!skip) return wr_fail(err, "a line without its number");
     skip += body; /* "17 c " */
     if (!strchr("cdbsengv", line[skip - 2]) || !line[skip - 2])
         return wr_fail(err, "a line of an unknown kind");
     if (memchr(line + skip, '\0', length - skip) || !escapes_are_good(line + skip, length - skip))
-        return wr_fail(err, "a line that makes no sense");
+        return wr_fail(err, "an invalid line");
     *sequence = number;
     *kind = line[skip - 2];
     *payload = line + skip;

@@ -163,9 +163,8 @@ bool wr_export_baked_make(WrExportJob *job, WrError *err)
                        "file=FILE`)",
                        wr_surfaces[scene->shape.kind]->name);
     if (scene->triangles && !scene->triangles->mapped)
-        return wr_fail(err,
-                       "the mesh has no texture coordinates, by which maps lie on it: unwrap it in "
-                       "a modelling program and read it again");
+        return wr_fail(err, "the mesh has no texture coordinates for maps: unwrap it in a "
+                            "modelling program and read it again");
     if (scene->bump != WR_BUMP_NONE && scene->bump != WR_BUMP_BLINN)
         return wr_fail(err, "maps are baked for bump mode=blinn, or none: choose one of them");
     job->report.table_sized = job->options.map_w == 0;

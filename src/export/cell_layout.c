@@ -62,8 +62,7 @@ static WrField *from_picture(const char *path, WrError *err)
     const WrWrap v = label->wrapped && label->clamp[1] ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC;
     WrField *field = NULL;
     if (label->kind >= WR_LABEL_NORMAL_UP)
-        wr_fail(err, "%s: according to its label it holds no heights; an atlas is made of heights",
-                path);
+        wr_fail(err, "%s: by its metadata it contains no heights; an atlas needs heights", path);
     else field = wr_import_rows(rows, 0, 0, u, v, err);
     wr_image_rows_close(rows);
     return field;
@@ -74,9 +73,7 @@ static WrField *from_file(const char *path, WrError *err)
     char ending[16];
     if (wr_document_recognise(path) || wr_ora_recognise(path)) return from_document(path, err);
     if (strcmp(wr_path_ending(path, ending), "wrinkle") != 0) return from_picture(path, err);
-    wr_fail(err,
-            "%s: a script is no cell of an atlas: must be a document or a picture, as one that "
-            "the script saves",
+    wr_fail(err, "%s: a script cannot be a cell of an atlas: must be a document or a picture",
             path);
     return NULL;
 }
@@ -299,14 +296,12 @@ static bool lay_sheet(Sheet *s, WrError *err)
                        wr_lay_names[o->lay]);
     switch (o->lay) {
     case WR_LAY_HALF_DROP:
-        if (h % 2)
-            return wr_fail(err, "lay_cells=half-drop: %d rows have no half: make them even", h);
+        if (h % 2) return wr_fail(err, "lay_cells=half-drop: %d rows: must be even", h);
         o->cell_w *= 2;
         s->job->copies[0] = 2;
         return make(s, 2 * w, h, half_drop_row, err);
     case WR_LAY_BRICK:
-        if (w % 2)
-            return wr_fail(err, "lay_cells=brick: %d columns have no half: make them even", w);
+        if (w % 2) return wr_fail(err, "lay_cells=brick: %d columns: must be even", w);
         o->cell_h *= 2;
         s->job->copies[1] = 2;
         return make(s, w, 2 * h, brick_row, err);

@@ -536,7 +536,8 @@ bool wr_check_picture(const char *path, int kind, WrCoding coding, WrCheck *chec
     if (!image) return false;
     if (kind == WR_CHECK_SLOPES && image->channels != 2) {
         wr_image_free(image);
-        return wr_fail(err, "%s: slopes are two channels of floats; it has none such", path);
+        return wr_fail(err, "%s: slopes are two float channels, which this format cannot store",
+                       path);
     }
     const bool good = check_image(image, colours_of(image, kind), kind, coding, check, err);
     wr_image_free(image);

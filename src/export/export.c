@@ -144,7 +144,7 @@ static bool settle_numbers(const WrExportKind *kind, const char *path, WrExportO
     const int named = strcmp(ending, "r16") == 0 ? 16 : strcmp(ending, "r32") == 0 ? 32 : 0;
     if (options->depth == 0) options->depth = named ? named : kind->floats ? 32 : 16;
     if (options->depth == 8 || (named && options->depth != named))
-        return wr_fail(err, "%s: depth=%d: .r16 holds 16 bits, .r32 floats, .raw either", path,
+        return wr_fail(err, "%s: depth=%d: .r16 stores 16 bits, .r32 floats, .raw either", path,
                        options->depth);
     return true;
 }
@@ -167,13 +167,13 @@ static bool settle_options(const WrExportKind *kind, int channels, const WrScene
     if (options->depth == 16 && strcmp(wr_path_ending(path, ending), "exr") == 0)
         options->half = true, options->depth = 32;
     if (channels > 4 && wr_is_raw_path(path))
-        return wr_fail(err, "%s: %d channels: files of numbers hold up to 4", path, channels);
+        return wr_fail(err, "%s: %d channels: raw files store up to 4", path, channels);
     if (channels > 4 && options->depth != 32)
         return wr_fail(err,
-                       "%s of %d directions are floats, which %s does not hold: exr and tiff do",
+                       "%s of %d directions are floats, which %s cannot store: use exr or tiff",
                        kind->name, channels, path);
     if (kind->floats && options->depth != 32)
-        return wr_fail(err, "%s are floats, which %s does not hold: exr and tiff do", kind->name,
+        return wr_fail(err, "%s are floats, which %s cannot store: use exr or tiff", kind->name,
                        path);
     if (options->depth != 8 && options->depth != 16 && options->depth != 32)
         return wr_fail(err, "depth %d: must be 8, 16 or 32", options->depth);
@@ -181,7 +181,7 @@ static bool settle_options(const WrExportKind *kind, int channels, const WrScene
         !wr_image_can_write(path, wr_export_pixels(options->depth), channels, true, err))
         return false;
     if (options->dither && options->depth != 8)
-        return wr_fail(err, "dither is for 8 bits a channel; this file has %d (depth=8 writes 8)",
+        return wr_fail(err, "dither needs 8 bits per channel; this file has %d (use depth=8)",
                        options->depth);
     if (options->range == WR_EXPORT_RANGE_GIVEN &&
         !(options->low < options->high && isfinite(options->high - options->low)))
@@ -194,7 +194,7 @@ static bool settle_options(const WrExportKind *kind, int channels, const WrScene
         return wr_fail(err, "cell %g,%g: both sizes must be above 0", options->cell_w,
                        options->cell_h);
     if (options->border && options->atlas)
-        return wr_fail(err, "border=on is of one cell, an atlas holds several");
+        return wr_fail(err, "border=on is for one cell, not for an atlas");
     if (options->scheme < 0) options->scheme = (int)scene->scheme;
     if (options->scheme >= WR_SCHEME_COUNT)
         return wr_fail(err, "scheme %d: must be 0..%d", options->scheme, WR_SCHEME_COUNT - 1);

@@ -105,7 +105,7 @@ static bool waits(WrTool *tool, WrError *err)
 {
     if (wr_progress_stopped()) return wr_fail(err, "cancelled");
     if (wr_clock_seconds() - tool->since < tool->patience) return true;
-    return wr_fail(err, "ffmpeg hangs: it did nothing for %g seconds", tool->patience);
+    return wr_fail(err, "ffmpeg hangs: no progress for %g seconds", tool->patience);
 }
 
 static bool has_ended(WrTool *tool)
@@ -145,9 +145,9 @@ static bool fail_end(const WrTool *tool, WrError *err)
     complaint(tool, words);
     if (words[0]) return wr_fail(err, "ffmpeg failed: %s", words);
     if (tool->end.why == WR_CHILD_KILLED)
-        return wr_fail(err, "ffmpeg was killed, by somebody or for want of memory");
+        return wr_fail(err, "ffmpeg was killed, perhaps because memory ran out");
     if (tool->end.why == WR_CHILD_LEFT)
-        return wr_fail(err, "ffmpeg failed with status %d and does not say why", tool->end.number);
+        return wr_fail(err, "ffmpeg failed with status %d and without a message", tool->end.number);
     return wr_fail(err, "ffmpeg crashed (%s)", crash ? crash : "at its limit of time");
 }
 
@@ -280,13 +280,13 @@ static bool read_frames(WrFilm *film, WrTool *tool, WrFilmReport *report, WrErro
         if (!tool_get(tool, film->read, bytes, &got, err)) return false;
         if (got < bytes) break;
         if (frames == film->sums.count)
-            return wr_fail(err, "%d frames were handed to ffmpeg, more stand in the file", frames);
+            return wr_fail(err, "%d frames were passed to ffmpeg, but the file has more", frames);
         film_sum(film->read, film->width, film->height, film->channels, &sums);
         const double off = difference(&sums, &film->sums.data[frames]);
         report->worst = off > report->worst ? off : report->worst;
     }
     if (frames != film->sums.count || got != 0)
-        return wr_fail(err, "%d frames were handed to ffmpeg, %d stand in the file%s",
+        return wr_fail(err, "%d frames were passed to ffmpeg, but the file has %d%s",
                        film->sums.count, frames, got ? " and a piece of one" : "");
     return true;
 }
@@ -380,7 +380,7 @@ static bool compare_frame(WrFilm *film, int64_t part, int64_t of, int frame, WrF
     WrImage *image = wr_image_read_request(film->target.temporary, &wish, err);
     if (!image) return false;
     bool good = (image->width == film->width && image->height == film->height) ||
-                wr_fail(err, "frames of %dx%d were handed to ffmpeg, of %dx%d stand in the file",
+                wr_fail(err, "frames of %dx%d were passed to ffmpeg, but the file has %dx%d",
                         film->width, film->height, image->width, image->height);
     if (good) {
         take_codes(film, image);
@@ -400,13 +400,13 @@ static bool read_pieces(WrFilm *film, WrFilmReport *report, WrError *err)
     /* Each duration is rounded to whole milliseconds, and equal consecutive frames are merged: the sum is compared with the
        tolerance of one frame plus one millisecond per frame. */
     const double frame_ms = 1000.0 / film->options.fps, handed_ms = film->sums.count * frame_ms;
-    if (!pieces.whole) return wr_fail(err, "ffmpeg's file is no whole WebP file");
+    if (!pieces.whole) return wr_fail(err, "ffmpeg's file is not a complete WebP file");
     if (pieces.frames < 1 || pieces.frames > film->sums.count ||
         (pieces.milliseconds > 0.0 &&
          fabs(pieces.milliseconds - handed_ms) > frame_ms + (double)film->sums.count))
-        return wr_fail(
-            err, "%d frames, %.0f ms, were handed to ffmpeg, %lld, %.0f ms, stand in the file",
-            film->sums.count, handed_ms, (long long)pieces.frames, pieces.milliseconds);
+        return wr_fail(err,
+                       "%d frames, %.0f ms, were passed to ffmpeg, but the file has %lld, %.0f ms",
+                       film->sums.count, handed_ms, (long long)pieces.frames, pieces.milliseconds);
     /* Readers compose a transparent frame over the one before: only the first equals the original. */
     return compare_frame(film, 1, pieces.frames, 0, report, err) &&
            (film->channels == 4 ||
@@ -422,8 +422,9 @@ static bool film_check(WrFilm *film, WrFilmReport *report, WrError *err)
     report->bytes = info.bytes;
     if (!(film->kind->by_reader ? read_pieces : read_back)(film, report, err)) return false;
     if (report->worst <= film->kind->wrong) return true;
-    return wr_fail(err, "ffmpeg's file has other colours: off by %.3g codes where %g may be",
-                   report->worst, film->kind->wrong);
+    return wr_fail(
+        err, "ffmpeg's file has other colours: they differ by %.3g codes, at most %g are expected",
+        report->worst, film->kind->wrong);
 }
 
 #define PATIENCE 300.0 /* seconds: one frame of the largest size needs that order of time */
@@ -506,11 +507,11 @@ static bool check(const char *path, const WrFilmKind *kind, const WrFilmOptions 
         return wr_fail(err, "%s: fps %g: must be %g..%g frames a second of %s", path, o->fps,
                        LEAST_FPS, kind->most_fps, kind->name);
     if (o->loop < 0 || o->loop > 65535)
-        return wr_fail(err, "%s: loop %d: must be how often it is played, 0 (for ever) to 65535",
+        return wr_fail(err, "%s: loop %d: must be the number of repetitions, 0 (endless) to 65535",
                        path, o->loop);
     if (o->loop != 0 && !kind->loops)
-        return wr_fail(err, "%s: loop %d: %s does not say how often it is played", path, o->loop,
-                       kind->name);
+        return wr_fail(err, "%s: loop %d: %s files do not store a number of repetitions", path,
+                       o->loop, kind->name);
     if (o->width < 1 || o->height < 1 || o->width > kind->most_side || o->height > kind->most_side)
         return wr_fail(err, "%s: %dx%d: %s holds 1 to %d pixels each way", path, o->width,
                        o->height, kind->name, kind->most_side);
@@ -612,7 +613,7 @@ static bool allocate(WrFilm *film, WrError *err)
     }
     film->read = wr_try_alloc(bytes, 1, "a frame", err);
     if (film->read && !wr_spool_open(&film->spool))
-        return wr_fail(err, "a film: no memory file can be had (%s)", strerror(errno));
+        return wr_fail(err, "a film: no memory file can be created (%s)", strerror(errno));
     return film->read != NULL;
 }
 
@@ -687,7 +688,7 @@ static bool finish(WrFilm *film, WrFilmReport *report, WrError *err)
     *report = (WrFilmReport){
         .kind = film->kind, .width = film->width, .height = film->height, .frames = film->sums.count
     };
-    if (film->sums.count == 0) return wr_fail(err, "a film needs a frame");
+    if (film->sums.count == 0) return wr_fail(err, "a film needs at least one frame");
     if (!tool_finish(&film->tool, err)) return false;
     tool_drop(&film->tool);
     return pass_on(film, true, err) && film_check(film, report, err);

@@ -119,7 +119,7 @@ static bool set_relief(WrExportOptions *options, const char *value, WrError *err
     double relief = 0.0;
     if (strcmp(value, "auto") != 0 && (!wr_number_parse(value, strlen(value), &relief) ||
                                        !(fabs(relief) <= 1e6) || relief == 0.0))
-        return wr_fail(err, "relief '%.40s': must be the height of 1 in cells, or auto", value);
+        return wr_fail(err, "relief '%.40s': must be the height of F = 1 in cells, or auto", value);
     options->relief = relief;
     return true;
 }
@@ -128,7 +128,7 @@ static bool set_pen(WrExportOptions *options, const char *value, WrError *err)
 {
     double pen;
     if (!wr_number_parse(value, strlen(value), &pen) || !(pen >= 0.1 && pen <= 20.0))
-        return wr_fail(err, "pen '%.40s': must be the breadth of lines in pixels, 0.1..20", value);
+        return wr_fail(err, "pen '%.40s': must be the line width in pixels, 0.1..20", value);
     options->pen = pen;
     return true;
 }

@@ -133,7 +133,7 @@ static bool take_file(const char *word, WrMapSetEntry *map, WrError *err)
         return wr_fail(err, "'%.80s': must be a file's name such as T_*_N.png, without a folder",
                        word);
     if (!star || strchr(star + 1, '*') || !star[1])
-        return wr_fail(err, "'%.80s': must have one *, where the cell's name comes, and an ending",
+        return wr_fail(err, "'%.80s': must have one *, for the cell's name, and an extension",
                        word);
     map->before = wr_strndup(word, (size_t)(star - word));
     map->after = wr_strdup(star + 1);
@@ -543,10 +543,11 @@ static bool check_names(const WrMapSetRequest *order, WrError *err)
     for (const char *c = order->name; *c; c++)
         plain = plain && *c != '/' && (unsigned char)*c >= ' ' && *c != 0x7f;
     if (!plain)
-        return wr_fail(err, "name '%.60s': must be the cell's name in the files', without a folder",
+        return wr_fail(err,
+                       "name '%.60s': must be the cell's name in the file names, without a folder",
                        order->name);
     if (!wr_path_is_folder(order->folder))
-        return wr_fail(err, "%.200s: is no folder: a set is written into one that is there",
+        return wr_fail(err, "%.200s: is not a folder: a set needs an existing folder",
                        order->folder);
     if (!wr_path_can_write(order->folder) || !wr_path_can_run(order->folder))
         return wr_fail(err, "%.200s: files cannot be written there (%s)", order->folder,

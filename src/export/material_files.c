@@ -377,7 +377,7 @@ static bool mtlx_check(const Material *m, const char *path, const WrText *out, W
     (void)m;
     XML_Parser parser = XML_ParserCreate(NULL);
     const bool good = XML_Parse(parser, out->data, (int)out->length, 1) == XML_STATUS_OK;
-    if (!good) wr_fail(err, "%s: is no XML: %s", path, XML_ErrorString(XML_GetErrorCode(parser)));
+    if (!good) wr_fail(err, "%s: is not XML: %s", path, XML_ErrorString(XML_GetErrorCode(parser)));
     XML_ParserFree(parser);
     return good;
 }

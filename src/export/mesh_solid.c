@@ -242,8 +242,7 @@ bool wr_mesh_solid_make(WrExportJob *job, WrSolidBody *body, WrError *err)
     if (!ask.mesh) return wr_fail(err, "the mesh has no file: `surface mesh file=FILE` reads one");
     if (!ask.mesh->mapped)
         return wr_fail(err, "the mesh has no texture coordinates, which relief needs: `surface "
-                            "mesh projection=box` "
-                            "makes them");
+                            "mesh projection=box` computes them");
     wr_scene_stretch(job->scene, &ask.stretch, &cofactor);
     if (wr_scene_is_thin(job->scene) &&
         fmin(fabs(ask.stretch.x), fmin(fabs(ask.stretch.y), fabs(ask.stretch.z))) <= WR_THINNEST)

@@ -51,8 +51,8 @@ bool wr_export_object_check(const WrScene *scene, WrError *err)
     const WrSurfaceInfo *info = wr_surfaces[scene->shape.kind];
     if (info->faces > 1 || info->inversion == WR_INVERT_TRIANGLES)
         return wr_fail(err,
-                       "surface %s: normals along the object's axes are made of surfaces that "
-                       "(u,v) lead to a point of: not of meshes, patches, terrains, cubes",
+                       "surface %s: object-space normals need a surface with one point for each "
+                       "(u,v): no mesh, patches, terrain or cube",
                        info->name);
     return true;
 }

@@ -473,7 +473,7 @@ static bool solid_sample(WrSolid *solid, WrError *err)
     wr_mutex_fini(&work.lock);
     if (good && work.bad)
         good =
-            wr_fail(err, "the relief is too high for a solid of that size: a smaller bump height");
+            wr_fail(err, "the relief is too high for a solid of that size: reduce the bump height");
     return good;
 }
 
@@ -671,11 +671,10 @@ static bool settle(WrSolid *s, WrError *err)
     for (int32_t i = 0; i < s->relief.count; i++)
         if (!(s->relief.data[i].error <= s->worst)) s->worst = s->relief.data[i].error;
     if (s->worst <= s->error) return true;
-    return wr_fail(
-        err,
-        "error=%.6g: the relief cannot be followed so closely: the best is %.3g mm; a larger "
-        "error, or a larger size",
-        s->error, s->worst);
+    return wr_fail(err,
+                   "error=%.6g: cannot be reached: the smallest possible is %.3g mm; give a larger "
+                   "error or size",
+                   s->error, s->worst);
 }
 
 /* With more triangles than there may be: an error that needs fewer. laid: triangles before all bisections. */
@@ -721,7 +720,7 @@ typedef struct Border {
 
 static bool twice(WrError *err)
 {
-    return wr_fail(err, "the surface touches itself at its border: no body can be made of it");
+    return wr_fail(err, "the surface touches itself at its border: it cannot become a closed body");
 }
 
 /* Each border side a -> b follows its triangle's orientation, so a border point has one successor; a second one means that
@@ -893,10 +892,10 @@ static bool add_shell(WrSolid *s, int32_t *back, int32_t points, WrError *err)
         if (is_pole(t)) continue;
         if (i % 4096 == 0 && wr_progress_stopped()) return wr_fail(err, "cancelled");
         if (folds(s, t, back))
-            return wr_fail(
-                err,
-                "thickness=%.6g: more than the surface's curves leave room for: thinner, or filled",
-                s->thickness);
+            return wr_fail(err,
+                           "thickness=%.6g: too thick for the curvature of the surface: use less, "
+                           "or 0 for a solid",
+                           s->thickness);
         WrSolidLocation at[3];
         triangle_locations(t, at);
         solid_add_triangle(
@@ -946,8 +945,11 @@ static bool add_caps(WrSolid *s, const Border *border, WrError *err)
     for (int32_t i = 0; i < points; i++) same[i] = i;
     bool good = true;
     for (int l = 0; l < border->loops && good; l++)
-        good = fan(s, border, same, border->start[l]) ||
-               wr_fail(err, "an open end cannot be closed flat: thickness=MM makes a wall instead");
+        good =
+            fan(s, border, same, border->start[l]) ||
+            wr_fail(
+                err,
+                "an open end is not flat and cannot be closed: thickness=MM makes a wall instead");
     wr_free(same);
     return good;
 }
@@ -960,9 +962,8 @@ static bool check_body(const WrSolid *s, WrError *err)
         const int32_t *t = s->body.triangles[i];
         const WrVec3 n = wr_solid_body_area(&s->body, t[0], t[1], t[2]);
         if (!(v3_dot(n, n) > 0))
-            return wr_fail(
-                err, "the surface has a place without area: no body can be made of it; a larger "
-                     "error may step over it");
+            return wr_fail(err, "the surface has a place without area and cannot become a closed "
+                                "body; a larger error may avoid it");
     }
     return true;
 }
@@ -1114,8 +1115,7 @@ static bool check(const WrExportJob *job, WrError *err)
     const WrExportOptions *o = &job->options;
     if (o->solid_thickness > 0 && wr_surfaces[job->scene->shape.kind]->held)
         return wr_fail(err,
-                       "thickness=%.6g: a back is made for surfaces by formulas, not for meshes: "
-                       "leave thickness= out",
+                       "thickness=%.6g: only for parametric surfaces, not for meshes: leave it out",
                        o->solid_thickness);
     if (!(o->solid_size >= 0) || !(o->solid_error > 0) || o->solid_thickness < 0)
         return wr_fail(err, "size %g, error %g, thickness %g: must be above 0, in millimetres",
@@ -1207,8 +1207,8 @@ bool wr_export_solid_full(WrExportJob *job, double guess, WrError *err)
 {
     job->solid_guess = guess;
     return wr_fail(err,
-                   "error=%.6g mm needs more than %d triangles: a larger error, a smaller size, or "
-                   "more triangles=",
+                   "error=%.6g mm needs more than %d triangles: give a larger error, a smaller "
+                   "size, or more triangles=",
                    job->options.solid_error, job->options.solid_most);
 }
 
@@ -1240,8 +1240,8 @@ static bool name_fitting(const WrExportJob *job, WrError *err)
         wr_progress_set(whole);
         if (good)
             return wr_fail(err,
-                           "error=%.6g mm needs more than %d triangles: error=%.6g fits; or a "
-                           "smaller size, or more triangles=",
+                           "error=%.6g mm needs more than %d triangles: give error=%.6g, a smaller "
+                           "size, or more triangles=",
                            asked, job->options.solid_most, trial.options.solid_error);
         if (wr_progress_stopped()) return wr_fail(err, "cancelled");
         if (!(trial.solid_guess > 0.0)) break; /* another failure */

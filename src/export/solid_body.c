@@ -408,7 +408,7 @@ bool wr_solid_body_write(const WrSolidBody *body, const char *ending, const char
 {
     Out out = { .all = (int64_t)body->point_count + body->triangle_count };
     Write *write = format_of(ending);
-    if (!write) return wr_fail(err, "%s: no format of solids ends in .%s", path, ending);
+    if (!write) return wr_fail(err, "%s: .%s is not a format for solids", path, ending);
     if (!wr_file_begin(&out.target, path, err)) return false;
     bool good = write(body, &out, err) && flush(&out, err);
     wr_text_fini(&out.bytes);

@@ -384,8 +384,8 @@ static bool export_receipt(void *ctx, int y, int rows, const float *values, bool
     report->seen = true;
     if (!(worst <= report->worst)) report->worst = worst;
     if (!exact || receipt.bad_row == INT32_MAX) return true;
-    return wr_fail(err, "row %d is wrong by up to %.3g%s, which is more than %s", receipt.bad_row,
-                   worst, job->kind->green != 0.0 ? " degrees" : "",
+    return wr_fail(err, "row %d differs by up to %.3g%s, more than %s", receipt.bad_row, worst,
+                   job->kind->green != 0.0 ? " degrees" : "",
                    job->options.half          ? "rounding to 16-bit floats may do"
                    : job->options.depth == 32 ? "floats are wrong by"
                    : job->options.dither      ? "a dithered code may be"
@@ -407,7 +407,7 @@ static bool round_rows(const WrExportJob *job, int y, int rows, size_t row, floa
 {
     for (size_t k = 0; job->options.half && k < (size_t)rows * row; k++) {
         if (!(fabsf(values[k]) < HALF_MAX))
-            return wr_fail(err, "row %d holds %g: 16-bit floats reach to 65504; depth=32 holds it",
+            return wr_fail(err, "row %d contains %g: 16-bit floats reach only 65504; use depth=32",
                            y + (int)(k / row), (double)values[k]);
         values[k] = wr_round_half(values[k]);
     }

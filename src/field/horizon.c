@@ -274,9 +274,9 @@ static bool make_all(Making *m, WrPool *pool, WrError *err)
 {
     WrHorizon *h = m->horizon;
     if (!wr_pool_run(pool, h->directions, run_direction, m))
-        return wr_fail(err, "horizons of the table: cancelled");
+        return wr_fail(err, "horizons: cancelled");
     for (int k = 0; k < h->directions; k++) {
-        if (m->failed[k]) return wr_fail(err, "horizons of the table: not enough memory");
+        if (m->failed[k]) return wr_fail(err, "horizons: not enough memory");
         h->steepest = fmaxf(h->steepest, m->steepest[k]);
     }
     return true;

@@ -20,8 +20,8 @@ static bool check(const double *points, int count, WrError *err)
     for (int i = 1; i < count; i++) {
         const double *p = points + 2 * i - 2;
         if (!(p[2] > p[0]))
-            return wr_fail(err, "point %d at %g stands after one at %g: they must rise", i + 1,
-                           p[2], p[0]);
+            return wr_fail(err, "point %d at %g follows one at %g: points must rise", i + 1, p[2],
+                           p[0]);
         /* Two points an ulp apart with distant heights would make an infinite chord, and NaN in all products with it. */
         if (!isfinite((p[3] - p[1]) / (p[2] - p[0])))
             return wr_fail(err, "points %d and %d are too steep", i, i + 1);

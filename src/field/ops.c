@@ -52,7 +52,7 @@ static bool check_number(const WrOpInfo *op, const WrOpParam *param, double valu
     if (inside && (!param->whole || value == floor(value) || (param->share && fabs(value) < 1)))
         return true;
     if (param->choices)
-        return wr_fail(err, "%s: %s %g: must be the number of one of its words, 0..%g", op->name,
+        return wr_fail(err, "%s: %s %g: must be the number of one of its choices, 0..%g", op->name,
                        param->name, value, param->high);
     return wr_fail(err, "%s: %s %g: must be %s%s %g..%g%s%s%s", op->name, param->name, value,
                    param->whole ? "a whole number" : "a number", param->above ? " above" : ",",
@@ -90,7 +90,7 @@ bool wr_filter_check(const WrFilter *filter, WrError *err)
 {
     const WrOpInfo *op = filter->op;
     if (op->reshapes)
-        return wr_fail(err, "%s changes the table's size or edges: it cannot be a filter layer",
+        return wr_fail(err, "%s changes the table's size or edges, so it cannot be a filter layer",
                        op->name);
     /* The operation runs on a table of one texel: checks of parameters together (a curve's points must rise) are in the
        operations, and this reaches them without repeating them. */
@@ -159,7 +159,7 @@ static bool read_param(const char *at, size_t length, WrFilter *filter, WrError 
         bool good = param->choices  ? read_word(param, text, rest, &filter->param[k])
                     : param->points ? read_points(text, rest, &filter->param[k])
                                     : wr_number_parse(text, rest, &filter->param[k]);
-        return good || wr_fail(err, "%s: %s: '%.*s' is none of its values", filter->op->name,
+        return good || wr_fail(err, "%s: %s: '%.*s' is not one of its values", filter->op->name,
                                param->name, (int)(rest < 40 ? rest : 40), text);
     }
     return wr_fail(err, "%s: has no '%.*s'", filter->op->name, (int)(length < 40 ? length : 40),
@@ -516,7 +516,7 @@ static bool check_mask(const WrOpInfo *op, const WrField *in, const WrField *mas
 {
     if (!mask) return true;
     if (op->reshapes)
-        return wr_fail(err, "%s: changes the whole table: it cannot be kept to a selection",
+        return wr_fail(err, "%s: changes the whole table, so it cannot be limited to a selection",
                        op->name);
     if (wr_field_width(mask) == wr_field_width(in) && wr_field_height(mask) == wr_field_height(in))
         return true;

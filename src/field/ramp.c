@@ -145,7 +145,7 @@ WrField *wr_ramp_make(const WrField *like, const WrRamp *ramp, WrPool *pool,
                   height * (ramp->to_v - ramp->from_v) };
     r.length2 = r.u.way * r.u.way + r.v.way * r.v.way;
     if (!(r.length2 > 0.0)) {
-        wr_fail(err, "from and to are the same place, %.9g,%.9g: must be two", ramp->from_u,
+        wr_fail(err, "from and to are the same point, %.9g,%.9g: they must differ", ramp->from_u,
                 ramp->from_v);
         return NULL;
     }

@@ -249,8 +249,9 @@ WrField *wr_select_flood(const WrField *field, double u, double v, double tolera
                          WrPool *pool, const WrProgress *progress, WrError *err)
 {
     if (!isfinite(u) || !isfinite(v) || !(tolerance >= 0.0)) {
-        wr_fail(err, "flood from %.9g,%.9g within %.9g: must be a place and a height of 0 or more",
-                u, v, tolerance);
+        wr_fail(err,
+                "flood from %.9g,%.9g within %.9g: must be a point and a tolerance of 0 or more", u,
+                v, tolerance);
         return NULL;
     }
     Flood f = { .width = wr_field_width(field),

@@ -181,8 +181,8 @@ bool wr_noise_maker(const WrGenerator *row, const WrParamValue *values, int widt
     if (d.dim == 3) made.slice = wr_param_number(&d.params, "slice");
     if (d.dim == 3 && d.cells && wr_param_whole(&d.params, "source") == 1)
         return wr_fail(err,
-                       "%s %s: source=lecture with domain=slice: its random numbers have two "
-                       "coordinates at most; source must be hash, or domain another",
+                       "%s %s: source=lecture has random numbers for two coordinates at most: with "
+                       "domain=slice use source=hash",
                        row->family, row->name);
     WrOctaves octaves = octaves_of(&d, width, height);
     const int texels[WR_NOISE_AXES] = { d.dim == 1 && d.axis == 1 ? height : width, height, 0 };

@@ -286,8 +286,8 @@ static bool begin(const WrImage *image, WrNormals *out, WrError *err)
 bool wr_normals_decode(const WrImage *image, WrCoding coding, WrNormals *out, WrError *err)
 {
     if (image->channels < 2)
-        return wr_fail(err, "a normal map has 2 channels or more; this picture has 1: photo and "
-                            "elevation read heights");
+        return wr_fail(err, "a normal map has 2 channels or more; this picture has 1: read heights "
+                            "with photo or elevation");
     size_t count = (size_t)image->width * (size_t)image->height;
     WrNormals made;
     if (!begin(image, &made, err)) return false;
@@ -311,7 +311,7 @@ static bool normals_from_slopes(const WrImage *image, double right, double down,
 {
     WrNormals made;
     if (image->channels < 2)
-        return wr_fail(err, "slopes are two channels or more; this picture has one");
+        return wr_fail(err, "slopes need two channels or more; this picture has one");
     if (!begin(image, &made, err)) return false;
     const size_t count = (size_t)image->width * (size_t)image->height;
     bool going = true;

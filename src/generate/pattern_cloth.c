@@ -97,7 +97,7 @@ bool wr_pattern_weave(const WrParamValue *values, const WrGenerateJob *job, WrRe
     bool across = w.cells.across % repeat != 0;
     if (across || w.cells.rows % repeat != 0)
         return wr_fail(err,
-                       "pattern weave: %s=%d: must be a multiple of %d, or draft=%s cannot close",
+                       "pattern weave: %s=%d: must be a multiple of %d, or draft=%s does not tile",
                        across ? "across" : "rows", across ? w.cells.across : w.cells.rows, repeat,
                        drafts[w.draft]);
     return wr_pattern_make(&params, job, weave_at, &w, WR_PATTERN_SAMPLES, out, err);

@@ -86,7 +86,7 @@ bool wr_pattern_checks(const WrParamValue *values, const WrGenerateJob *job, WrR
     Lines l = { .cells = wr_cells_of(&params, job->like), .edge = wr_edge_of(&params) };
     bool odd = l.cells.across % 2 != 0;
     if (odd || l.cells.rows % 2 != 0)
-        return wr_fail(err, "pattern checks: %s=%d: must be even, or the fields cannot close",
+        return wr_fail(err, "pattern checks: %s=%d: must be even, or the fields do not tile",
                        odd ? "across" : "rows", odd ? l.cells.across : l.cells.rows);
     return wr_pattern_make(&params, job, check_at, &l, 1, out, err);
 }

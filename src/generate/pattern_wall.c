@@ -272,7 +272,7 @@ bool wr_pattern_hexagons(const WrParamValue *values, const WrGenerateJob *job, W
     int across = wr_param_whole(&params, "across"), rows = wr_param_whole(&params, "rows");
     if (rows % 2 != 0)
         return wr_fail(
-            err, "pattern hexagons: rows=%d: must be even, or the honeycomb cannot close", rows);
+            err, "pattern hexagons: rows=%d: must be even, or the honeycomb does not tile", rows);
     if (rows == 0) rows = regular_rows(job->like, across);
     Hexagons h = { .cells = wr_cell_grid_make(job->like, across, rows),
                    .joint = wr_param_number(&params, "joint") };

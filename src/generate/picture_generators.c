@@ -425,8 +425,7 @@ const WrImageLabel *wr_picture_label(const WrParams *params, const WrImage *imag
     const char *path = wr_param_value(params, "file")->text;
     if (wr_param_whole(params, "labels") == WR_LABELS_IGNORE) return NULL;
     if (label->refused[0])
-        wr_generate_note(job, "%s: its label %s makes no sense and is not used", path,
-                         label->refused);
+        wr_generate_note(job, "%s: its metadata %s is invalid and not used", path, label->refused);
     return label->kind == WR_LABEL_NONE && !label->ranged ? NULL : label;
 }
 
@@ -555,7 +554,7 @@ static bool check(const WrParams *p, const WrImage *image, const char *path, WrE
     if (!(low < high))
         return wr_fail(err, "low=%g: must be below high=%g; invert=on makes dark high", low, high);
     if (wr_param_whole(p, "channel") == ALPHA && image->channels % 2 == 1)
-        return wr_fail(err, "%s: channel=alpha: it has none", path);
+        return wr_fail(err, "%s: channel=alpha: it has no alpha channel", path);
     return true;
 }
 

@@ -217,7 +217,7 @@ static WrField *shape_of(const WrParams *p, const WrGenerateJob *job, WrError *e
     const WrField *field = of == WR_RIM_SELECTION ? job->selection : job->mask;
     if (of == WR_RIM_HEIGHTS) return above(job->like, wr_param_number(p, "level"), job, err);
     if (field) return wr_field_share(field);
-    wr_fail(err, of == WR_RIM_MASK ? "of=mask: the layer has none"
+    wr_fail(err, of == WR_RIM_MASK ? "of=mask: the layer has no mask"
                                    : "of=selection: nothing is selected");
     return NULL;
 }

@@ -294,7 +294,7 @@ static bool solid_mesh(const WrParamValue *values, const WrGenerateJob *job, WrR
         wr_try_alloc((size_t)mesh.point_count, sizeof *points, "the mesh's points", err);
     bool good = points;
     if (good && !fit(&mesh, wr_param_number(&params, "size"), points))
-        good = wr_fail(err, "%s: all its points are in one place", file);
+        good = wr_fail(err, "%s: all its points coincide", file);
     const WrSolidNet net = { .points = (const double(*)[3])points,
                              .corners = mesh.corners,
                              .point_count = mesh.point_count,
@@ -379,7 +379,7 @@ static bool cut_content(const WrSheet *whole, WrSheet *sheet, WrError *err)
             low[1] = j < low[1] ? j : low[1];
             high[1] = j;
         }
-    if (high[0] < 0) return wr_fail(err, "nothing of it is above 0");
+    if (high[0] < 0) return wr_fail(err, "all of its heights are 0 or less");
     if (!wr_sheet_init(sheet, high[0] - low[0] + 1, high[1] - low[1] + 1, whole->wrap, err))
         return false;
     for (int j = 0; j < sheet->height; j++)
@@ -427,7 +427,7 @@ static bool net_of(const WrSheet *sheet, double size, double depth, Net *net, Wr
     const double step = size / (sheet->width > sheet->height ? sheet->width : sheet->height);
     double low, high;
     wr_sheet_range(sheet, &low, &high);
-    if (!(high > 0.0)) return wr_fail(err, "nothing of it is above 0");
+    if (!(high > 0.0)) return wr_fail(err, "all of its heights are 0 or less");
     net->points = wr_try_alloc((size_t)across * (size_t)down, sizeof *net->points, "points", err);
     net->corners = net->points ? wr_try_alloc(2 * (size_t)across * (size_t)down,
                                               sizeof *net->corners, "triangles", err)
@@ -582,7 +582,7 @@ static bool read_shape(const char *text, WrShape *shape, WrError *err)
     if (length < sizeof name) memcpy(name, text, length);
     const int kind = wr_surface_find(name);
     if (kind < 0)
-        return wr_fail(err, "solid surface: shape: %.*s: is no surface",
+        return wr_fail(err, "solid surface: shape: %.*s: is not a surface",
                        (int)(length < 60 ? length : 60), text);
     wr_shape_default((WrSurfaceKind)kind, shape);
     bool good = read_words(text + length, shape, texts, err) && wr_shape_check(shape, err);
@@ -818,7 +818,7 @@ static bool outline_of(const WrParams *params, const WrGenerateJob *job, WrFontO
                 wr_font_outline(&text, &setting, CHORD, outline, err);
     if (good) report_missing(job, &text);
     if (good && outline->first.count == 0)
-        good = wr_fail(err, "solid letters: the text has nothing to be cut out");
+        good = wr_fail(err, "solid letters: the text has no visible letters");
     wr_font_text_fini(&text);
     wr_free(found);
     return good;

@@ -110,8 +110,7 @@ static bool find_groups(Grouping *g, int64_t copies, int *count, WrError *err)
         const int group = find_group(g, k);
         if (group == GROUPS)
             return wr_fail(err,
-                           "more than %d copies lie over one another at one place: join=max has no "
-                           "such limit",
+                           "more than %d copies overlap at one place: join=max has no such limit",
                            GROUPS);
         if (group + 1 > *count) *count = group + 1;
         if (k % 1024 == 0 && wr_progress_stopped()) return wr_fail(err, "cancelled");

@@ -244,7 +244,7 @@ bool wr_chance_points(double width, double height, bool wraps_u, bool wraps_v, d
     Chance c = { .size = { width, height }, .distance = distance, .wraps = { wraps_u, wraps_v } };
     const double cells = 2.0 * ceil(width / distance) * ceil(height / distance);
     if (!(cells <= CELLS_MAX / 2))
-        return wr_fail(err, "spacing=%g: too many stand so close: must be at least %.3g", distance,
+        return wr_fail(err, "spacing=%g: too many copies: must be at least %.3g", distance,
                        ceil(sqrt(4.2 * width * height / CELLS_MAX)));
     for (int a = 0; a < 2; a++) {
         c.cells[a] = (int)ceil(c.size[a] * sqrt(2.0) / distance);

@@ -112,7 +112,7 @@ static bool lay_outline(Laying *lay, WrTextShape *shape, WrError *err)
     WrField *field = field_of(lay->svg, err);
     bool good = field && wr_select_outline(field, &outline, err);
     wr_field_free(field);
-    if (good && outline.loop_count == 0) good = wr_fail(err, "nothing of it is drawn");
+    if (good && outline.loop_count == 0) good = wr_fail(err, "it draws nothing");
     for (int k = 0; good && k < outline.loop_count; k++) {
         const WrOutlineLoop *loop = &outline.loops[k];
         lay->xy.count = 0;

@@ -151,7 +151,7 @@ static bool fill_holes(const WrParams *p, Elevation *e, const char *path, const 
         if (lost) *z = NAN;
     }
     int64_t filled = wr_fill_missing(e->sheet.width, e->sheet.height, e->sheet.z, err);
-    if (filled == -1) return wr_fail(err, "%s: no elevation is known anywhere in it", path);
+    if (filled == -1) return wr_fail(err, "%s: contains no elevation, only no-data values", path);
     if (filled > 0)
         wr_generate_note(job, "%lld of %zu elevations are not known: filled from their neighbours",
                          (long long)filled, count);
@@ -196,11 +196,9 @@ bool wr_terrain_elevation(const WrParamValue *values, const WrGenerateJob *job, 
     if (raw && !(size && *size) && wr_param_whole(&p, "sample") == 0 && wr_sidecar_is_there(path))
         raw = false;
     if (!raw && size && *size)
-        return wr_fail(
-            err,
-            "size=%s: a picture has its own size; files of raw numbers end in .raw, .r16 "
-            "or .r32",
-            size);
+        return wr_fail(err,
+                       "size=%s: only for raw files (.raw, .r16, .r32); a picture has its own size",
+                       size);
     bool good = raw ? read_raw(&p, path, ending, wrap, &e, err)
                     : read_picture(&p, path, wrap, job, &e, err);
     good = good && fill_holes(&p, &e, path, job, err);

@@ -46,11 +46,10 @@ bool wr_raw_size(const char *size, size_t length, WrRaw *raw, WrError *err)
     bool square = side >= 1 && side <= WR_FIELD_MAX && (size_t)side * (size_t)side * each == length;
     if (!*size) {
         if (!square)
-            return wr_fail(
-                err,
-                "%zu bytes are no square of numbers of %zu bytes, up to %d a side: size= "
-                "must say how many columns and rows there are, as in size=1024x512",
-                length, each, WR_FIELD_MAX);
+            return wr_fail(err,
+                           "%zu bytes are not a square of numbers of %zu bytes, up to %d a side: "
+                           "give columns and rows, as in size=1024x512",
+                           length, each, WR_FIELD_MAX);
         raw->width = raw->height = side;
         return true;
     }
@@ -62,7 +61,7 @@ bool wr_raw_size(const char *size, size_t length, WrRaw *raw, WrError *err)
     if (want != length) {
         char hint[60] = "";
         if (square) snprintf(hint, sizeof hint, "; they would be %dx%d", side, side);
-        return wr_fail(err, "size=%s of numbers of %zu bytes are %zu bytes, but there are %zu%s",
+        return wr_fail(err, "size=%s of numbers of %zu bytes needs %zu bytes, the file has %zu%s",
                        size, each, want, length, hint);
     }
     *raw = found;

@@ -377,11 +377,10 @@ bool wr_text_shape_add(WrTextShape *shape, const double *xy, int count, const do
                        WrError *err)
 {
     if (!(fabs(move[0]) <= FAR && fabs(move[1]) <= FAR))
-        return wr_fail(err, "a letter stands more than %.0f texels away", FAR);
+        return wr_fail(err, "a letter is more than %.0f texels away", FAR);
     for (int i = 0; i < 2 * count; i++)
         if (!(fabs(xy[i]) <= REACH))
-            return wr_fail(err, "a letter reaches farther than %.0f texels: make it smaller",
-                           REACH);
+            return wr_fail(err, "a letter extends beyond %.0f texels: make it smaller", REACH);
     if (count < 2 || is_off(shape, xy, count, move)) return true;
     shape->steps += count;
     if (shape->steps > WR_TEXT_PIECES_MAX) return fail_many(err);
@@ -407,7 +406,7 @@ bool wr_text_shape_side(WrTextShape *shape, const double a[2], const double b[2]
     Point at[2];
     for (int k = 0; k < 2; k++) {
         if (!(fabs(ends[k][0]) <= REACH && fabs(ends[k][1]) <= REACH))
-            return wr_fail(err, "an edge reaches farther than %.0f texels", REACH);
+            return wr_fail(err, "an edge extends beyond %.0f texels", REACH);
         at[k] = (Point){ 2 * (int64_t)floor(ends[k][0] * WR_TEXT_SUB + 0.5) + 1,
                          2 * (int64_t)floor(ends[k][1] * WR_TEXT_SUB + 0.5) + 1 };
     }

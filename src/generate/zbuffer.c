@@ -1090,7 +1090,7 @@ static bool check_reach(const WrZScene *scene, int64_t index, WrError *err)
     bool triangle = index >= scene->solid_count;
     Box box = box_of(scene, index);
     return wr_fail(err,
-                   "%s %lld reaches from %g,%g to %g,%g texels: must be finite, within %g of 0",
+                   "%s %lld extends from %g,%g to %g,%g texels: must be finite, within %g of 0",
                    triangle ? "triangle" : "solid",
                    (long long)(triangle ? index - scene->solid_count : index) + 1, box.x0, box.y0,
                    box.x1, box.y1, WR_Z_REACH);
@@ -1139,9 +1139,7 @@ static bool put_all(Drawing *d, WrError *err)
         int ny = images(box.y0, box.y1, d->height, wr_field_wrap_v(d->like), &first_y);
         if (nx <= 0 || ny <= 0) continue;
         if ((int64_t)nx * ny + d->total > WR_Z_ENTRIES)
-            return wr_fail(err,
-                           "things larger than the table lie over it %lld times: must be fewer, at "
-                           "most %d",
+            return wr_fail(err, "objects larger than the table cover it %lld times: at most %d",
                            (long long)nx * ny, WR_Z_ENTRIES);
         for (int j = 0; j < ny; j++) {
             if (wr_progress_cancelled(d->progress)) return wr_fail(err, "cancelled");
@@ -1151,8 +1149,8 @@ static bool put_all(Drawing *d, WrError *err)
         }
         if (d->total > WR_Z_ENTRIES)
             return wr_fail(err,
-                           "all things together cover more than %d tiles of the table: must be "
-                           "fewer or smaller",
+                           "all objects together cover more than %d tiles of the table: use fewer "
+                           "or smaller ones",
                            WR_Z_ENTRIES);
     }
     return true;

@@ -22,7 +22,7 @@ WrLabel *wr_label_new(int size, WrError *err)
     }
     if (FT_Init_FreeType(&label->library)) {
         label->library = NULL;
-        wr_fail(err, "labels: FreeType does not start");
+        wr_fail(err, "labels: FreeType cannot be initialised");
         goto fail;
     }
     char *file =

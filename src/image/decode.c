@@ -400,7 +400,7 @@ static bool plain_read(WrPlain *p, int y, int rows, int channels, float *out, Wr
         if (p->coding != DECODED &&
             (!wr_stream_seek(p->file, p->data + (int64_t)row_bytes(p) * j) ||
              fread(p->row, 1, row_bytes(p), p->file) != row_bytes(p)))
-            return wr_fail(err, "cannot be read whole, truncated or damaged");
+            return wr_fail(err, "is truncated or damaged");
         for (int i = 0; i < p->width; i++)
             for (int c = 0; c < channels; c++)
                 *out++ = value_of(p, (size_t)i * (size_t)p->channels + (size_t)c, j);
@@ -530,8 +530,8 @@ bool wr_decoder_read(WrDecoder *decoder, int part, int y, int rows, int channels
     if (decoder->plain) return plain_read(decoder->plain, y, rows, channels, out, err);
     if (decoder->library->read(decoder->reader, part, y, rows, channels, out, reason)) return true;
     if (memory) *memory = is_memory(reason);
-    return wr_fail(err, "cannot be read whole, truncated or damaged%s%s%s", *reason ? " (" : "",
-                   reason, *reason ? ")" : "");
+    return wr_fail(err, "is truncated or damaged%s%s%s", *reason ? " (" : "", reason,
+                   *reason ? ")" : "");
 }
 
 bool wr_decoder_hash_rows(WrDecoder *decoder, int part, int y, int rows, int channels,

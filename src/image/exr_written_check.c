@@ -144,5 +144,5 @@ bool wr_exr_check_chunks(int fd, WrError *err)
     if (!(start[5] & (MULTIPART | TILED))) return true;
     Walk walk = { .fd = fd, .at = sizeof start, .size = info.bytes };
     return (start[5] & MULTIPART ? check(&walk) : check_tiles(&walk)) ||
-           wr_fail(err, "its tables are not whole");
+           wr_fail(err, "its tables are incomplete");
 }

@@ -157,7 +157,7 @@ static bool take_file(Files *files, const char *name, int fd, WrError *err)
     if (!wr_fd_info(fd, &info)) return wr_fail(err, "%s: %s", name, strerror(errno));
     if (info.bytes == 0) return wr_fail(err, "%s: is empty", name);
     if (info.bytes > WR_FONT_FILE_MAX)
-        return wr_fail(err, "%s: has %.0f MB: fonts of up to %d MB are read", name,
+        return wr_fail(err, "%s: has %.0f MB: fonts may have up to %d MB", name,
                        (double)info.bytes / 1048576.0, WR_FONT_FILE_MAX >> 20);
     files->lengths[files->count++] = (uint64_t)info.bytes;
     files->total += (uint64_t)info.bytes;
@@ -186,7 +186,7 @@ static bool append_file(Files *files, const char *name, int fd, WrError *err)
     void *map = wr_map(fd, length, WR_MAP_READ);
     bool good = map && wr_fd_write(files->fd, map, length);
     wr_map_end(map, length);
-    return good || wr_fail(err, "%s: no memory to read it from", name);
+    return good || wr_fail(err, "%s: not enough memory to read it", name);
 }
 
 /* Concatenates all files into one memory file. The reader process receives one descriptor: a single font is passed as it is,
@@ -194,7 +194,7 @@ static bool append_file(Files *files, const char *name, int fd, WrError *err)
 static bool gather(Files *files, int fd, const WrFontRequest *ask, WrError *err)
 {
     files->fd = wr_fd_memory("wrinkle fonts");
-    if (files->fd < 0) return wr_fail(err, "%s: no memory to read it from", files->name);
+    if (files->fd < 0) return wr_fail(err, "%s: not enough memory to read it", files->name);
     bool good = append_file(files, files->name, fd, err);
     for (int i = 0; good && i < WR_FONT_OTHERS && ask->others[i]; i++) {
         int other = wr_file_open(ask->others[i], WR_FONT_FILE_MAX, NULL, err);
@@ -218,8 +218,7 @@ static bool shape(const char *name, int fd, const WrFontRequest *ask, WrFontText
     if (!good) return false;
     if (wr_font_unpack(block.data, block.length, strlen(ask->text), out)) return true;
     wr_text_fini(&block);
-    return wr_fail(err, "%s: what was read of it makes no sense; the font is damaged or hostile",
-                   name);
+    return wr_fail(err, "%s: its data is inconsistent; the font is damaged or hostile", name);
 }
 
 bool wr_font_shape(const char *path, const WrFontRequest *ask, WrFontText *out, WrError *err)

@@ -270,7 +270,7 @@ static void try_load(void *ctx, void *answer)
 static bool crashed(WrChildEnd end, WrError *err)
 {
     const char *name = wr_child_crash(end.number);
-    return wr_fail(err, "fontconfig falls over one of the installed fonts (%s)",
+    return wr_fail(err, "fontconfig crashes on one of the installed fonts (%s)",
                    end.why == WR_CHILD_LATE ? "it does not end"
                    : name                   ? name
                                             : "it ended");

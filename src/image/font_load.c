@@ -259,13 +259,13 @@ static bool open_face(Free *f, const uint8_t *bytes, size_t length, WrError *err
 {
     if (FT_Init_FreeType(&f->library) != 0) {
         f->library = NULL;
-        return wr_fail(err, "FreeType does not start");
+        return wr_fail(err, "FreeType cannot be initialised");
     }
     int face = f->own->font == 0 ? f->own->ask->face : 0;
     if (FT_New_Memory_Face(f->library, bytes, (FT_Long)length, face, &f->face) != 0) {
         f->face = NULL;
         return wr_fail(
-            err, face > 0 ? "is no font, or has no face %d" : "is no font that can be read", face);
+            err, face > 0 ? "is not a font, or has no face %d" : "is not a readable font", face);
     }
     if (f->face->num_glyphs < 1 || f->face->num_glyphs > GLYPHS_MAX)
         return wr_fail(err, "has %ld glyphs: must be 1..%d", f->face->num_glyphs, GLYPHS_MAX);
@@ -282,7 +282,7 @@ static bool measure(Free *f, WrError *err)
     long units = face->units_per_EM;
     if (!FT_IS_SCALABLE(face)) {
         if (face->num_fixed_sizes < 1 || FT_Select_Size(face, 0) != 0)
-            return wr_fail(err, "has neither outlines nor dots");
+            return wr_fail(err, "has neither outlines nor bitmaps");
         head->bitmap = 1;
         const FT_Size_Metrics *size = &face->size->metrics;
         units = face->available_sizes[0].height;
@@ -435,7 +435,7 @@ bool wr_font_gunzip(const uint8_t *bytes, size_t length, size_t limit, uint8_t *
     bool large = text.length > limit;
     wr_text_fini(&text);
     if (large) return wr_fail(err, "unpacks to more than %zu MB", limit >> 20);
-    return wr_fail(err, "its gzip packing is damaged or cut off");
+    return wr_fail(err, "its gzip data is damaged or truncated");
 }
 
 /* ---- lines of a text ---- */
@@ -554,7 +554,8 @@ static bool make_line(Lines *lines, WrError *err)
 {
     bool leftwards;
     int first = lines->making->placed.count;
-    if (!find_runs(lines, &leftwards)) return wr_fail(err, "no memory to order a line's letters");
+    if (!find_runs(lines, &leftwards))
+        return wr_fail(err, "not enough memory to order the letters of a line");
     if (!lines->make(lines->ctx, &lines->chars, lines->runs.data, lines->runs.count, err))
         return false;
     wr_array_push(&lines->making->lines,
@@ -656,7 +657,7 @@ static bool open_file(Opened *all, const WrFontFile *file, WrFontMaking *making,
             return false;
         in.bytes = *unpacked;
     }
-    if (in.length < 4) return wr_fail(err, "is no font that can be read");
+    if (in.length < 4) return wr_fail(err, "is not a readable font");
     if (is_console_font(in.bytes))
         return wr_fail(err, "is a font of the text console (PSF), which cannot be read; use the "
                             "same font as PCF, OTB or "
@@ -671,7 +672,8 @@ static bool check_placed(const WrFontMaking *making, WrError *err)
 {
     for (int i = 0; i < making->placed.count; i++)
         if (making->placed.data[i].glyph < 0)
-            return wr_fail(err, "has coloured dots or dots of a wrong size, which cannot be used");
+            return wr_fail(err,
+                           "has coloured bitmaps or bitmaps of a wrong size, which cannot be used");
     return true;
 }
 
@@ -685,7 +687,7 @@ bool wr_font_shape_text(const WrFontFile *files, int count, const WrFontRequest 
     bool good = true;
     for (int i = 0; i < count && good; i++) {
         good = open_file(&all, &files[i], &making, ask, err);
-        if (!good && i > 0) wr_error_prefix(err, "the font number %d to take letters from ", i);
+        if (!good && i > 0) wr_error_prefix(err, "fallback font %d: ", i);
     }
     if (good) {
         making.head = all.faces[0].head;

@@ -102,11 +102,10 @@ const WrImageFormat *wr_image_format(const char *path, WrError *err)
     for (size_t i = 0; i < FORMAT_COUNT && *ending; i++)
         for (int k = 0; k < 3 && formats[i].endings[k]; k++)
             if (strcmp(ending, formats[i].endings[k]) == 0) return &formats[i];
-    wr_fail(
-        err,
-        "%s: the ending%s%s%s names no picture format that can be written; use .png, .exr, .tif, "
-        ".jpg, .bmp, .tga, .ppm, .pgm or .hdr",
-        path, *ending ? " '" : "", ending, *ending ? "'" : "");
+    wr_fail(err,
+            "%s: the extension%s%s%s is not a picture format that can be written; use .png, .exr, "
+            ".tif, .jpg, .bmp, .tga, .ppm, .pgm or .hdr",
+            path, *ending ? " '" : "", ending, *ending ? "'" : "");
     return NULL;
 }
 
@@ -117,13 +116,12 @@ bool wr_image_can_write(const char *path, WrPixelType type, int channels, bool d
     const char *label = format->label;
     if (!format->holds[type]) return wr_fail(err, "%s: %s holds %s", path, label, format->types);
     if (data && format->pictures_only)
-        return wr_fail(err, "%s: %s keeps only 8 bits of each number; use EXR or TIFF", path,
-                       label);
+        return wr_fail(err, "%s: %s stores only 8 bits per channel; use EXR or TIFF", path, label);
     if (channels < 1 || channels > WR_IMAGE_CHANNELS_MAX)
         return wr_fail(err, "%s: %d channels: must be 1..%d", path, channels,
                        WR_IMAGE_CHANNELS_MAX);
     if (!(format->channels & 1) && (channels > 4 || !(format->channels >> channels & 1)))
-        return wr_fail(err, "%s: %s cannot hold %d channel%s; use PNG, EXR or TIFF", path, label,
+        return wr_fail(err, "%s: %s cannot store %d channel%s; use PNG, EXR or TIFF", path, label,
                        channels, channels == 1 ? "" : "s");
     return true;
 }

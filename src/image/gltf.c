@@ -91,7 +91,7 @@ static bool take_in(const char *path, const char *uri, json_object *buffer, size
     size_t length = 0;
     bool good = gltf_decode_name(uri, &name) && gltf_stays_within(wr_text_get(&name));
     if (!good)
-        wr_fail(err, "%s: names the part \"%.80s\": must lie beside the file or below", path, uri);
+        wr_fail(err, "%s: refers to \"%.80s\": must be in the file's folder or below", path, uri);
     if (good) full = wr_path_join(folder, wr_text_get(&name));
     if (good && !wr_file_read(full, *left, &bytes, &length, err)) {
         wr_error_prefix(err, "%s: of its parts, ", path);
@@ -103,7 +103,7 @@ static bool take_in(const char *path, const char *uri, json_object *buffer, size
         *left -= length;
         json_object *text = json_object_new_string_len(wr_text_get(&data), (int)data.length);
         good = text && json_object_object_add(buffer, "uri", text) == 0;
-        if (!good) wr_fail(err, "%s: no memory for its parts", path);
+        if (!good) wr_fail(err, "%s: not enough memory for its parts", path);
     }
     wr_free(bytes);
     wr_free(folder);
@@ -122,8 +122,7 @@ static bool take_all(const char *path, json_object *buffers, int *parts, WrError
         const char *uri = part_of(buffers, i, &buffer);
         if (!uri) continue;
         if (++*parts > WR_GLTF_PARTS_MAX)
-            return wr_fail(err, "%s: keeps its parts in more than %d other files", path,
-                           WR_GLTF_PARTS_MAX);
+            return wr_fail(err, "%s: refers to more than %d other files", path, WR_GLTF_PARTS_MAX);
         if (!take_in(path, uri, buffer, &left, err)) return false;
     }
     return true;
@@ -369,7 +368,7 @@ bool wr_gltf_read_material(const char *path, const char *which, WrGltfMaterial *
     json_object *material = good ? wr_gltf_element(materials, index) : NULL;
     if (good && !json_object_is_type(material, json_type_object))
         good = which ? wr_fail(err, "%s: has no material \"%.60s\" (it has %d)", path, which, count)
-                     : wr_fail(err, "%s: its triangles name material %lld of %d", path, index + 1LL,
+                     : wr_fail(err, "%s: its triangles use material %lld of %d", path, index + 1LL,
                                count); /* the file's index may be INT32_MAX */
     out->index = index, out->count = count;
     good = good && read_material(&file, material, out, err);
@@ -409,7 +408,7 @@ static bool fetch(const Gltf *file, const char *uri, WrText *out, WrError *err)
     size_t length = 0;
     bool good = gltf_decode_name(uri, &name) && gltf_stays_within(wr_text_get(&name));
     if (!good)
-        wr_fail(err, "%s: names the part \"%.80s\": must lie beside the file or below", file->path,
+        wr_fail(err, "%s: refers to \"%.80s\": must be in the file's folder or below", file->path,
                 uri);
     if (good) full = wr_path_join(folder, wr_text_get(&name));
     good = good && wr_file_read(full, WR_GLTF_PICTURE_MAX, &bytes, &length, err);
@@ -434,7 +433,7 @@ static bool view_bytes(const Gltf *file, int view, WrText *out, WrError *err)
     const char *bytes = file->bin;
     size_t have = file->bin_length;
     if (!buffer || from < 0 || length < 1 || (!uri && (index != 0 || !file->bin)))
-        return wr_fail(err, "%s: view %d: is not there, or of no buffer", file->path, view);
+        return wr_fail(err, "%s: view %d: is missing, or has no buffer", file->path, view);
     if ((size_t)length > WR_GLTF_PICTURE_MAX)
         return wr_fail(err, "%s: view %d: a picture of %lld bytes: must be up to %zu", file->path,
                        view, (long long)length, WR_GLTF_PICTURE_MAX);

@@ -201,7 +201,7 @@ static bool find_buffer(Gltf *file, int64_t index, Bytes *out, WrError *err)
     json_object *buffer = item_of(file, "buffers", index);
     json_object *uri = wr_gltf_member(buffer, "uri", json_type_string);
     if (!buffer || index >= BUFFERS)
-        return wr_fail(err, "is damaged: it names buffer %lld, which is not there",
+        return wr_fail(err, "is damaged: it refers to buffer %lld, which does not exist",
                        (long long)index);
     if (!uri) {
         *out = (Bytes){ file->chunks.bin, file->chunks.bin_length };
@@ -210,13 +210,12 @@ static bool find_buffer(Gltf *file, int64_t index, Bytes *out, WrError *err)
     }
     const char *text = json_object_get_string(uri), *comma = strchr(text, ',');
     if (strncmp(text, "data:", 5) != 0)
-        return wr_fail(err,
-                       "cannot be read by itself: it keeps a part in another file, \"%.80s\"; "
-                       "save it as one file (.glb, .obj, .ply, .stl)",
-                       text);
+        return wr_fail(
+            err, "needs another file, \"%.80s\"; save it as one file (.glb, .obj, .ply, .stl)",
+            text);
     WrText *bytes = &file->buffers[index];
     if (!bytes->length && (!comma || !wr_gltf_base64(comma + 1, bytes)))
-        return wr_fail(err, "is damaged: buffer %lld is not of base64", (long long)index);
+        return wr_fail(err, "is damaged: buffer %lld is not base64", (long long)index);
     *out = (Bytes){ wr_text_get(bytes), bytes->length };
     return true;
 }
@@ -229,7 +228,7 @@ static bool find_view(Gltf *file, int64_t index, Bytes *out, int64_t *stride, Wr
     const int64_t length = wr_gltf_index(view, "byteLength", -1);
     Bytes bytes = { 0 };
     if (!view || from < 0 || length < 0)
-        return wr_fail(err, "is damaged: bufferView %lld is not there, or has no length",
+        return wr_fail(err, "is damaged: bufferView %lld does not exist, or has no length",
                        (long long)index);
     if (all && json_object_object_get_ex(all, "EXT_meshopt_compression", &packed))
         return wr_fail(err,
@@ -237,9 +236,9 @@ static bool find_view(Gltf *file, int64_t index, Bytes *out, int64_t *stride, Wr
                        "without compression");
     if (!find_buffer(file, wr_gltf_index(view, "buffer", -1), &bytes, err)) return false;
     if ((size_t)from > bytes.length || (size_t)length > bytes.length - (size_t)from)
-        return wr_fail(err,
-                       "is damaged: bufferView %lld names bytes %lld to %lld of a buffer of %zu",
-                       (long long)index, (long long)from, (long long)(from + length), bytes.length);
+        return wr_fail(
+            err, "is damaged: bufferView %lld refers to bytes %lld to %lld of a buffer of %zu",
+            (long long)index, (long long)from, (long long)(from + length), bytes.length);
     *out = (Bytes){ bytes.at + from, (size_t)length };
     *stride = wr_gltf_index(view, "byteStride", 0);
     return true;
@@ -331,7 +330,7 @@ static bool read_sparse(Gltf *file, json_object *sparse, Source source, Numbers 
     bool good = at && to && read_source(file, index, at, err) && read_source(file, source, to, err);
     for (int64_t i = 0; good && i < index.count; i++) {
         if (!(at[i] >= 0 && at[i] < (double)numbers->count))
-            good = wr_fail(err, "is damaged: a sparse accessor names value %g of %lld", at[i],
+            good = wr_fail(err, "is damaged: a sparse accessor refers to value %g of %lld", at[i],
                            (long long)numbers->count);
         else
             memcpy(numbers->at + (int64_t)at[i] * source.parts, to + i * source.parts,
@@ -358,7 +357,7 @@ static bool read_accessor(Gltf *file, int64_t index, int parts, Numbers *out, Wr
                             .normalised = json_object_get_boolean(normalised) };
     if (!kind || strcmp(json_object_get_string(kind), kinds[parts - 1]) != 0 ||
         !is_component(source.type) || source.count < 0)
-        return wr_fail(err, "is damaged: accessor %lld is not there, or not of type %s",
+        return wr_fail(err, "is damaged: accessor %lld does not exist, or is not of type %s",
                        (long long)index, kinds[parts - 1]);
     if (source.count > 3 * (int64_t)WR_MESH_POINTS_MAX)
         return wr_fail(err, "more than %d points", WR_MESH_POINTS_MAX);
@@ -519,7 +518,7 @@ static bool read_pose(Gltf *file, json_object *skin, Body *body, WrError *err)
         /* File matrices are stored by columns, ours by rows without the last one. */
         for (int k = 0; inverse.at && k < 12; k++) m[k] = inverse.at[16 * i + k % 4 * 4 + k / 4];
         if (node < 0 || node >= file->nodes)
-            good = wr_fail(err, "is damaged: a skin names node %lld, which is not there",
+            good = wr_fail(err, "is damaged: a skin refers to node %lld, which does not exist",
                            (long long)node);
         else multiply(file->world[node], m, body->pose[i]);
     }
@@ -629,8 +628,8 @@ static bool add_triangles(Gltf *file, const Body *body, int64_t mode, int32_t fi
         for (int k = 0; k < 3; k++) {
             const double point = body->corners.at ? body->corners.at[c[k]] : (double)c[k];
             if (!(point >= 0 && point < (double)body->points.count))
-                return wr_fail(err, "is damaged: a triangle names point %g: must be 0..%lld", point,
-                               (long long)body->points.count - 1);
+                return wr_fail(err, "is damaged: a triangle refers to point %g: must be 0..%lld",
+                               point, (long long)body->points.count - 1);
             to[k] = first + (int32_t)point;
         }
         if (!wr_mesh_build_triangle(file->build, to[0], to[mirrored ? 2 : 1], to[mirrored ? 1 : 2],
@@ -661,7 +660,7 @@ static bool add_body(Gltf *file, json_object *mesh, json_object *primitive, json
     bool mirrored = false;
     Body body = { .points = { 0 } };
     if (++file->bodies > BODIES_MAX)
-        return wr_fail(err, "more than %d placings of meshes", BODIES_MAX);
+        return wr_fail(err, "more than %d instances of meshes", BODIES_MAX);
     if (mode < 4 || mode > 6) return true; /* points and lines have no area */
     gltf_transform(wr_gltf_mapped(material), uv_m);
     name_part(file, mesh, material);
@@ -694,10 +693,10 @@ static bool enter(Walk *walk, json_object *list, const double to[12], WrError *e
         const int64_t node =
             json_object_is_type(item, json_type_int) ? json_object_get_int64(item) : -1;
         if (node < 0 || node >= walk->nodes)
-            return wr_fail(err, "is damaged: it names node %lld, which is not there",
+            return wr_fail(err, "is damaged: it refers to node %lld, which does not exist",
                            (long long)node);
         if (walk->met[node])
-            return wr_fail(err, "is damaged: node %lld stands in two places", (long long)node);
+            return wr_fail(err, "is damaged: node %lld has two parents", (long long)node);
         walk->met[node] = true;
         walk->open[walk->count].node = node;
         memcpy(walk->open[walk->count++].to, to, 12 * sizeof *to);
@@ -726,7 +725,7 @@ static bool add_mesh(Gltf *file, int64_t node_index, json_object *node, const do
     json_object *mesh = item_of(file, "meshes", index), *primitive;
     json_object *skin = item_of(file, "skins", skin_index);
     if ((index >= 0 && !mesh) || (skin_index >= 0 && !skin))
-        return wr_fail(err, "is damaged: node %lld names %s %lld, which is not there",
+        return wr_fail(err, "is damaged: node %lld refers to %s %lld, which does not exist",
                        (long long)node_index, index >= 0 && !mesh ? "mesh" : "skin",
                        (long long)(index >= 0 && !mesh ? index : skin_index));
     json_object *list = wr_gltf_member(mesh, "primitives", json_type_array);
@@ -852,7 +851,7 @@ bool wr_gltf_read(const char *bytes, size_t length, WrMeshBuild *build, WrError 
     file.root = wr_gltf_parse(file.chunks.json, file.chunks.json_length);
     if (!json_object_is_type(file.root, json_type_object)) {
         json_object_put(file.root);
-        return wr_fail(err, "cannot be read: it is cut off or damaged, its JSON does not end");
+        return wr_fail(err, "is truncated or damaged: its JSON does not end");
     }
     file.buffers = wr_alloc(BUFFERS, sizeof *file.buffers);
     bool good = check_extensions(&file, err) && add_nodes(&file, err);

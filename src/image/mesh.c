@@ -89,8 +89,8 @@ static bool take(const char *name, char *block, size_t length, WrMesh *out, WrEr
         return true;
     }
     wr_free(block);
-    return wr_fail(err, "%s: the reader's answer makes no sense; the file is damaged or hostile",
-                   name);
+    return wr_fail(
+        err, "%s: the reader process returned invalid data; the file is damaged or hostile", name);
 }
 
 void wr_mesh_fini(WrMesh *mesh)

@@ -291,7 +291,7 @@ static bool clip_ears(WrMeshBuild *build, const int32_t *c, const Flat *p, int32
     for (int32_t n = count, i = 0, tried = 0; n >= 3;) {
         if (build->work > WORK_MAX)
             return wr_fail(err,
-                           "a dented polygon of %d corners would take too long to cut; "
+                           "a concave polygon of %d corners would take too long to triangulate; "
                            "save triangles",
                            (int)count);
         if (n > 3 && tried < n && !is_ear(build, p, left, n, i)) {
@@ -379,7 +379,7 @@ static bool mesh_build_finish(const WrMeshBuild *build, WrText *block, WrError *
 {
     const size_t points = (size_t)build->point_count, triangles = (size_t)build->triangle_count;
     if (!check_points(build, err)) return false;
-    if (triangles == 0) return wr_fail(err, "holds no triangle");
+    if (triangles == 0) return wr_fail(err, "contains no triangle");
     WrMeshHead head = { .points = build->point_count,
                         .triangles = build->triangle_count,
                         .whole = build->whole,
@@ -528,7 +528,7 @@ static void explain_content(const void *bytes, size_t length, const char *ending
     for (; ending[i] && i + 1 < WR_LENGTH(name); i++)
         name[i] = (char)(ending[i] >= 'a' && ending[i] <= 'z' ? ending[i] - 'a' + 'A' : ending[i]);
     name[i] = '\0';
-    if (content) wr_fail(err, "is no %s file: its content is that of %s", name, content);
+    if (content) wr_fail(err, "is not a valid %s file: its content is %s", name, content);
 }
 
 /* ---- all formats ---- */

@@ -611,7 +611,7 @@ static bool read_header(Ply *ply, WrError *err)
             good = wr_fail(err, "is damaged: its header has the line \"%s ...\"", word);
         if (!good) return false;
     }
-    return wr_fail(err, "is cut off: its header has no end_header");
+    return wr_fail(err, "is truncated: its header has no end_header");
 }
 
 /* ---- values ---- */
@@ -623,7 +623,7 @@ static size_t left_of(const Ply *ply)
 
 static bool fail_end(const Ply *ply, WrError *err)
 {
-    return wr_fail(err, "is cut off: it ends in %s %lld of %lld", ply->element->name,
+    return wr_fail(err, "is truncated: it ends in %s %lld of %lld", ply->element->name,
                    (long long)ply->entry, (long long)ply->element->count);
 }
 
@@ -657,7 +657,7 @@ static bool take_value(Ply *ply, Type type, double *out, WrError *err)
         const char *from = ply->scan.at;
         if (left_of(ply) == 0) return fail_end(ply, err);
         if (scan_any_number(&ply->scan, out)) return true;
-        return wr_fail(err, "is damaged: %s %lld has \"%.*s\" for a number", ply->element->name,
+        return wr_fail(err, "is damaged: %s %lld: \"%.*s\" is not a number", ply->element->name,
                        (long long)ply->entry,
                        (int)(ply->scan.at - from < 40 ? ply->scan.at - from : 40), from);
     }
@@ -743,8 +743,8 @@ static bool add_vertex(Ply *ply, WrError *err)
 static bool check_corner(const Ply *ply, double index, WrError *err)
 {
     if (index >= 0 && index < ply->vertices && !(index > floor(index))) return true;
-    return wr_fail(err, "is damaged: %s %lld names vertex %g: must be 0..%d", ply->element->name,
-                   (long long)ply->entry, index, (int)ply->vertices - 1);
+    return wr_fail(err, "is damaged: %s %lld refers to vertex %g: must be 0..%d",
+                   ply->element->name, (long long)ply->entry, index, (int)ply->vertices - 1);
 }
 
 static bool polygon_room(Ply *ply, size_t count, WrError *err)
@@ -835,11 +835,11 @@ static bool begin_element(Ply *ply, Add *add, WrError *err)
         if (role < UNUSED) ply->used[role] = true;
     }
     if (add == add_vertex && ply->first)
-        return wr_fail(err, "is damaged: its header names the element vertex twice");
+        return wr_fail(err, "is damaged: its header has the element vertex twice");
     if (add == add_vertex && element->count > 0 && !(ply->used[X] && ply->used[Y] && ply->used[Z]))
         return wr_fail(err, "its vertices have no x, y and z");
     if (add != add_vertex && add != pass_over && element->count > 0 && !ply->first)
-        return wr_fail(err, "is damaged: the element %s stands before the vertices", element->name);
+        return wr_fail(err, "is damaged: the element %s is before the vertices", element->name);
     return true;
 }
 
@@ -868,7 +868,8 @@ static bool check_counts(const Ply *ply, WrError *err)
 {
     for (int i = 0; i < ply->element_count; i++)
         if ((double)ply->elements[i].count > (double)left_of(ply))
-            return wr_fail(err, "says that it holds %lld elements in %zu bytes; it is damaged",
+            return wr_fail(err,
+                           "is damaged: its header has %lld elements, but the file only %zu bytes",
                            (long long)ply->elements[i].count, left_of(ply));
     return true;
 }
@@ -880,8 +881,8 @@ bool wr_ply_read(const char *bytes, size_t length, WrMeshBuild *build, WrError *
     ply->scan = (WrScan){ bytes, bytes + length };
     ply->build = build;
     ply->places = &places;
-    bool good = wr_ply_is(bytes, length) ||
-                wr_fail(err, "cannot be read: it is no PLY file, which begins with \"ply\"");
+    bool good =
+        wr_ply_is(bytes, length) || wr_fail(err, "is not a PLY file, which begins with \"ply\"");
     good = good && read_header(ply, err) && check_counts(ply, err);
     for (int i = 0; good && i < ply->element_count; i++)
         good = read_entries(ply, &ply->elements[i], err);
@@ -945,13 +946,14 @@ static bool check_count(int64_t count, WrError *err)
 static bool read_binary(const char *bytes, size_t length, WrMeshBuild *build, WrError *err)
 {
     if (length < HEAD)
-        return wr_fail(err, "is cut off: %zu bytes, where an STL file has %d and more", length,
+        return wr_fail(err, "is truncated: %zu bytes, but an STL file has at least %d", length,
                        HEAD);
     const uint32_t count = number_at(bytes + 80);
     if (count > (length - HEAD) / RECORD)
-        return wr_fail(err,
-                       "says that it holds %u triangles in %zu bytes; it is damaged or cut off",
-                       (unsigned)count, length - HEAD);
+        return wr_fail(
+            err,
+            "is damaged or truncated: its header has %u triangles, but the file only %zu bytes",
+            (unsigned)count, length - HEAD);
     if (!check_count(count, err) || !wr_mesh_build_reserve(build, 3 * (int64_t)count, count, err))
         return false;
     for (uint32_t i = 0; i < count; i++)
@@ -985,10 +987,10 @@ static bool take_three(Stl *stl, const char *what, double out[3], WrError *err)
         scan_space(&stl->scan);
         const char *from = stl->scan.at;
         if (from == stl->scan.end)
-            return wr_fail(err, "is cut off in facet %lld", (long long)stl->facet);
+            return wr_fail(err, "is truncated in facet %lld", (long long)stl->facet);
         if (scan_any_number(&stl->scan, &out[k])) continue;
         const size_t length = (size_t)(stl->scan.at - from);
-        return wr_fail(err, "is damaged: facet %lld has a %s with \"%.*s\" for a number",
+        return wr_fail(err, "is damaged: facet %lld: %s: \"%.*s\" is not a number",
                        (long long)stl->facet, what, (int)(length < 40 ? length : 40), from);
     }
     return true;
@@ -1055,7 +1057,7 @@ static bool take_stl_word(Stl *stl, const char *word, size_t length, WrError *er
     if (is_word(word, length, "solid") || is_word(word, length, "endsolid")) begin_solid(stl);
     else if (!is_word(word, length, "outer") && !is_word(word, length, "loop") &&
              !is_word(word, length, "endloop"))
-        return wr_fail(err, "is damaged: after facet %lld stands \"%.*s\"", (long long)stl->facet,
+        return wr_fail(err, "is damaged: facet %lld is followed by \"%.*s\"", (long long)stl->facet,
                        (int)(length < 40 ? length : 40), word);
     return true;
 }
@@ -1067,7 +1069,7 @@ static bool read_text(const char *bytes, size_t length, WrMeshBuild *build, WrEr
     size_t n;
     for (scan_space(&stl.scan); (n = scan_word(&stl.scan, &word)) > 0; scan_space(&stl.scan))
         if (!take_stl_word(&stl, word, n, err)) return false;
-    return stl.count == 0 || wr_fail(err, "is cut off in facet %lld", (long long)stl.facet);
+    return stl.count == 0 || wr_fail(err, "is truncated in facet %lld", (long long)stl.facet);
 }
 
 bool wr_stl_is_binary(const char *bytes, size_t length)

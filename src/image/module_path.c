@@ -57,8 +57,8 @@ static const void *load(const WrModule *module, WrError *err)
                 "%s need the module %s, which cannot be loaded: %s (on Debian: apt install %s)",
                 module->serves, module->file, wr_text_get(&reason), module->package);
     else if (!table)
-        wr_fail(err, "%s need the module %s, looked for at: %s", module->serves, module->file,
-                wr_text_get(&looked));
+        wr_fail(err, "%s need the module %s, which was not found at: %s", module->serves,
+                module->file, wr_text_get(&looked));
     wr_text_fini(&path);
     wr_text_fini(&reason);
     wr_text_fini(&looked);
@@ -91,7 +91,8 @@ bool wr_module_load(void *ctx, WrError *err)
 {
     WrModule *module = ctx;
     if (module->quiet || threads_are_left()) return (module->table = load(module, err)) != NULL;
-    return wr_fail(err, "%s need threads, and the system gives no more: end another program first",
+    return wr_fail(err,
+                   "%s need threads, but the system allows no more: close another program first",
                    module->serves);
 }
 

@@ -153,8 +153,7 @@ static bool channels_choose(const WrImagePart *part, const char *channel, WrChan
     if (strchr(channel, ',') && take_several(part, channel, choice)) return true;
     WrText names = { 0 };
     list(part, &names);
-    wr_fail(err, "channel '%.60s': there is no such; there are %.140s", channel,
-            wr_text_get(&names));
+    wr_fail(err, "no channel '%.60s': there are %.140s", channel, wr_text_get(&names));
     wr_text_fini(&names);
     return false;
 }
@@ -412,7 +411,7 @@ static bool find_part(const WrImageFile *file, const char *wish, int *part, WrEr
             *part = i;
             return true;
         }
-    return wr_fail(err, "part '%.60s': there is no such; it has %d, from 1", wish, count);
+    return wr_fail(err, "no part '%.60s': it has %d, from 1", wish, count);
 }
 
 /* Values that elevation models write for missing data, besides those declared in the header. */
@@ -441,8 +440,7 @@ static bool fill_image(WrImage *image, WrError *err)
         for (size_t i = 0; filled > 0 && i < pixels; i++) image->data[i * each + c] = (float)z[i];
     }
     wr_free(z);
-    if (good && !known)
-        good = wr_fail(err, "every value is missing (no-data): there is nothing to read");
+    if (good && !known) good = wr_fail(err, "contains only no-data values");
     if (good) image->replaced = replace_bad_pixels(image->data, pixels, image->channels, false);
     return good;
 }

@@ -52,7 +52,8 @@ static bool find_reader(WrText *path, WrError *err)
     }
     if (!found)
         wr_fail(err,
-                "pictures, meshes and fonts need the program " READER_FILE ", looked for at: %s",
+                "pictures, meshes and fonts need the program " READER_FILE
+                ", which was not found at: %s",
                 wr_text_get(&looked));
     wr_text_fini(&looked);
     return found;
@@ -237,7 +238,7 @@ static bool die_of_nonsense(WrReader *reader)
 static bool die_of_time(WrReader *reader)
 {
     WrError why;
-    wr_fail(&why, "gave nothing to read within %u s; the file is damaged or hostile",
+    wr_fail(&why, "no data was read from it within %u s; the file is damaged or hostile",
             reader->seconds);
     return die(reader, wr_error_message(&why));
 }
@@ -399,7 +400,7 @@ static bool send_order(WrReader *reader, const WrWireOrder *order, int fd, WrErr
 {
     int ends[2];
     if (!wr_channel_pair(ends, false))
-        return wr_fail(err, "%s: no socket for the reader", reader->name);
+        return wr_fail(err, "%s: no socket to the reader process", reader->name);
     bool sent = process_order(order, fd, ends[1], err);
     wr_fd_close(ends[1]);
     reader->channel = ends[0];
@@ -519,7 +520,8 @@ static int share(WrReader *reader, size_t bytes, WrError *err)
     const void *map = fd >= 0 ? wr_map(fd, bytes, WR_MAP_WATCH) : NULL;
     if (!map) {
         if (fd >= 0) wr_fd_close(fd);
-        wr_fail(err, "%s: no memory for %.0f MB of rows", reader->name, (double)bytes / 1e6);
+        wr_fail(err, "%s: not enough memory for %.0f MB of rows", reader->name,
+                (double)bytes / 1e6);
         return -2;
     }
     reader->shared = map;

@@ -181,7 +181,7 @@ static bool make_font(const char *bytes, size_t length, const char *want, size_t
     if (order.language_length) ask.language = language;
     if (order.axes_length) ask.axes = language + order.language_length + 1;
     for (int i = 0; i < order.file_count; i++) {
-        if (order.lengths[i] > length) return wr_fail(err, "has become shorter meanwhile");
+        if (order.lengths[i] > length) return wr_fail(err, "became shorter while it was read");
         files[i] = (WrFontFile){ (const uint8_t *)bytes, (size_t)order.lengths[i] };
         bytes += files[i].length;
         length -= files[i].length;
@@ -226,7 +226,7 @@ static void serve_block(const WrWireOrder *order)
     else good = make_font(bytes, length, ask, ask_length, &block, &err);
     wr_free(bytes);
     wr_free(ask);
-    if (good && block.length > WR_WIRE_MAX) good = wr_fail(&err, "holds too much");
+    if (good && block.length > WR_WIRE_MAX) good = wr_fail(&err, "is too large");
     if (good) answer(WR_WIRE_BLOCK, block.data, block.length);
     else answer_failure(memory, &err);
 }
@@ -243,7 +243,8 @@ static void serve(const WrWireOrder *order, int file, int channel, bool warm)
     uint64_t space = wr_sandbox_space();
     wr_process_hear_signals();
     if (!wr_sandbox_enter(order->memory, order->seconds)) {
-        wr_fail(&err, "cannot be read safely here: the system refuses to limit the reader process");
+        wr_fail(&err,
+                "cannot be read safely: the system does not allow limits on the reader process");
         answer_failure(false, &err);
         return;
     }

@@ -70,7 +70,7 @@ static bool parse(Sidecar *sidecar, const char *text, size_t length, WrError *er
     const bool good = json_tokener_get_error(tokener) == json_tokener_success &&
                       json_object_is_type(sidecar->root, json_type_object);
     json_tokener_free(tokener);
-    return good || wr_fail(err, "%s: is not JSON of a sidecar", sidecar->name);
+    return good || wr_fail(err, "%s: is not the JSON of a sidecar file", sidecar->name);
 }
 
 static bool take_count(const Sidecar *sidecar, const char *name, int most, int fallback, int *out,
@@ -208,8 +208,8 @@ WrImageRows *wr_sidecar_rows(const char *path, const WrImageRequest *wish, WrErr
     Sidecar sidecar = { .name = wr_text_get(&name) };
     if (!wr_path_is_there(sidecar.name)) {
         wr_fail(err,
-                "%s: is nothing but numbers, and %s, which would say of what size, is not there; "
-                "`terrain elevation` takes size=WxH",
+                "%s: is a raw file, and %s with its size is missing; use `terrain elevation` with "
+                "size=WxH",
                 path, sidecar.name);
     } else if (read_sidecar(&sidecar, err)) {
         WrImage *image = read_numbers(&sidecar, path, err);

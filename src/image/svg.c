@@ -35,8 +35,8 @@ static bool take(const char *name, char *block, size_t length, WrSvg *out, WrErr
 {
     if (check_block(block, length, out)) return true;
     wr_free(block);
-    return wr_fail(err, "%s: the reader's answer makes no sense; the file is damaged or hostile",
-                   name);
+    return wr_fail(
+        err, "%s: the reader process returned invalid data; the file is damaged or hostile", name);
 }
 
 bool wr_svg_read_bytes(const char *name, const void *bytes, size_t length, const WrSvgRequest *ask,

@@ -54,7 +54,7 @@ static bool draw(const WrLibrsvgTable *table, const WrLibrsvgDrawing *drawing,
     const double longest = box[2] > box[3] ? box[2] : box[3], scale = ask->side / longest;
     if (!(box[2] > 0.0 && box[3] > 0.0)) return wr_fail(err, "draws nothing");
     if (!isfinite(scale) || !(scale > 0.0) || !isfinite(box[0]) || !isfinite(box[1]))
-        return wr_fail(err, "its size is no number that can be drawn");
+        return wr_fail(err, "its size cannot be drawn");
     for (int k = 0; k < 2; k++) head->box[k] = scale * box[2 + k];
     head->width = (int32_t)ceil(head->box[0] - 1e-6) + 2;
     head->height = (int32_t)ceil(head->box[1] - 1e-6) + 2;
@@ -85,7 +85,7 @@ bool wr_svg_make(const void *bytes, size_t length, const WrSvgRequest *ask, WrTe
     const WrLibrsvgTable *table = library(err);
     if (!table) return false;
     WrLibrsvgDrawing *drawing = table->open(bytes, length, reason);
-    if (!drawing) return wr_fail(err, "is no SVG file that can be drawn (%s)", reason);
+    if (!drawing) return wr_fail(err, "is not an SVG file that can be drawn (%s)", reason);
     WrSvgHead head = { .text = has_tag(bytes, length, "<text") };
     const bool good = draw(table, drawing, ask, &head, block, memory, err);
     table->close(drawing);

@@ -106,7 +106,7 @@ bool wr_3mf_open(const void *bytes, size_t length, WrMeshBuild *build, WrError *
     char text[HEAD + 1];
     size_t end, sum = 0, at, used = 0;
     if (!find_end(&zip, &end))
-        return wr_fail(err, "is no 3MF file, or is truncated: a zip archive without its end");
+        return wr_fail(err, "is not a 3MF file, or is truncated: a zip archive without its end");
     const uint32_t count = number(&zip, end + 10, 2);
     at = number(&zip, end + 16, 4);
     if (count > ENTRIES_MAX)
@@ -123,7 +123,7 @@ bool wr_3mf_open(const void *bytes, size_t length, WrMeshBuild *build, WrError *
         if (used == 0 && is_model(&zip, at + ENTRY, name)) used = unpack(&zip, at, text);
         at = next;
     }
-    if (used == 0) return wr_fail(err, "damaged: it holds no model");
+    if (used == 0) return wr_fail(err, "damaged: it contains no model");
     text[used] = '\0';
     build->unit = unit_of(text);
     return true;

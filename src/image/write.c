@@ -176,7 +176,7 @@ static bool check_parts(const char *path, const WrImageOut *parts, int count, Wr
     const bool exr = strcmp(format->library, "openexr") == 0;
     if (count > 1 && !exr) return wr_fail(err, "%s: %d parts in one file need EXR", path, count);
     if ((parts[0].levels || parts[0].half) && !exr)
-        return wr_fail(err, "%s: halves, and levels in one file, need EXR", path);
+        return wr_fail(err, "%s: half floats, and mip levels in one file, need EXR", path);
     for (int i = 0; i < count; i++) {
         const WrImageOut *part = &parts[i];
         if (!wr_image_can_write(path, part->type, part->channels, part->data, err)) return false;

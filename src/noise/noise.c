@@ -150,8 +150,7 @@ bool wr_noise_check(const WrNoise *noise, WrError *err)
     if (source != WR_LATTICE_HASH && !info->cells)
         return wr_fail(err, "%s noise computes slopes from the integer hash only", info->name);
     if (source == WR_LATTICE_LECTURE && noise->dim > 2)
-        return wr_fail(err,
-                       "the lecture's hash in 3D: it is made of two coordinates; use 1D or 2D");
+        return wr_fail(err, "the lecture's hash has two coordinates, not three; use 1D or 2D");
     if (source == WR_LATTICE_DATA && noise->kind == WR_NOISE_PERLIN)
         return wr_fail(err,
                        "perlin noise from data: its slopes are a fixed set; use gradient noise "

@@ -157,7 +157,7 @@ static WrImage *picture_of(const float *block, size_t count, WrError *err)
     const size_t width = count <= (size_t)NARROW * NARROW ? NARROW : WR_IMAGE_MAX;
     const size_t height = (count + width - 1) / width;
     WrImage *image = NULL;
-    if (height > WR_IMAGE_MAX) wr_fail(err, "the meshes are too large to be kept in a document");
+    if (height > WR_IMAGE_MAX) wr_fail(err, "the meshes are too large to be stored in a document");
     else image = wr_image_new((int)width, (int)height, 1, err);
     if (!image) return NULL;
     image->type = WR_PIXEL_F32;
@@ -241,11 +241,11 @@ WrTriangles *wr_scene_mesh_from_image(const WrImage *image, int object, WrError 
     const size_t count = (size_t)image->width * (size_t)image->height;
     size_t from = 0, length = count;
     if (image->channels != 1) {
-        wr_fail(err, "the mesh that is kept here has %d channels; must be 1", image->channels);
+        wr_fail(err, "the stored mesh has %d channels; must be 1", image->channels);
         return NULL;
     }
     if (image->data[0] == SEVERAL && !find_block(image->data, count, object, &from, &length)) {
-        wr_fail(err, "damaged: the meshes that are kept here hold none for object %d", object + 1);
+        wr_fail(err, "damaged: no mesh is stored for object %d", object + 1);
         return NULL;
     }
     return wr_triangles_deserialize(image->data + from, length, err);

@@ -224,7 +224,7 @@ WrImage *wr_normal_map_decode(const WrImage *from, WrGreen green, int channels, 
     Reading r = { .from = from, .channels = channels ? channels : colours };
     *report = (WrNormalMapReport){ 0 };
     if (r.channels < 2 || r.channels > from->channels) {
-        wr_fail(err, "a normal map of %d channels: it has %d; must be 2 or 3",
+        wr_fail(err, "channels=%d: the normal map has %d; must be 2 or 3",
                 r.channels < 2 ? 2 : r.channels, from->channels);
         return NULL;
     }
@@ -243,8 +243,7 @@ WrImage *wr_normal_map_read_object(const WrImage *from, bool green_down, WrCodin
     Reading r = { .from = from, .channels = 3, .object = true };
     *report = (WrNormalMapReport){ 0 };
     if (from->channels < 3) {
-        wr_fail(err, "a normal map of the object's axes: it has %d channels; must be 3",
-                from->channels);
+        wr_fail(err, "an object-space normal map has %d channels; must be 3", from->channels);
         return NULL;
     }
     WrImage *to = read_vectors(&r, coding, report, err);
@@ -269,6 +268,6 @@ WrImage *wr_normal_map_share(const WrImage *held, bool object, WrError *err)
     bool made = held->channels == 3 && held->type == WR_PIXEL_F32;
     for (size_t i = 0; made && i < texels_of(held); i++) made = is_made(held->data + 3 * i, object);
     if (made) return wr_image_share(held);
-    wr_fail(err, "damaged: the normal map holds numbers that are no unit vectors");
+    wr_fail(err, "damaged: the normal map contains vectors that are not of unit length");
     return NULL;
 }

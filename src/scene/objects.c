@@ -146,7 +146,7 @@ static void place_axes(const WrCamera *camera, WrVec3 forward, WrPlacement *out)
 static bool check_camera(const WrCamera *camera, double aspect, WrError *err)
 {
     if (!(aspect > 0) || !isfinite(aspect))
-        return wr_fail(err, "picture %g times as wide as high: must be above 0", aspect);
+        return wr_fail(err, "aspect ratio %g: must be above 0", aspect);
     if (!finite3(camera->eye) || !finite3(camera->target) || !finite3(camera->up))
         return wr_fail(err, "camera eye, target, up: must be finite");
     if (!camera->orthographic && !(camera->fov_deg >= 0.01 && camera->fov_deg <= 179))
@@ -158,8 +158,7 @@ static bool check_camera(const WrCamera *camera, double aspect, WrError *err)
     if (!finite3(back) || v3_len(back) > 1e150)
         return wr_fail(err, "camera eye and target: too far apart; keep them within 1e150");
     if (v3_len(back) > 0) return true;
-    return wr_fail(err,
-                   "camera eye = target = %g,%g,%g: there is no direction of view; move the eye",
+    return wr_fail(err, "camera eye = target = %g,%g,%g: no direction of view; move the eye",
                    camera->eye.x, camera->eye.y, camera->eye.z);
 }
 

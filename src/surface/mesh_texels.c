@@ -163,8 +163,8 @@ static bool prepare(WrMeshTexels *t, WrError *err)
     WrMeshEdges edges;
     t->side = wr_mesh_texel_side_of(t->mesh, &t->table);
     if (!(t->side > 0))
-        return wr_fail(err, "the mesh has no texture coordinates to paint on; give it some: "
-                            "`surface mesh projection=box`");
+        return wr_fail(err, "the mesh has no texture coordinates to paint on: `surface mesh "
+                            "projection=box` computes them");
     if (!t->tree) t->tree = wr_ray_tree_new(t->mesh, 0, t->mesh->triangle_count, err);
     if (!t->tree || !wr_mesh_edges_find(t->mesh, &edges, err)) return false;
     int32_t *first = wr_try_alloc((size_t)edges.count, sizeof *first, "a mesh's edges", err);

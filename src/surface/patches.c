@@ -477,8 +477,7 @@ static bool bad_word(const Reader *r, const char *word, size_t length, const cha
                      WrError *err)
 {
     const int shown = length < SHOWN ? (int)length : SHOWN;
-    if (length == 0)
-        return wr_fail(err, "line %d: the file ends where %s should stand", r->line, what);
+    if (length == 0) return wr_fail(err, "line %d: the file ends before %s", r->line, what);
     return wr_fail(err, "line %d: \"%.*s\" is not %s", r->line, shown, word, what);
 }
 
@@ -539,8 +538,8 @@ static bool read_list(Reader *r, float (*points)[48], int32_t count, WrError *er
     }
     if (!read_whole(r, 1, POINTS_MAX, "the count of points", &known, err)) return false;
     if (most > known)
-        return wr_fail(err, "line %d: %d points, but a patch names point %d", r->line, (int)known,
-                       (int)most);
+        return wr_fail(err, "line %d: %d points, but a patch refers to point %d", r->line,
+                       (int)known, (int)most);
     float *point = wr_try_alloc((size_t)known, 3 * sizeof *point, "points of patches", err);
     bool good = point != NULL;
     for (int32_t i = 0; i < known && good; i++) good = read_point(r, point + 3 * (size_t)i, err);
@@ -972,12 +971,12 @@ WrTriangles *wr_patches_deserialize(const float *block, size_t count, WrError *e
     const bool head = count >= HEAD && block[0] == (float)WR_PATCHES_PACKED && block[1] >= 1 &&
                       block[1] <= WR_PATCHES_MAX && block[2] >= 0 && block[2] < WR_PATCH_TABLES;
     if (!head || count < HEAD + 48 * (size_t)block[1]) {
-        wr_fail(err, "the patches that are kept here make no sense");
+        wr_fail(err, "the stored patches are inconsistent");
         return NULL;
     }
     for (size_t i = 0; i < 48 * (size_t)block[1]; i++)
         if (!(fabsf(block[HEAD + i]) <= 1e30f)) {
-            wr_fail(err, "the patches that are kept here are damaged");
+            wr_fail(err, "the stored patches are damaged");
             return NULL;
         }
     return wr_patches_new((const float(*)[48])(const void *)(block + HEAD), (int32_t)block[1],

@@ -71,9 +71,7 @@ static bool measure(Points *p, WrError *err)
     const double length = p->s[p->count - 1];
     for (int i = 0; i < p->count; i++) most = fmax(most, p->r[i]);
     if (!(length >= WR_LENGTH_MIN) || !(most >= WR_LENGTH_MIN))
-        return wr_fail(
-            err,
-            "revolution profile: has no extent beside the axis: must have a length and a radius");
+        return wr_fail(err, "revolution profile: has no extent: must have a length and a radius");
     for (int i = 1; i < p->count; i++) {
         const double step = (p->s[i] - p->s[i - 1]) / length;
         if (!(step < NEAR) || same_point(p, i, i - 1)) continue;
@@ -229,11 +227,11 @@ static bool check_axis(const WrProfiled *p, WrError *err)
         const bool crosses = least < 0, touches = least <= 0 && v > 0 && v < 1;
         char text[WR_NUMBER_SIZE];
         if (crosses || touches)
-            return wr_fail(
-                err,
-                "revolution profile: %s the axis at v = %s: r must be above 0 but at its ends; "
-                "move its points, or give one twice for a corner",
-                crosses ? "crosses" : "touches", wr_number_print(round(v * 1e4) / 1e4, text));
+            return wr_fail(err,
+                           "revolution profile: %s the axis at v = %s: r must be above 0 except at "
+                           "its ends; move its points, or repeat one for a corner",
+                           crosses ? "crosses" : "touches",
+                           wr_number_print(round(v * 1e4) / 1e4, text));
     }
     return true;
 }

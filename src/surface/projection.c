@@ -292,8 +292,8 @@ static bool lay(const Work *w, WrTriangleCorner c[3], WrVec3 n, WrError *err)
     for (int k = 0; k < 3; k++) {
         if (!(fabs(uv[k][0]) <= WR_PROJECTION_CELLS && fabs(uv[k][1]) <= WR_PROJECTION_CELLS))
             return wr_fail(err,
-                           "cell=%g,%g mm: the mesh reaches over more than %d cells from the "
-                           "projection's origin; choose larger ones, or another unit=",
+                           "cell=%g,%g mm: the mesh extends over more than %d cells from the "
+                           "projection's origin; give larger cells, or another unit=",
                            w->is->cell[0], w->is->cell[1], WR_PROJECTION_CELLS);
         c[k].u = (float)uv[k][0], c[k].v = (float)uv[k][1];
     }

@@ -388,7 +388,7 @@ WrTriangles *wr_triangles_deserialize(const float *block, size_t count, WrError 
     if (count > 0 && block[0] == (float)WR_PATCHES_PACKED)
         return wr_patches_deserialize(block, count, err);
     if (!check_head(block, count)) {
-        wr_fail(err, "the mesh that is kept here makes no sense");
+        wr_fail(err, "the stored mesh is inconsistent");
         return NULL;
     }
     WrTriangles *t = wr_alloc(1, sizeof *t);
@@ -417,7 +417,7 @@ WrTriangles *wr_triangles_deserialize(const float *block, size_t count, WrError 
             triangles_measure(t);
             return t;
         }
-        wr_fail(err, "the mesh that is kept here is damaged");
+        wr_fail(err, "the stored mesh is damaged");
     }
     wr_triangles_free(t);
     return NULL;
@@ -875,7 +875,7 @@ static bool check_source(const WrTrianglesSource *source, WrError *err)
     for (int32_t i = 0; i < 3 * source->triangle_count; i++) {
         const int32_t c = source->corners[i / 3][i % 3];
         if (c < 0 || c >= source->point_count)
-            return wr_fail(err, "triangle %d names point %d of %d", (int)(i / 3 + 1), (int)c,
+            return wr_fail(err, "triangle %d refers to point %d of %d", (int)(i / 3 + 1), (int)c,
                            (int)source->point_count);
     }
     for (int32_t i = 0; i < source->point_count; i++) {

@@ -201,11 +201,11 @@ static bool fail_empty(const WrTriangles *mesh, int number, WrError *err)
     if (!mesh->mapped) wr_fail(err, "the mesh has no texture coordinates, and so no tiles");
     else if (tiles.count == 0)
         wr_fail(err,
-                "no triangle of the mesh lies on tile %d, nor on any other: u must be 0 to 10, "
-                "v 0 or more",
+                "no triangle of the mesh is on tile %d, or on any other: u must be 0 to 10, v 0 or "
+                "more",
                 number);
     else
-        wr_fail(err, "no triangle of the mesh lies on tile %d; triangles on others: %s", number,
+        wr_fail(err, "no triangle of the mesh is on tile %d; triangles on others: %s", number,
                 wr_text_get(&text));
     wr_text_fini(&text);
     wr_uv_tiles_fini(&tiles);

@@ -159,7 +159,7 @@ static void tips_need_a_plain_name_and_their_hash(void **state)
     snprintf(text, sizeof text, "{\"tip_sha256\": \"%064d\"}", 0);
     refuse_relief(text, "tip: is not there");
     snprintf(text, sizeof text, "{\"tip\": \"a.png\", \"tip_sha256\": \"%064d\"}", 0);
-    refuse_relief(text, "a tip needs a preset that is a file");
+    refuse_relief(text, "only a preset in a file can have a tip");
 }
 
 /* A GIMP brush of version 1: 2 x 2 grey pixels. */

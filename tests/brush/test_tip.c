@@ -123,7 +123,7 @@ static void a_gbr_that_lies_about_itself_is_refused(void **state)
         const char *why;
     } lies[] = { { 0, 0xff, "header of" }, { 3, 27, "header of" },   { 7, 3, "version 3" },
                  { 8, 0x7f, "pixels" },    { 11, 0, "0x2" },         { 12, 0x80, "pixels" },
-                 { 15, 3, "cut short" },   { 19, 2, "2 bytes a pi" } };
+                 { 15, 3, "truncated" },   { 19, 2, "2 bytes a pi" } };
     for (size_t i = 0; i < sizeof lies / sizeof *lies; i++) {
         Bytes bad = good;
         bad.data[lies[i].byte] = lies[i].value;

@@ -86,7 +86,7 @@ for words in bench 'accuracy --tolerance rms=0.1'; do
     # shellcheck disable=SC2086  # words
     alone/wrinkle $words >out 2>err
     [[ $? == 1 && ! -s out && $(wc -l <err) == 1 ]] || complain "not one message without wrinkle-bench: $words: $(cat err)"
-    grep -qF "${words%% *} needs the program wrinkle-bench, looked for at: $PWD/alone/wrinkle-bench; build it" err ||
+    grep -qF "${words%% *} needs the program wrinkle-bench, which was not found at: $PWD/alone/wrinkle-bench; build it" err ||
         complain "not told what is missing: $words: $(cat err)"
 done
 

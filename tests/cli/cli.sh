@@ -127,7 +127,7 @@ expect 1 inspect --face 1
 expect 1 inspect --at 1
 expect 1 inspect --at 0.5,x
 expect 1 render -o $'a\nb.png'
-has err 'a?b.png: the name of a file to write holds the control character 0x0a'
+has err 'a?b.png: the file name contains the control character 0x0a'
 [ ! -e $'a\nb.png' ] || complain 'a file whose name has a line break was written'
 expect 0 inspect --at 1.5,0.5 --json
 has err 'the plane ends at 0 and 1'
@@ -527,11 +527,11 @@ has out 'damaged: 2 lines lost, 1 commands behind it'
 expect 0 recover --json
 has out '"beyond":1,"lost":2,"headless":false,"damaged":true'
 expect 1 recover 1 -o part.exr
-has err '1 of 2 commands were brought back; the journal was kept'
+has err '1 of 2 commands were recovered; the journal was kept'
 has err '`wrinkle recover 1 --beyond -o OUT` goes on'
-has err "went on from $PWD/mine.exr"
+has err "continued from $PWD/mine.exr"
 expect 1 recover 1 --beyond -o rest.exr
-has err '2 of 2 commands were brought back; the journal was kept'
+has err '2 of 2 commands were recovered; the journal was kept'
 "$program" inspect mine.exr --do 'dab 0.2,0.2' --json >want 2>err
 "$program" inspect part.exr --json >got 2>err
 is 'up to the damage' "$(cat got)" "$(cat want)"
@@ -548,7 +548,7 @@ has err 'only one of them'
 expect 1 recover 1 --in-place --beyond
 is 'saved in place' "$("$program" inspect mine.exr --json 2>err)" "$(cat want)"
 expect 1 recover 1 --in-place
-has err 'was changed since'
+has err 'has changed since'
 expect 0 recover discard 1
 expect 0 recover
 has out 'nothing to recover'
@@ -584,7 +584,7 @@ printf 'f %s\n' '1/1 2/2 3/3 4/4' '5/5 6/6 7/7' >>tiles.obj
 printf '%s\n' 'grid cells=2x2' 'surface mesh file=tiles.obj udim=1002' 'save tiles.exr' >tiles.wrinkle
 expect 0 run tiles.wrinkle
 expect 0 check tiles.exr
-has out '2 of UDIM, with triangles: 1002 (2), 1024 (1); the table is that of 1002'
+has out '2 of UDIM, with triangles: 1002 (2), 1024 (1); tile 1002 shows the table'
 "$program" check --json tiles.exr >out 2>err
 is 'tiles as JSON' "$(jq -c '[.meshes[0].tiles["1002"], .meshes[0].tiles["1024"], .meshes[0].tile]' out)" '[2,1,1002]'
 expect 0 export tiles.exr --as height -o 'h.<UDIM>.png'

@@ -81,7 +81,7 @@ refused() {
     local status=$1 kind=$2 what=$3
     if ((status >= 124)); then complain "ended by $status: $what"
     elif ((status == 0)); then complain "taken: $what"
-    elif [[ $what == *preset=* ]] && grep -qF 'is not there' err; then : # by its own name it is no .myb file
+    elif [[ $what == *preset=* ]] && grep -qF 'no brush preset' err; then : # by its own name it is no .myb file
     elif ! grep -qF "is a $kind" err; then complain "not refused as a $kind: $what: $(head -c 300 err)"
     fi
 }

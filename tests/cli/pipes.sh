@@ -69,7 +69,7 @@ run 1 export a.wrinkle --as height mips=on -o -
 has err 'standard output holds one'
 run 1 export a.wrinkle --as height -o - --format p.ng
 run 1 export a.wrinkle --as height -o - --format xyz
-has err 'ending'
+has err 'extension'
 run 2 export a.wrinkle --as height -o a.png --format png
 run 2 render a.wrinkle -o a.png --format png
 has err '--format goes with -o -'

@@ -64,7 +64,7 @@ stamps() { stat -c '%n %i %y' whole/*; }
 before=$(stamps)
 frames whole --frames 1-7 --missing --do 'tolerance rms=0.004'
 [[ $(stamps) == "$before" ]] || complain 'whole frames were made again'
-grep -q 'note: 7 of 7 frames were there' err || complain "not told: $(cat err)"
+grep -q 'note: 7 of 7 frames already existed' err || complain "not told: $(cat err)"
 rm -rf cut && cp -r whole cut
 size=$(stat -c %s cut/f02.png)
 truncate -s $((size - 20)) cut/f02.png # its end is missing
@@ -75,7 +75,7 @@ printf 'no picture' >cut/f05.png
 rm cut/f07.png
 frames cut --frames 1-7 --missing --do 'tolerance rms=0.004'
 same cut 'damaged frames'
-grep -q 'note: 1 of 7 frames were there' err || complain "not told: $(cat err)"
+grep -q 'note: 1 of 7 frames already existed' err || complain "not told: $(cat err)"
 for ending in exr tif ppm jpg; do # each kind of file is known again
     for _ in 1 2; do
         "$program" render s.wrinkle -o "one.$ending" --size 50x40 --missing 2>err || complain "$(cat err)"

@@ -182,7 +182,7 @@ static void it_takes_the_place_of_a_colour_picture(void **state)
     must_run(s, "undo");
     assert_int_equal(scene_in(s)->colouring.count, 8);
     must_fail(s, "colouring ramp of=form", "only a terrain has one");
-    must_fail(s, "colouring ramp stops=1,0,0,0;0.5,0,0,0", "they must rise");
+    must_fail(s, "colouring ramp stops=1,0,0,0;0.5,0,0,0", "stops must rise");
     must_fail(s, "colouring ramp slope=50,40", "must not be less");
     must_fail(s, "colouring ramp depth=0.5,0.4", "must not be less");
     must_fail(s, "colouring ramp within=0", "within");

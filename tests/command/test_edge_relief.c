@@ -85,7 +85,7 @@ static void edges_come_from_masks_and_heights_too(void **state)
     must_run(s, "undo");
     must_fail(s, "rim of=selection", "nothing is selected");
     must_run(s, "layer mask 2 from=none");
-    must_fail(s, "rim of=mask", "the layer has none");
+    must_fail(s, "rim of=mask", "the layer has no mask");
     must_run(s, "layer add third");
     must_run(s, "select ellipse centre=0.4,0.5 radii=0.2,0.3");
     must_run(s, "fill 4");

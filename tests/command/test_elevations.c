@@ -214,7 +214,7 @@ static void a_file_of_nothing_but_missing_values_is_refused(void **state)
         for (size_t k = 0; k < sizeof commands / sizeof *commands; k++) {
             if (only_elevations && (k == 0 || k == 3)) continue;
             snprintf(line, sizeof line, "%s%s%s", commands[k], k == 2 ? "" : " ", dems[d].name);
-            must_fail(s, line, k == 1 ? "no elevation is known" : "every value is missing");
+            must_fail(s, line, k == 1 ? "contains no elevation" : "contains only no-data values");
         }
     }
     wr_session_free(s);

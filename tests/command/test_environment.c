@@ -31,7 +31,7 @@ static void sets_files_and_settings_are_taken(void **state)
     write_sky("sky.exr", false);
     WrSession *s = wr_session_new(NULL);
     assert_int_equal(of(s)->kind, WR_ENVIRONMENT_MAP_OFF);
-    must_fail(s, "environment turn=3", "no surroundings");
+    must_fail(s, "environment turn=3", "no environment");
     must_fail(s, "environment off strength=2", "strength");
     must_fail(s, "environment sky layer=R", "layer");
     must_fail(s, "environment missing.exr", "missing.exr");

@@ -76,7 +76,7 @@ static void its_heights_are_refused_and_its_mask_is_painted(void **state)
                                          "flood 0.5,0.5 to=1" };
     for (size_t i = 0; i < sizeof edits / sizeof *edits; i++) must_fail(s, edits[i], "filter");
     must_fail(s, "layer clear", "filter");
-    must_fail(s, "filter blur sigma=1 layer=1", "is no filter");
+    must_fail(s, "filter blur sigma=1 layer=1", "is not a filter layer");
     must_fail(s, "filter blur sigma=1 layer=2 name=x", "rename");
     must_fail(s, "filter levels in-low=2 in-high=2", "differ");
     must_fail(s, "filter clamp low=2 high=1", "above");
@@ -273,7 +273,7 @@ static void what_a_filter_cannot_be_carried_out_for_is_refused(void **state)
         must_run(s, "redo"); /* whose composite is not computed yet */
         break_filter(s, 1, 0.17);
         if (wr_session_run(s, refused[i], &err)) fail_msg("%s went through", refused[i]);
-        if (!strstr(err.text, "'Levels' cannot be carried out (levels: "))
+        if (!strstr(err.text, "'Levels' cannot be computed (levels: "))
             fail_msg("%s: %s", refused[i], err.text);
     }
     assert_int_not_equal(access("lacks.exr", F_OK), 0);
@@ -287,7 +287,7 @@ static void what_a_filter_cannot_be_carried_out_for_is_refused(void **state)
     break_filter(s, 1, 0.17);
     WrError erased = { "" };
     assert_false(wr_session_stroke_begin(s, "stroke mode=erase radius=5", &erased));
-    assert_non_null(strstr(erased.text, "cannot be carried out"));
+    assert_non_null(strstr(erased.text, "cannot be computed"));
     must_run(s, "undo");
     must_run(s, "layer use 2");
     break_filter(s, 1, 0.17);

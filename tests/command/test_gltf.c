@@ -132,7 +132,7 @@ static void what_lies_elsewhere_is_refused(void **state)
     put_buffers("p.bin", "c.bin", 1);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         put_gltf("thief.gltf", names[i], "c.bin");
-        refuse("thief.gltf", "must lie beside the file or below");
+        refuse("thief.gltf", "must be in the file's folder or below");
     }
     put_gltf("alone.gltf", "gone.bin", "c.bin");
     refuse("alone.gltf", "gone.bin");

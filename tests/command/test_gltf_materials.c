@@ -284,18 +284,18 @@ static void lies_are_told(void **state)
     static const struct {
         const char *image, *words;
     } pictures[] = {
-        { "{\"uri\":\"../p0.png\"}", "must lie beside the file or below" },
-        { "{\"uri\":\"/etc/passwd\"}", "must lie beside the file or below" },
-        { "{\"uri\":\"a/%2e%2e/../p0.png\"}", "must lie beside the file or below" },
-        { "{\"uri\":\"file://p0.png\"}", "must lie beside the file or below" },
-        { "{\"uri\":\"data:image/png;base64,!!!!\"}", "not of base64" },
-        { "{\"uri\":\"data:image/png,abc\"}", "not of base64" },
+        { "{\"uri\":\"../p0.png\"}", "must be in the file's folder or below" },
+        { "{\"uri\":\"/etc/passwd\"}", "must be in the file's folder or below" },
+        { "{\"uri\":\"a/%2e%2e/../p0.png\"}", "must be in the file's folder or below" },
+        { "{\"uri\":\"file://p0.png\"}", "must be in the file's folder or below" },
+        { "{\"uri\":\"data:image/png;base64,!!!!\"}", "not base64" },
+        { "{\"uri\":\"data:image/png,abc\"}", "not base64" },
         { "{\"uri\":\"lie.gltf\"}", "neither PNG nor JPEG" },
         { "{\"bufferView\":0}", "bytes 1 to 200000001 of a buffer of 3" },
-        { "{\"bufferView\":1}", "of no buffer" },
-        { "{\"bufferView\":2}", "of no buffer" },
+        { "{\"bufferView\":1}", "has no buffer" },
+        { "{\"bufferView\":2}", "has no buffer" },
         { "{\"bufferView\":3}", "must be up to 268435456" },
-        { "{\"bufferView\":77}", "is not there" },
+        { "{\"bufferView\":77}", "is missing" },
         { "{}", "neither uri nor bufferView" },
         { "9", "neither uri nor bufferView" },
     };

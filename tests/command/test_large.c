@@ -200,7 +200,7 @@ static void a_tolerance_that_lacks_memory_tells_the_way_out(void **state)
     const bool good = wr_session_render(s, "tolerant.png", 16384, 16384, NULL, 0, &err);
     assert_int_equal(setrlimit(RLIMIT_AS, &was), 0);
     assert_false(good);
-    if (!strstr(err.text, "no memory for 4295 MB") || !strstr(err.text, "`tolerance off`"))
+    if (!strstr(err.text, "not enough memory for 4295 MB") || !strstr(err.text, "`tolerance off`"))
         fail_msg("%s", err.text);
     wr_session_free(s);
 }

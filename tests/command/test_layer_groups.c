@@ -49,8 +49,8 @@ static void groups_are_made_of_numbers_ranges_and_names(void **state)
     must_run(s, "undo 2");
     assert_rows(s, "b1 c1 G0 a1 d1 group 10");
     must_fail(s, "layer group x of=2..9", "must be 1..6");
-    must_fail(s, "layer group x of=1,,2", "a layer is missing beside a comma");
-    must_fail(s, "layer ungroup a", "is no group");
+    must_fail(s, "layer group x of=1,,2", "a layer is missing before or after a comma");
+    must_fail(s, "layer ungroup a", "is not a group");
     wr_session_free(s);
 }
 
@@ -75,8 +75,8 @@ static void layers_move_into_groups_and_out(void **state)
     must_fail(s, "layer move G in=G", "into itself");
     must_fail(s, "layer move a to=2 in=none", "is in a group");
     must_fail(s, "layer move a to=5 in=G", "is not in that group");
-    must_fail(s, "layer move a in=d", "is no group");
-    must_fail(s, "layer move a", "where to?");
+    must_fail(s, "layer move a in=d", "is not a group");
+    must_fail(s, "layer move a", "give to=, the new number");
     must_run(s, "layer duplicate G");
     assert_rows(s, "b1 c1 e1 G0 b1 c1 e1 G copy0 d0 a0");
     assert_int_equal(doc(s)->active, 7);
@@ -105,7 +105,7 @@ static void a_group_itself_takes_no_paint(void **state)
     (void)state;
     WrSession *s = four_layers();
     must_run(s, "layer group G of=b,c");
-    must_fail(s, "dab 0.5,0.5", "is a group, without heights");
+    must_fail(s, "dab 0.5,0.5", "is a group, which has no heights");
     must_fail(s, "layer clear G", "is a group");
     must_run(s, "layer mask G from=white");
     must_run(s, "layer use G part=mask");
@@ -117,7 +117,7 @@ static void a_group_itself_takes_no_paint(void **state)
     must_fail(s, "dab 0.5,0.5", "\"G\" is hidden");
     must_run(s, "layer set G visible=on lock=on");
     must_fail(s, "dab 0.5,0.5", "\"G\" is locked");
-    must_fail(s, "layer set a collapsed=on", "is no group");
+    must_fail(s, "layer set a collapsed=on", "is not a group");
     wr_session_free(s);
 }
 
@@ -135,7 +135,7 @@ static void a_group_becomes_one_layer_of_the_same_composite(void **state)
     must_run(s, "layer merge G");
     assert_true(same_field(before, wr_document_field(doc(s))));
     must_run(s, "undo");
-    must_fail(s, "layer merge b", "none below in its group");
+    must_fail(s, "layer merge b", "no layer below it in its group");
     must_run(s, "layer merge c");
     assert_rows(s, "a0 b1 d1 G0");
     wr_field_free(before);
@@ -187,7 +187,7 @@ static void masks_and_lines_in_a_group_read_what_is_below_there(void **state)
     must_run(s, "undo");
     must_run(s, "layer move b in=none"); /* nothing is below c any more */
     assert_true(wr_field_get(doc(s)->layers[1].mask, 9, 9) == 0);
-    must_fail(s, "layer mask b live=\"height of=G\"", "is a filter or a group");
+    must_fail(s, "layer mask b live=\"height of=G\"", "is a filter layer or a group");
     must_run(s, "layer mask G from=black");
     must_run(s, "layer mask b live=\"mask of=G\"");
     assert_true(wr_field_get(doc(s)->layers[3].mask, 9, 9) == 0);
@@ -301,8 +301,8 @@ static void documents_with_broken_groups_are_refused(void **state)
 {
     (void)state;
     refuse((const int[]){ 1, -1 }, 2, NULL, NULL);
-    refuse((const int[]){ 1 }, 1, NULL, "layer 1 is 1 groups deep, where 0 are open");
-    refuse((const int[]){ 2, -1 }, 2, NULL, "layer 1 is 2 groups deep, where 1 are open");
+    refuse((const int[]){ 1 }, 1, NULL, "layer 1 is 1 groups deep, but only 0 are open");
+    refuse((const int[]){ 2, -1 }, 2, NULL, "layer 1 is 2 groups deep, but only 1 are open");
     refuse((const int[]){ 1, 0 }, 2, NULL, "a group is missing");
     refuse((const int[]){ 8, -8, -7, -6, -5, -4, -3, -2, -1 }, 9, NULL, NULL);
     refuse((const int[]){ -9, -8, -7, -6, -5, -4, -3, -2, -1 }, 9, NULL, "up to 8 can be nested");

@@ -200,7 +200,8 @@ static void a_layer_is_scattered_and_followed(void **state)
     check_near((double)f_at(s, 19, 14), 1.0, 1e-5);
     check_near((double)f_at(s, 21, 14), 0.25, 1e-5);
     must_fail(s, "layer add more from=\"solid relief layer=nobody\"", "no layer below");
-    must_fail(s, "layer add more from=\"solid relief layer=base\"", "nothing of it is above 0");
+    must_fail(s, "layer add more from=\"solid relief layer=base\"",
+              "all of its heights are 0 or less");
     write_stone();
     must_fail(s, "layer add more from=\"solid relief stone.png layer=stamp\"", "not both");
     wr_session_free(s);

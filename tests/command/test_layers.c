@@ -172,11 +172,11 @@ static void layers_that_do_not_exist_are_named_in_the_message(void **state)
     must_fail(s, "layer use 0", "layer 0: must be 1..3");
     must_fail(s, "layer use 99999999999999999999", "must be 1..3");
     must_fail(s, "layer use b", "no layer is called \"b\"");
-    must_fail(s, "layer use a", "2 layers are called \"a\": say which by its number");
+    must_fail(s, "layer use a", "2 layers are called \"a\": give its number");
     must_fail(s, "layer move 1 to=4", "to=4: must be 1..3");
     must_fail(s, "layer set 1", "nothing to set");
     must_fail(s, "layer set 1..2 name=a", "name= is for one layer: N names 2");
-    must_fail(s, "layer merge 1", "none below");
+    must_fail(s, "layer merge 1", "no layer below");
     must_fail(s, "layer mask 1 from=selection", "nothing is selected");
     must_run(s, "layer delete 1");
     must_run(s, "layer delete 1");
@@ -244,7 +244,7 @@ static void several_layers_take_the_same_settings(void **state)
     must_fail(s, "layer delete 3,5", "layer 5 \"d\" is locked");
     must_fail(s, "layer merge 5,4", "layer 5 \"d\" is locked");
     must_fail(s, "layer set 3,9 opacity=0.5", "layer 9: must be 1..6");
-    must_fail(s, "layer set 3, opacity=0.5", "\"3,\": a layer is missing beside a comma");
+    must_fail(s, "layer set 3, opacity=0.5", "\"3,\": a layer is missing before or after a comma");
     must_fail(s, "layer move 1,2,3 to=5", "to=5: must be 1..4");
     must_fail(s, "layer merge 1,3", "layers 1 and 3 are not neighbours");
     wr_session_free(s);
@@ -356,8 +356,8 @@ static void several_layers_move_into_groups(void **state)
     check_tree_step("layer move c,e in=none to=1", "h G(H(d)) b base e c");
     check_tree_step("layer move H,b to=2 in=none", "h G(e) H(d c) b base");
     WrSession *s = tree();
-    must_fail(s, "layer move b,G in=H", "cannot go into itself");
-    must_fail(s, "layer move b,h in=e", "is no group");
+    must_fail(s, "layer move b,G in=H", "cannot be moved into itself");
+    must_fail(s, "layer move b,h in=e", "is not a group");
     must_fail(s, "layer move b,h in=G to=1", "is not in that group");
     must_fail(s, "layer move G,h to=4", "to=4: must be 5..7");
     wr_session_free(s);
@@ -378,7 +378,7 @@ static void several_groups_are_joined_and_removed(void **state)
     must_run(s, "layer set c lock=on");
     must_fail(s, "layer merge b,G", "layer 3 \"c\" is locked");
     must_fail(s, "layer delete h,H", "layer 3 \"c\" is locked");
-    must_fail(s, "layer set b,h collapsed=on", "layer 2 is no group");
+    must_fail(s, "layer set b,h collapsed=on", "layer 2 is not a group");
     must_run(s, "layer set G,H collapsed=on");
     assert_true(doc(s)->layers[4].collapsed && doc(s)->layers[6].collapsed);
     must_run(s, "layer set c lock=off");

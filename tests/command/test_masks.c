@@ -149,7 +149,7 @@ static void masks_come_from_heights_slopes_fills_and_themselves(void **state)
     must_fail(s, "layer mask 2 from=white low=0", "low= belongs to");
     must_fail(s, "layer mask 1 from=inverse", "layer 1 has no mask");
     must_fail(s, "select mask 1", "layer 1 has no mask");
-    must_fail(s, "layer use 1 part=mask", "`layer mask 1 from=white` makes one");
+    must_fail(s, "layer use 1 part=mask", "`layer mask 1 from=white` adds one");
     must_run(s, "layer mask 2 from=none");
     assert_false(layer(s, 2)->on_mask);
     must_run(s, "fill 3"); /* heights again */

@@ -153,7 +153,7 @@ static void the_space_changes_without_the_file(void **state)
     assert_true(wr_hash_equal(wr_session_hash(s), tangent));
     must_run(s, "undo");
     assert_near(map_of(s)->image->data[2], -0.8, 1e-6);
-    must_fail(s, "normalmap space=object channels=2", "names a file");
+    must_fail(s, "normalmap space=object channels=2", "needs a file");
     wr_session_free(s);
 }
 
@@ -172,10 +172,10 @@ static void what_makes_no_sense_is_refused(void **state)
     must_fail(s, "normalmap grey.png space=object", "must be 3");
     must_fail(s, "normalmap up.png space=object channels=2", "channels=");
     must_fail(s, "normalmap up.png strength=101", "-100..100");
-    must_fail(s, "normalmap off strength=1", "off takes no strength=");
+    must_fail(s, "normalmap off strength=1", "strength= cannot be given with off");
     must_run(s, "normalmap up.png");
-    must_fail(s, "normalmap channels=2", "names a file");
-    must_fail(s, "normalmap green=auto", "names a file");
+    must_fail(s, "normalmap channels=2", "needs a file");
+    must_fail(s, "normalmap green=auto", "needs a file");
     must_fail(s, "normalmap repeat=1", "repeat");
     wr_session_free(s);
 }

@@ -203,7 +203,7 @@ static void sidecars_that_are_wrong_are_refused(void **state)
 {
     (void)state;
     static const char *const wrong[][2] = {
-        { NULL, "is not there" },
+        { NULL, "is missing" },
         { "", "JSON" },
         { "[1]", "JSON" },
         { "{\"width\": 2, \"height\": 3", "JSON" },

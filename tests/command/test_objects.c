@@ -164,7 +164,7 @@ static void what_cannot_be_is_told(void **state)
     must_fail(session, "object set at=1,2", "at");
     must_fail(session, "object set turn=1,2", "own");
     must_fail(session, "object add", "NAME");
-    must_fail(session, "rotate", "one of x,y,z");
+    must_fail(session, "rotate", "give x,y,z or pose=own");
     must_run(session, "object remove box");
     must_run(session, "object remove band");
     must_fail(session, "object remove", "at least one");

@@ -322,13 +322,14 @@ static void a_projection_that_meets_nothing_is_an_error(void **state)
     (void)state;
     Said said;
     WrSession *s = with_screens(&said);
-    must_fail(s, "project 1 eye=0,0,-3 at=0,0,0 width=3", "nothing of the layer is seen");
-    must_fail(s, "project 1 eye=0,0,3 at=0,0,3 width=3", "give no direction");
-    must_fail(s, "project 1 eye=0,0,3 at=0,0,0 up=0,0,2 width=3", "give no direction");
+    must_fail(s, "project 1 eye=0,0,-3 at=0,0,0 width=3", "nothing of the layer hits the mesh");
+    must_fail(s, "project 1 eye=0,0,3 at=0,0,3 width=3", "define no view");
+    must_fail(s, "project 1 eye=0,0,3 at=0,0,0 up=0,0,2 width=3", "define no view");
     must_fail(s, "project none eye=0,0,3 at=0,0,0 width=3", "none");
-    must_fail(s, "project 1 eye=0,0,3 at=0,0,0 width=3 mode=smooth", "moves heights along a path");
+    must_fail(s, "project 1 eye=0,0,3 at=0,0,0 width=3 mode=smooth",
+              "moves heights along the path");
     must_run(s, "surface plane");
-    must_fail(s, "project 1 eye=0,0,3 at=0,0,0 width=3", "without triangles");
+    must_fail(s, "project 1 eye=0,0,3 at=0,0,0 width=3", "not a mesh");
     wr_session_free(s);
 }
 
@@ -480,7 +481,7 @@ static void shared_texels_are_noted_once(void **state)
         "vt 0.9 0.1\nvt 0.9 0.9\nvt 0.1 0.9\nf 1/1 2/2 3/3 4/4\nf 5/1 6/2 7/3 8/4\n");
     WrSession *s = with_mesh(&said, "table 64x64", "surface mesh file=twins.obj");
     must_run(s, "sculpt points=3.4,0.5,0 radius=5");
-    assert_non_null(strstr(said.text, "texels of the stroke at several places of the mesh"));
+    assert_non_null(strstr(said.text, "texels of the stroke belong to several places of the mesh"));
     said.text[0] = '\0';
     must_run(s, "sculpt points=0.4,0.5,0 radius=5");
     assert_string_equal(said.text, "");
@@ -569,7 +570,7 @@ static void errors_name_the_cause_and_the_remedy(void **state)
     must_fail(s, "sculpt points=0,0,1 mirror=u", "leave them out on a mesh");
     must_fail(s, "sculpt points=0,0,1 mode=clone", "mode=clone needs source=");
     must_run(s, "surface sphere");
-    must_fail(s, "sculpt points=0,0,1", "paint in its table with `stroke`");
+    must_fail(s, "sculpt points=0,0,1", "paint on its table with `stroke`");
     write_text("bare.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
     must_run(s, "surface mesh file=bare.obj");
     must_fail(s, "sculpt points=0,0,1", "no texture coordinates to paint on");

@@ -86,8 +86,8 @@ static void nothing_runs_in_a_still(void **state)
     (void)state;
     WrError err = { "" };
     WrSession *session = some_session(), *still = wr_session_snapshot(session);
-    must_fail(still, "fill 0.37", "not while");
-    must_fail(still, "undo", "not while");
+    must_fail(still, "fill 0.37", "busy: ");
+    must_fail(still, "undo", "busy: ");
     assert_false(wr_session_history_go(still, 0, &err));
     assert_false(wr_session_stroke_begin(still, "stroke radius=7", &err));
     assert_false(wr_session_save(still, "still.exr", &err));

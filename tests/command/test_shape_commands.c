@@ -179,7 +179,7 @@ static void a_ramp_joins_what_is_there_as_its_blend_says(void **state)
         wr_session_free(old);
     }
     WrSession *s = session_of((const char *[]){ "table 8x8", NULL });
-    must_fail(s, "ramp cone from=0.5,0.5 to=0.5,0.5", "same place");
+    must_fail(s, "ramp cone from=0.5,0.5 to=0.5,0.5", "same point");
     must_fail(s, "ramp linear from=0,0 to=2,0 fold=on", "along u");
     must_run(s, "ramp linear from=0,0 to=0.5,0 low=-3.4e38 high=3.4e38 blend=add");
     must_run(s, "ramp linear from=0,0 to=0.5,0 low=-3.4e38 high=3.4e38 blend=add");

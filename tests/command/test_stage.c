@@ -459,7 +459,7 @@ static void the_ground_lies_under_what_is_shown(void **state)
     assert_true(wr_shape_endless(&ground_of(other)->shape) && ground_of(other)->size == 3);
     must_run(other, "object choose ground");
     must_run(other, "surface torus");
-    must_fail(other, "ground on endless=on", "only a plane has a horizon");
+    must_fail(other, "ground on endless=on", "only a plane can be endless");
     must_run(other, "object set still=off");
     must_fail(other, "ground on", "turns with the others");
     wr_session_free(session);
@@ -552,7 +552,7 @@ static void a_file_becomes_the_table_of_one_object(void **state)
         assert_string_equal(scene_of(session)->layer, "shell 2");
         must_run(session, "object hide");
         must_fail(session, "fill 1", "is hidden"); /* it would be invisible */
-        must_fail(session, "object set table=shell.exr layer=1", "do not go together");
+        must_fail(session, "object set table=shell.exr layer=1", "not both");
         must_fail(session, "object set table=none.exr", "none.exr");
         wr_session_free(session);
         wr_session_free(other);

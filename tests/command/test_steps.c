@@ -191,9 +191,9 @@ static void impossible_changes_are_refused(void **state)
     must_fail(s, "step off 2", "step 3 cannot run after this change: layer");
     must_fail(s, "step set 5 line=\"fill 0.3\"", "step 5 is undone");
     must_fail(s, "step set 6 line=\"fill 0.3\"", "step 6: there are 5");
-    must_fail(s, "step set 2 line=\"undo\"", "a step is an edit");
-    must_fail(s, "step set 2 line=\"save x.exr\"", "a step is an edit");
-    must_fail(s, "step set 2", "must have line= or change=");
+    must_fail(s, "step set 2 line=\"undo\"", "must be an edit");
+    must_fail(s, "step set 2 line=\"save x.exr\"", "must be an edit");
+    must_fail(s, "step set 2", "give line= or change=");
     must_fail(s, "step set 2 change=\"nothing=1\"", "unknown name");
     must_fail(s, "step off 0", "must be numbers of steps");
     must_fail(s, "step off 2..", "must be numbers of steps");

@@ -174,9 +174,9 @@ static void form_and_bump_are_two_layers(void **state)
     assert_null(scene_in(s)->triangles);
     assert_true(f_at(s, 10, 10) == top);
     must_run(s, "object set layer=hill");
-    must_fail(s, "surface terrain layer=hill", "choose another as its form");
+    must_fail(s, "surface terrain layer=hill", "choose another for the terrain");
     must_fail(s, "surface terrain layer=valley", "no layer is called");
-    must_fail(s, "surface terrain layer=hill file=h.png", "do not go together");
+    must_fail(s, "surface terrain layer=hill file=h.png", "not both");
     wr_session_free(s);
 }
 

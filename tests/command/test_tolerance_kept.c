@@ -304,7 +304,8 @@ static void dials_of_blocks_from_earlier_versions_are_chosen_anew(void **state)
         must_run(session, line);
         picture(session, 40, 24, &studies);
         assert_int_equal(studies, 1);
-        assert_non_null(strstr(wr_text_get(&notes), "chosen for another program: chosen anew"));
+        assert_non_null(
+            strstr(wr_text_get(&notes), "chosen for another program, and are chosen again"));
         wr_text_fini(&notes);
         wr_session_free(session);
     }

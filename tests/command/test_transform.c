@@ -315,7 +315,7 @@ static void the_box_of_a_selection_goes_over_edges(void **state)
             assert_int_equal(box.j, cases[k].j);
             assert_int_equal(box.count_i, cases[k].w);
             assert_int_equal(box.count_j, cases[k].h);
-        } else must_fail(s, "transform turn=3", "nothing is inside the selection");
+        } else must_fail(s, "transform turn=3", "nothing to move");
         wr_session_free(s);
     }
 }
@@ -468,7 +468,7 @@ static void several_layers_move_together(void **state)
             wr_field_free(was);
         }
         must_run(a, "undo");
-        must_fail(a, "transform move=1,1 of=1 layers=all", "of= and layers=all");
+        must_fail(a, "transform move=1,1 of=1 layers=all", "of= or layers=all");
         must_fail(a, "transform move=1,1 of=1,9", "layer 9");
         must_run(a, "layer set 3 lock=on");
         must_fail(a, "transform move=1,1 of=1,pair", "is locked");

@@ -80,10 +80,11 @@ static void the_other_tiles_have_no_coordinates(void **state)
     Said said;
     WrError err = { "" };
     WrSession *s = with_low(&said);
-    assert_non_null(strstr(said.text, "UDIM tiles, with triangles: 1001 (2), 1002 (2), 1015 (2)"));
+    assert_non_null(
+        strstr(said.text, "UDIM tiles and their triangles: 1001 (2), 1002 (2), 1015 (2)"));
     const uint64_t whole = doc(s)->scene->triangles->key;
     must_run(s, "surface mesh udim=1015");
-    assert_non_null(strstr(said.text, "the table is that of 1015, the others have no relief"));
+    assert_non_null(strstr(said.text, "tile 1015 shows the table, the others have no relief"));
     const WrTriangles *mesh = doc(s)->scene->triangles;
     assert_int_equal(mesh->triangle_count, 6);
     for (int i = 0; i < mesh->corner_count; i++) {
@@ -119,10 +120,11 @@ static void wrong_tiles_are_refused(void **state)
     Said said;
     WrSession *s = with_low(&said);
     must_fail(s, "surface mesh udim=1003",
-              "no triangle of the mesh lies on tile 1003; triangles on others: 1001 (2), 1002 (2)");
+              "no triangle of the mesh is on tile 1003; triangles on others: 1001 (2), 1002 (2)");
     must_fail(s, "surface mesh udim=999", "must be all, or a tile's number, 1001..9999");
-    must_fail(s, "surface mesh projection=box udim=1001", "a projection makes no tiles");
-    must_fail(s, "bake-tiles high.obj flat.exr", "the mesh has 3 tiles, and the name no <UDIM>");
+    must_fail(s, "surface mesh projection=box udim=1001", "needs projection=uv");
+    must_fail(s, "bake-tiles high.obj flat.exr",
+              "the mesh has 3 tiles: the file name needs <UDIM>");
     must_fail(s, "bake-tiles high.obj flat.<UDIM>.xyz", "xyz");
     must_fail(s, "export height h.<UDIM>.exr", "the object has no tile");
     must_fail(s, "maps blender . udim=12", "must be none, or a tile's number");
@@ -131,7 +133,7 @@ static void wrong_tiles_are_refused(void **state)
     must_fail(s, "surface mesh file=bare.obj udim=1001", "no texture coordinates");
     write_text("left.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt -1 0.5\nvt -0.5 0.5\nvt -0.5 0.9\n"
                            "f 1/1 2/2 3/3\n");
-    must_fail(s, "surface mesh file=left.obj udim=1001", "nor on any other: u must be 0 to 10");
+    must_fail(s, "surface mesh file=left.obj udim=1001", "or on any other: u must be 0 to 10");
     must_run(s, "surface sphere");
     must_fail(s, "surface mesh udim=1001", "the object has no mesh");
     wr_session_free(s);
@@ -252,7 +254,7 @@ static void bake_tiles_writes_all_or_none(void **state)
     WrSession *s = with_low(&said);
     write_text("short.obj", "v -1 -1 0\nv 1.5 -1 0\nv 1.5 2 0\nv -1 2 0\nf 1 2 3 4\n");
     must_fail(s, "bake-tiles short.obj q.<UDIM>.png map=normal cage=0.1",
-              "none of 384 rays met its front");
+              "none of 384 rays hit a front face");
     assert_false(wr_path_is_there("q.1001.png"));
     wr_session_free(s);
 }

@@ -161,7 +161,7 @@ static void variants_are_stored_renamed_and_deleted(void **state)
 {
     (void)state;
     WrSession *s = document();
-    must_fail(s, "variant use worn", "no variant is called \"worn\"");
+    must_fail(s, "variant use worn", "no variant \"worn\"");
     must_fail(s, "variant set", "no variant is in use");
     assert_false(wr_variant_differs(doc(s)));
     const WrHash before = wr_session_hash(s);
@@ -325,7 +325,7 @@ static void each_variant_is_exported_in_one_go(void **state)
     must_run(s, "export height \"<VARIANT>.png\"");
     assert_int_equal(access("-.-v0.png", F_OK), 0);
     must_run(s, "variant rename v1 -.-v0");
-    must_fail(s, "export height \"<VARIANT>.png\"", "two variants would write it");
+    must_fail(s, "export height \"<VARIANT>.png\"", "two variants would write this file");
     WrSession *none = document();
     must_fail(none, "export height \"<VARIANT>.png\"", "the document has no variants");
     wr_session_free(none);

@@ -439,11 +439,10 @@ static void a_full_disk_keeps_the_old_document(void **state)
             setrlimit(RLIMIT_FSIZE, &old);
             if (ok != (missing[i] == 0)) fail_msg("%zu bytes are missing", missing[i]);
             char said[160];
-            snprintf(
-                said, sizeof said,
-                "kept.exr: cannot be written (File too large: at most %zu bytes are allowed here "
-                "(ulimit -f))",
-                length - missing[i]);
+            snprintf(said, sizeof said,
+                     "kept.exr: cannot be written (File too large: at most %zu bytes are allowed "
+                     "here (ulimit -f))",
+                     length - missing[i]);
             if (!ok) assert_string_equal(err.text, said);
             read_bytes("kept.exr", &after, &length_after);
             assert_int_equal(length, length_after);

@@ -530,7 +530,8 @@ static void nesting_beyond_the_limit_is_an_error(void **state)
     document->layers[0].is_group = false;
     document->layers[2].is_group = false;
     assert_false(wr_document_check_groups(document, &err));
-    assert_string_equal(err.text, "layer 2 is 7 groups deep, where 6 are open: a group is missing");
+    assert_string_equal(err.text,
+                        "layer 2 is 7 groups deep, but only 6 are open: a group is missing");
     wr_document_free(document);
 }
 

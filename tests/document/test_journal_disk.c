@@ -300,7 +300,7 @@ static void a_restart_that_fails_changes_nothing(void **state)
     wr_journal_command(journal, "a", NULL);
     WrJournalStart start = { .kind = WR_JOURNAL_EMPTY };
     assert_false(wr_journal_restart(journal, &start, &err)); /* "a" is running */
-    assert_non_null(strstr(err.text, "under way"));
+    assert_non_null(strstr(err.text, "while a command runs"));
     wr_journal_done(journal, WR_JOURNAL_OK, NULL, NULL);
     assert_true(wr_journal_snapshot_path(journal, &path, &err));
     char *files = wr_path_folder(wr_text_get(&path)), *deeper = in(files, "deeper");

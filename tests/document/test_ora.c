@@ -497,8 +497,8 @@ static void refuse_stack(const char *xml, const char *word)
 static void lists_of_layers_that_are_hostile_are_refused(void **state)
 {
     (void)state;
-    refuse_stack("", "damaged: its list of layers");
-    refuse_stack("<image w='1' h='1'><stack>", "damaged: its list of layers, line 1");
+    refuse_stack("", "damaged list of layers");
+    refuse_stack("<image w='1' h='1'><stack>", "damaged list of layers, line 1");
     refuse_stack("<svg/>", "is no list of layers");
     refuse_stack("<image w='1' h='1'><stack/></image>", "has no layer");
     refuse_stack("<image w='1'><stack><layer src='data/a.png'/></stack></image>", "canvas of 1x0");
@@ -509,7 +509,7 @@ static void lists_of_layers_that_are_hostile_are_refused(void **state)
                  "x is 'nan'");
     refuse_stack("<image w='1' h='1'><stack><layer src='data/a.png' opacity='7'/></stack></image>",
                  "opacity is '7'");
-    refuse_stack("<image w='1' h='1'><stack><layer/></stack></image>", "names no picture");
+    refuse_stack("<image w='1' h='1'><stack><layer/></stack></image>", "has no picture");
     refuse_stack("<image w='1' h='1'><stack><layer src='../../etc/passwd'/></stack></image>",
                  "has no ../../etc/passwd in it");
     refuse_stack("<image w='1' h='1'><stack><layer src='/etc/passwd'/></stack></image>",
@@ -552,7 +552,7 @@ static void archives_that_are_hostile_are_refused(void **state)
                     { "stack.xml", xml, 0, 0 },
                     { "data/a.png", zeros, sizeof zeros, ZIP_CM_DEFLATE } };
     write_archive("h.ora", bomb, 3);
-    expect_refused("h.ora", "grows from");
+    expect_refused("h.ora", "unpacks from");
     Part large[] = { TYPE, { "stack.xml", zeros, 0, 0 } };
     char *spaces = malloc(17 << 20);
     memset(spaces, ' ', 17 << 20);

@@ -126,7 +126,7 @@ static void a_set_has_one_where_asked_for(void **state)
         const char *word, *says;
     } bad[] = { { "contact=../all.png", "without a folder" },
                 { "contact=", "without a folder" },
-                { "contact=all.xyz", "ending 'xyz'" },
+                { "contact=all.xyz", "extension 'xyz'" },
                 { "contact=clay_Height.png", "is the name of one of the maps" } };
     WrMapSetRequest order = { set, ".", "clay", words, 1, NULL };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {

@@ -752,10 +752,10 @@ static void exports_that_cannot_be_leave_no_file(void **state)
                 { "no.exr", "depth=8", "EXR holds 32-bit floats" },
                 { "no.jpg", "depth=16", "JPEG holds 8 bits" },
                 { "no.hdr", "depth=32", "HDR" },
-                { "no.what", "depth=8", "'what' names no picture format" },
-                { "no.png", "dither=on", "dither is for 8 bits" },
+                { "no.what", "depth=8", "'what' is not a picture format" },
+                { "no.png", "dither=on", "dither needs 8 bits" },
                 { "nowhere/no.png", "depth=8", "folder does not exist" },
-                { ".", "depth=8", "names no picture format" } };
+                { ".", "depth=8", "is not a picture format" } };
     WrDocument *document = document_of(random_field(4, 4, WR_WRAP_PERIODIC, 0, 1));
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         WrError err = { "" };

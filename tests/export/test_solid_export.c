@@ -384,7 +384,7 @@ static void what_cannot_be_made_is_told(void **state)
     } bad[] = {
         { WR_SURFACE_plane, "", "a.png", "stl files end in .stl" },
         { WR_SURFACE_mesh, "", "a.stl", "has no file" },
-        { WR_SURFACE_cone, "thickness=60", "a.stl", "leave room for" },
+        { WR_SURFACE_cone, "thickness=60", "a.stl", "too thick for the curvature" },
         { WR_SURFACE_sphere, "triangles=317", "a.stl", "needs more than 317 triangles" },
         { WR_SURFACE_plane, "size=1000 error=1e-6", "a.stl", "needs more than" },
     };

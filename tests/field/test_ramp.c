@@ -227,7 +227,7 @@ static void ramps_that_lead_nowhere_are_refused(void **state)
     WrField *like = wr_field_new(W, H, WR_WRAP_PERIODIC, WR_WRAP_CLAMP, 0, NULL);
     WrRamp r = { WR_RAMP_LINEAR, 0.5, 0.5, 0.5, 0.5, 0, 1, false };
     assert_null(wr_ramp_make(like, &r, NULL, NULL, &err));
-    assert_non_null(strstr(err.text, "same place"));
+    assert_non_null(strstr(err.text, "same point"));
     r = (WrRamp){ WR_RAMP_LINEAR, 0, 0, 1, 0, 0, 1, true };
     assert_null(wr_ramp_make(like, &r, NULL, NULL, &err));
     assert_non_null(strstr(err.text, "along u"));

@@ -339,7 +339,7 @@ static void impossible_solids_are_refused_in_words(void **state)
     refuse(&asked, "length=19: must be at least");
     asked = ask("surface", NULL);
     static const char *const shapes[][2] = { { "", "is empty" },
-                                             { "teapot", "is no surface" },
+                                             { "teapot", "is not a surface" },
                                              { "torus R", "must be NAME=VALUE" },
                                              { "torus R=x", "must be 1 numbers" },
                                              { "torus R=1,2", "must be 1 numbers" },
@@ -350,7 +350,7 @@ static void impossible_solids_are_refused_in_words(void **state)
     }
     asked = ask("letters", NULL);
     value_of(asked.row, asked.values, "text")->text = " ";
-    refuse(&asked, "nothing to be cut out");
+    refuse(&asked, "the text has no visible letters");
     asked = ask("mesh", NULL);
     value_of(asked.row, asked.values, "file")->text = "/nowhere/a.obj";
     refuse(&asked, "/nowhere/a.obj");

@@ -162,15 +162,15 @@ static void hostile_files_give_one_error_that_names_them(void **state)
     } files[] = {
         { "missing.svg", NULL, "No such file" },
         { "void.svg", "", "is empty" },
-        { "plain.svg", "hello", "is no SVG file" },
-        { "cut.svg", SVG "width=\"9\" height=\"9\"><rect width=\"3\" hei", "is no SVG file" },
-        { "entities.svg", NULL, "is no SVG file" },
-        { "deep.svg", NULL, "is no SVG file" },
+        { "plain.svg", "hello", "is not an SVG file" },
+        { "cut.svg", SVG "width=\"9\" height=\"9\"><rect width=\"3\" hei", "is not an SVG file" },
+        { "entities.svg", NULL, "is not an SVG file" },
+        { "deep.svg", NULL, "is not an SVG file" },
         { "nothing.svg", SVG "width=\"9\" height=\"9\"></svg>", "draws nothing" },
         { "outside.svg",
           "<!DOCTYPE svg [<!ENTITY x SYSTEM \"circle.svg\">]>" SVG
           "width=\"9\" height=\"9\">&x;</svg>",
-          "is no SVG file" },
+          "is not an SVG file" },
         { "image.svg",
           SVG "width=\"9\" height=\"9\"><image xlink:href=\"circle.svg\" width=\"9\" height=\"9\"/>"
               "</svg>",

@@ -529,7 +529,7 @@ static void wild_places_give_one_error_with_the_first_ones_number(void **state)
     scene = (WrZScene){ .solids = &s, .solid_count = 1, .scale = 1 };
     expect_error(&scene, like, "solid 1");
     s = solid_of(WR_Z_SPHERE, 0, 1e5, 1e5, 1e5, upright, 0, 0, 0);
-    expect_error(&scene, like, "must be fewer");
+    expect_error(&scene, like, "at most");
     wr_field_free(like);
 }
 

@@ -615,14 +615,14 @@ static void types_that_a_format_cannot_hold_are_errors(void **state)
         { "x.jpg", WR_PIXEL_U16, 1, true, "JPEG holds 8 bits" },
         { "x.bmp", WR_PIXEL_U16, 3, true, "BMP holds 8 bits" },
         { "x.tga", WR_PIXEL_F32, 3, true, "TGA holds 8 bits" },
-        { "x.pgm", WR_PIXEL_U8, 3, true, "cannot hold 3 channels" },
-        { "x.ppm", WR_PIXEL_U8, 1, true, "cannot hold 1 channel;" },
-        { "x.png", WR_PIXEL_U8, 7, true, "cannot hold 7 channels" },
-        { "x.hdr", WR_PIXEL_F32, 3, true, "8 bits of each number" },
+        { "x.pgm", WR_PIXEL_U8, 3, true, "cannot store 3 channels" },
+        { "x.ppm", WR_PIXEL_U8, 1, true, "cannot store 1 channel;" },
+        { "x.png", WR_PIXEL_U8, 7, true, "cannot store 7 channels" },
+        { "x.hdr", WR_PIXEL_F32, 3, true, "8 bits per channel" },
         { "x.exr", WR_PIXEL_F32, 257, true, "1..256" },
-        { "x.xyz", WR_PIXEL_U8, 1, true, "'xyz' names no picture format" },
-        { "x", WR_PIXEL_U8, 1, true, "names no picture format" },
-        { ".png", WR_PIXEL_U8, 1, true, "names no picture format" },
+        { "x.xyz", WR_PIXEL_U8, 1, true, "'xyz' is not a picture format" },
+        { "x", WR_PIXEL_U8, 1, true, "is not a picture format" },
+        { ".png", WR_PIXEL_U8, 1, true, "is not a picture format" },
     };
     int before = files_here();
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -748,13 +748,13 @@ static void a_missing_module_is_an_error_and_the_variable_finds_it(void **state)
     char *text;
     size_t length;
     assert_true(wr_file_read("out.txt", 4096, &text, &length, &err));
-    assert_non_null(strstr(text, "need the program wrinkle-reader, looked for at: "));
+    assert_non_null(strstr(text, "need the program wrinkle-reader, which was not found at: "));
     assert_non_null(strstr(text, "/lonely/wrinkle-reader"));
     wr_free(text);
     const char *inside = "WRINKLE_READER=inside lonely/program --read m.exr >out.txt";
     assert_int_equal(WEXITSTATUS(system(inside)), 3);
     assert_true(wr_file_read("out.txt", 4096, &text, &length, &err));
-    assert_non_null(strstr(text, "need the module wrinkle_oiio.so, looked for at: "));
+    assert_non_null(strstr(text, "need the module wrinkle_oiio.so, which was not found at: "));
     assert_non_null(strstr(text, "/lonely/wrinkle_oiio.so"));
     wr_free(text);
     setenv("WRINKLE_MODULES", folder, 1);

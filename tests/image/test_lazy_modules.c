@@ -131,7 +131,8 @@ static void a_failure_is_told_and_not_kept(void **state)
         WrError err = { "" };
         wr_progress_set(who[i]);
         assert_null(wr_module_table(&module, &err));
-        assert_non_null(strstr(err.text, "slow files need the module slow3.so, looked for at: "));
+        assert_non_null(
+            strstr(err.text, "slow files need the module slow3.so, which was not found at: "));
     }
     put_module("slow3.so");
     assert_non_null(wr_module_table(&module, NULL));
@@ -149,7 +150,8 @@ static void a_library_that_is_missing_is_named_with_its_package(void **state)
     assert_non_null(file);
     assert_true(fputs("not a library", file) >= 0 && fclose(file) == 0);
     assert_null(wr_module_table(&module, &err));
-    assert_non_null(strstr(err.text, "slow files need the module broken.so, looked for at: "));
+    assert_non_null(
+        strstr(err.text, "slow files need the module broken.so, which was not found at: "));
     assert_non_null(strstr(err.text, "/broken.so (/")); /* its path begins the reason */
     module.package = "libslow1";
     assert_null(wr_module_table(&module, &err));

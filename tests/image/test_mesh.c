@@ -328,19 +328,21 @@ static void other_contents_are_named(void **state)
                       letter[] = "Dear Sir,\nvery long lines of a letter\n";
     char stl[512];
     const size_t length = tetrahedron_stl(stl);
-    refuse("a.stl", png, sizeof png - 1, "is no STL file: its content is that of a PNG picture");
-    refuse("a.obj", png, sizeof png - 1, "is no OBJ file: its content is that of a PNG picture");
-    refuse("a.ply", png, sizeof png - 1, "is no PLY file: its content is that of a PNG picture");
-    refuse("a.3mf", png, sizeof png - 1, "is no 3MF file: its content is that of a PNG picture");
-    refuse("a.glb", zip, sizeof zip - 1, "is no GLB file: its content is that of a zip archive");
-    refuse("a.ply", stl, length, "is no PLY file: its content is that of an STL file");
-    refuse("a.obj", stl, length, "is no OBJ file: its content is that of an STL file");
+    refuse("a.stl", png, sizeof png - 1, "is not a valid STL file: its content is a PNG picture");
+    refuse("a.obj", png, sizeof png - 1, "is not a valid OBJ file: its content is a PNG picture");
+    refuse("a.ply", png, sizeof png - 1, "is not a valid PLY file: its content is a PNG picture");
+    refuse("a.3mf", png, sizeof png - 1, "is not a valid 3MF file: its content is a PNG picture");
+    refuse("a.glb", zip, sizeof zip - 1, "is not a valid GLB file: its content is a zip archive");
+    refuse("a.ply", stl, length, "is not a valid PLY file: its content is an STL file");
+    refuse("a.obj", stl, length, "is not a valid OBJ file: its content is an STL file");
     refuse("b.stl", box_obj, sizeof box_obj - 1,
-           "is no STL file: its content is that of an OBJ file");
-    refuse("c.obj", letter, sizeof letter - 1, "is no OBJ file: its content is that of plain text");
+           "is not a valid STL file: its content is an OBJ file");
+    refuse("c.obj", letter, sizeof letter - 1,
+           "is not a valid OBJ file: its content is plain text");
     /* the right kind, but damaged */
-    refuse("cut.stl", stl, length - 1, "cut.stl: says that it holds 4 triangles");
-    refuse("cut.3mf", zip, sizeof zip - 1, "cut.3mf: is no 3MF file, or is truncated");
+    refuse("cut.stl", stl, length - 1,
+           "cut.stl: is damaged or truncated: its header has 4 triangles");
+    refuse("cut.3mf", zip, sizeof zip - 1, "cut.3mf: is not a 3MF file, or is truncated");
 }
 
 /* 3 000 001 triangles with three points each, which STL files do not share. */
@@ -363,15 +365,16 @@ static void files_that_are_no_meshes_are_refused_with_a_reason(void **state)
     static const char points[] = "v 0 0 0\nv 1 1 1\nv 2 0 0\nl 1 2 3\n";
     refuse("points.obj", points, sizeof points - 1, "points.obj: ");
     refuse("a.png", "\x89PNG\r\n\x1a\n", 8, "of a kind that can be read (.png)");
-    refuse("a.ply", "hel\1o", 5, "cannot be read");
+    refuse("a.ply", "hel\1o", 5, "is not a PLY file");
     refuse("a.obj", "", 0, "0 bytes: must be");
     /* Header counts without data. */
     static const char vertices[] = "ply\nformat ascii 1.0\nelement vertex 2147483647\nend_header\n";
-    refuse("much.ply", vertices, sizeof vertices - 1, "says that it holds 2147483647 elements");
+    refuse("much.ply", vertices, sizeof vertices - 1,
+           "is damaged: its header has 2147483647 elements");
     static const char faces[] = "ply\r\nformat binary_little_endian 1.0\r\nelement vertex 1\r\n"
                                 "element face   4000000000 \r\nend_header\r\n1234";
     refuse("much.obj", faces, sizeof faces - 1,
-           "says that it holds 4000000000 elements in 4 bytes");
+           "is damaged: its header has 4000000000 elements, but the file only 4 bytes");
     WrMesh mesh = { 0 };
     WrError err = { "" };
     assert_false(wr_mesh_read("/nowhere/a.obj", &mesh, &err));
@@ -396,9 +399,9 @@ static void what_a_file_points_to_is_not_opened(void **state)
     char *rest = strdup(strchr(uri, '"'));
     strcpy(uri, other);
     strcat(gltf, rest);
-    refuse("thief.gltf", gltf, strlen(gltf), "keeps a part in another file");
+    refuse("thief.gltf", gltf, strlen(gltf), "needs another file");
     setenv("WRINKLE_READER", "inside", 1);
-    refuse("thief.gltf", gltf, strlen(gltf), "cannot be read");
+    refuse("thief.gltf", gltf, strlen(gltf), "needs another file");
     memcpy(strstr(gltf, "2.0"), "1.0", 3);
     refuse("old.gltf", gltf, strlen(gltf), "glTF 1.0, which is not read: save it as glTF 2.0");
     unsetenv("WRINKLE_READER");

@@ -189,7 +189,7 @@ static void hostile_archives_are_refused(void **state)
         wr_text_fini(&zip);
         file_of(wr_text_get(&model), packed, 0, &zip);
         for (size_t n = 1; n < zip.length; n += 97)
-            harmless(&zip, n, "bad.3mf: is no 3MF file, or is truncated");
+            harmless(&zip, n, "bad.3mf: is not a 3MF file, or is truncated");
         for (size_t n = 0; n < zip.length; n += 37) { /* one byte wrong */
             zip.data[n] = (char)~zip.data[n];
             harmless(&zip, zip.length, NULL);
@@ -205,7 +205,7 @@ static void hostile_archives_are_refused(void **state)
     wr_text_fini(&zip);
     const Entry other[] = { { "a.txt", "nothing", false, 0 } };
     archive(other, 1, &zip);
-    harmless(&zip, zip.length, "bad.3mf: damaged: it holds no model");
+    harmless(&zip, zip.length, "bad.3mf: damaged: it contains no model");
     unsetenv("WRINKLE_READER_SECONDS");
     wr_text_fini(&zip);
     wr_text_fini(&model);

@@ -258,17 +258,17 @@ static void messages_say_what_is_wrong(void **state)
 #define HEAD "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
 #define REST "property float z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n"
     refuse("a.ply", HEAD REST "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n",
-           "face 1 names vertex 3: must be 0..2");
+           "face 1 refers to vertex 3: must be 0..2");
     refuse("a.ply", HEAD REST "0 0 0\n1 0 0\n0 1 0\n3 0 1\n", "it ends in face 1 of 1");
     refuse("a.ply", HEAD REST "0 0 0\n1 0 x7\n0 1 0\n3 0 1 2\n",
-           "vertex 2 has \"x7\" for a number");
+           "vertex 2: \"x7\" is not a number");
     refuse("a.ply", HEAD REST "0 0 0\n1 0 0\n0 1 0\n200 0 1 2\n", "a list of 200 numbers");
     refuse("a.ply", HEAD "property folat z\nend_header\n0 0 0 0\n", "type \"folat\"");
     refuse("a.ply", HEAD "end_header\n0 0 0 0\n0 0\n", "no x, y and z");
-    refuse("a.ply", HEAD REST, "says that it holds 3 elements");
+    refuse("a.ply", HEAD REST, "is damaged: its header has 3 elements");
     refuse("a.ply", HEAD "property float z\n", "no end_header");
     refuse("a.stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n",
-           "cut off in facet 1");
+           "truncated in facet 1");
 #undef HEAD
 #undef REST
 }

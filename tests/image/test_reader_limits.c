@@ -15,7 +15,7 @@ static void a_reader_that_says_nothing_is_ended(void **state)
     pid_t child = the_child();
     kill(child, SIGSTOP);
     double begin = wr_clock_seconds();
-    expect_unreadable(file, "slow.png: ", "gave nothing to read within 1 s");
+    expect_unreadable(file, "slow.png: ", "no data was read from it within 1 s");
     double took = wr_clock_seconds() - begin;
     assert_true(took >= 0.99 && took < 5.0);
     expect_no_children(); /* a stopped process can be killed */
@@ -25,7 +25,7 @@ static void a_reader_that_says_nothing_is_ended(void **state)
     kill(process, SIGSTOP);
     WrError err = { "" };
     assert_null(wr_image_read("slow.png", &err));
-    expect_message(&err, "slow.png: ", "gave nothing to read within 1 s");
+    expect_message(&err, "slow.png: ", "no data was read from it within 1 s");
     kill(process, SIGCONT);
     unsetenv("WRINKLE_READER_SECONDS");
     expect_good("slow.png");
@@ -69,7 +69,7 @@ static void a_mesh_gets_its_time_once(void **state)
     setenv("WRINKLE_READER_SECONDS", "2", 1);
     assert_false(wr_mesh_read_bytes("busy.obj", text.data, text.length, &mesh, &err));
     unsetenv("WRINKLE_READER_SECONDS");
-    expect_message(&err, "busy.obj: ", "gave nothing to read within 2 s");
+    expect_message(&err, "busy.obj: ", "no data was read from it within 2 s");
     expect_no_children();
     assert_true(seconds_of_children() - before < 2.5);
     wr_text_fini(&text);
@@ -102,7 +102,7 @@ static void *wait_for_nothing(void *reading)
     double begin = wr_clock_seconds();
     WrError err = { "" };
     assert_false((*(Reading *)reading)(&err));
-    expect_message(&err, "a.png: ", "gave nothing to read within 4 s");
+    expect_message(&err, "a.png: ", "no data was read from it within 4 s");
     double took = wr_clock_seconds() - begin;
     return took >= 3.99 && took < 7.0 ? NULL : reading;
 }

@@ -23,7 +23,7 @@ static void a_crash_is_one_sentence_and_the_next_file_reads(void **state)
         { SIGBUS, "the reader crashed on this file" CRASH("Bus error") },
         { SIGABRT, "the reader crashed on this file (Aborted)" },
         { SIGKILL, "the reader was killed while it read this file" },
-        { SIGXCPU, "gave nothing to read within" },
+        { SIGXCPU, "no data was read from it within" },
     };
     write_picture("a.png");
     for (size_t i = 0; i < sizeof deaths / sizeof *deaths; i++) {

@@ -471,7 +471,7 @@ static void too_much_is_refused(void **state)
     p.cell[1] = 1e-6;
     assert_null(wr_triangles_project(mesh, &p, NULL, &err));
     assert_non_null(
-        strstr(err.text, "cell=10,1e-06 mm: the mesh reaches over more than 65536 cells"));
+        strstr(err.text, "cell=10,1e-06 mm: the mesh extends over more than 65536 cells"));
     p.cell[1] = 10;
     p.unit = WR_UNIT_M; /* 100 cells a side */
     WrTriangles *t = project(mesh, &p);

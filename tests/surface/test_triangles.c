@@ -401,7 +401,7 @@ static void nonsense_is_refused(void **state)
     corners[5][1] = 8;
     source.corners = (const int32_t(*)[3])corners;
     assert_null(wr_triangles_new(&source, &err));
-    assert_non_null(strstr(err.text, "names point 8 of 8"));
+    assert_non_null(strstr(err.text, "refers to point 8 of 8"));
     source = cube_source();
     source.triangle_count = 0;
     assert_null(wr_triangles_new(&source, &err));

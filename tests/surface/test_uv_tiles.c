@@ -136,7 +136,7 @@ static void a_tiles_mesh_has_its_coordinates(void **state)
     assert_int_equal(mapped, tiles.triangles[number - WR_UDIM_FIRST]);
     assert_true(seen > 0);
     assert_null(wr_triangles_of_tile(mesh, 9999, &err));
-    assert_non_null(strstr(err.text, "no triangle of the mesh lies on tile 9999"));
+    assert_non_null(strstr(err.text, "no triangle of the mesh is on tile 9999"));
     wr_triangles_free(tile);
     wr_uv_tiles_fini(&tiles);
     wr_triangles_free(mesh);

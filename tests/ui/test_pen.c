@@ -695,7 +695,7 @@ static void hostile_recordings_are_refused_with_their_line(void **state)
         { "wrinkle-pen 1\ndevice 0 pen 2 1 0 1 a\n", ":2: pressure '2'" },
         { "wrinkle-pen 1\ndevice 0 pen 1 1 0 1\n", ":2: device 0: a name" },
         { "wrinkle-pen 1\ndevice 0 pen\n", ":2: a device is" },
-        { HEAD "device 0 pen 1 1 0 1 b\n", ":3: device 0: it is declared already" },
+        { HEAD "device 0 pen 1 1 0 1 b\n", ":3: device 0: is already declared" },
         { HEAD "wave 0 0 0 0 1 1 0 0 0 0\n", ":3: 'wave'" },
         { HEAD "motion 0 0 0 0 1 1 0 0 0\n", ":3: an event has 10 or 11 numbers, not 9" },
         { HEAD "motion 0 0 0 0 1 1 0 0 0 0 0 0\n", ":3: an event has 10 or 11 numbers, not 12" },

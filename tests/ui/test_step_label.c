@@ -83,12 +83,12 @@ static void an_error_offers_the_command_that_it_names(void **state)
         { "Ebene 2 ist verborgen: `layer set 2 visible=on` zeigt sie", "Ebene 2 ist verborgen",
           "layer set 2 visible=on", "Show layer" },
         /* the first one lacks its values */
-        { "layer 5 is a generator layer: `layer set 5 change=` changes its values, `layer "
+        { "layer 5 is a generator layer: `layer set 5 change=` changes its arguments, `layer "
           "rasterize 5` makes heights of it",
           "layer 5 is a generator layer", "layer rasterize 5", "Rasterize layer" },
         { "layer 4 \"a: `layer delete 1` b\" is locked: `layer set 4 lock=off` unlocks it",
           "layer 4 \"a: `layer delete 1` b\" is locked", "layer set 4 lock=off", "Unlock layer" },
-        { "there is no ground: `ground on` lays one", NULL, NULL, NULL }, /* has no label */
+        { "there is no ground: `ground on` adds one", NULL, NULL, NULL }, /* has no label */
         /* a file would be written; words that are no command; an open quote */
         { "nothing to do: `save a.exr` writes it", NULL, NULL, NULL },
         { "name= is for a new layer: `layer rename` renames one", NULL, NULL, NULL },
@@ -115,7 +115,8 @@ static void errors_are_shown_in_plain_words(void **state)
     const char *actions[WR_PLAIN_ACTIONS];
     WrError err;
     wr_fail(&err,
-            "%s is a filter, without heights of its own: `layer use` chooses another, or its mask",
+            "%s is a filter layer, which has no heights of its own: `layer use` another layer, or "
+            "its mask",
             "layer 8 \"blur\"");
     wr_error_prefix(&err, "%s: ", "stroke");
     wr_plain_error(wr_error_message(&err), out, sizeof out);

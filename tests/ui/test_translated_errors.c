@@ -90,7 +90,7 @@ static const struct {
         "stroke: set: paramètres : 'foo' : doit être NOM=VALEUR ou NOM:ENTRÉE=X,Y|X,Y|..., avec ; "
         "entre plusieurs" } },
     { "light directional to=0,0,0",
-      "light: to=0,0,0 points nowhere: one number must not be 0",
+      "light: to=0,0,0: has no direction; one number must not be 0",
       { "light: to=0,0,0 zeigt nirgends hin: eine Zahl muss ungleich 0 sein",
         "light: to=0,0,0 ne pointe nulle part : un nombre ne doit pas être 0" } },
     { "adjust levels in-low=1 in-high=1",
@@ -98,7 +98,7 @@ static const struct {
       { "adjust: levels: in-low und in-high sind beide 1: sie m\xc3\xbcssen verschieden sein",
         "adjust: levels : in-low et in-high sont tous deux 1 : ils doivent différer" } },
     { "object remove nosuch",
-      "object: there is no object \"nosuch\"; the only one is \"object 1\"",
+      "object: no object \"nosuch\": the only one is \"object 1\"",
       { "object: es gibt kein Objekt \"nosuch\"; das einzige ist \"object 1\"",
         "object: il n’y a pas d’objet \"nosuch\" ; le seul est \"object 1\"" } },
 };

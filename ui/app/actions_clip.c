@@ -54,7 +54,7 @@ static bool clip_folder(WrText *path, WrError *err)
         *slash = '/';
     }
     wr_folder_make(path->data, WR_FOLDER_FOR_ME);
-    return wr_path_is_folder(path->data) || wr_fail(err, "%s: cannot be made", path->data);
+    return wr_path_is_folder(path->data) || wr_fail(err, "%s: cannot be created", path->data);
 }
 
 typedef WR_ARRAY(char *) Names;
@@ -221,7 +221,7 @@ static bool take_bytes(Clip *clip, const char *bytes, size_t length, const char 
     if (strcmp(ending, "svg") == 0) return take_drawing(clip, bytes, length, err);
     if (strcmp(ending, "uri") == 0)
         return take_path(clip, bytes, length) ||
-               wr_fail(err, "the file on the clipboard is not here");
+               wr_fail(err, "the file on the clipboard does not exist");
     return new_path(&clip->path, "", ending, err) &&
            wr_file_write(wr_text_get(&clip->path), bytes, length, err);
 }
@@ -247,7 +247,7 @@ static bool find_picture(Clip *clip, bool *none, WrError *err)
     else *none = !text || !take_path(clip, text, length);
     wr_free(path);
     SDL_free(text);
-    if (*none) return wr_fail(err, "the clipboard holds neither heights nor a picture");
+    if (*none) return wr_fail(err, "the clipboard contains neither heights nor a picture");
     return good;
 }
 

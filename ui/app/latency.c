@@ -240,7 +240,7 @@ static bool measure(WrApp *app, WrLatency *latency, WrError *err)
     app->brush->taken = app->brush->shown = app->patch->seen = 0;
     if (latency->room.w <= 0) return wr_fail(err, "the window has no canvas");
     if (!wr_thread_begin(&latency->thread, feed, latency))
-        return wr_fail(err, "no thread can be started");
+        return wr_fail(err, "no thread can be created");
     while (app->hand->events < latency->count && !stopped(app)) wr_app_step(app);
     __atomic_store_n(&latency->stop, 1, __ATOMIC_RELAXED);
     wr_thread_join(latency->thread);
@@ -249,7 +249,7 @@ static bool measure(WrApp *app, WrLatency *latency, WrError *err)
     wr_input_router_let_go(app);
     while (!all_seen(latency) && wr_clock_seconds() < end) step_for(app, 0.02);
     if (latency->seen[1] == 0 || latency->seen[2] == 0)
-        return wr_fail(err, "nothing that was painted was ever seen");
+        return wr_fail(err, "no painted stroke was ever shown");
     return true;
 }
 

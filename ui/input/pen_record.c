@@ -45,7 +45,7 @@ bool wr_pen_record(WrPen *pen, const char *path, WrError *err)
         pen->record = NULL;
         wr_array_free(&pen->recorded);
         if (pen->record_failed)
-            return wr_fail(err, "the recording of the pen is not whole: it could not be written");
+            return wr_fail(err, "the recording of the pen is incomplete: it could not be written");
     }
     if (path[0] == '\0') return true;
     int fd = wr_file_open_truncate(path, err);
@@ -188,7 +188,7 @@ static bool read_device(Reader *reader, const char *at, const char *end, WrError
     FileDevice *d = &reader->devices[index];
     if (at == end || (size_t)(end - at) >= sizeof d->name)
         return wr_fail(err, "device %d: a name of 1..%d bytes", index, (int)sizeof d->name - 1);
-    if (d->declared) return wr_fail(err, "device %d: it is declared already", index);
+    if (d->declared) return wr_fail(err, "device %d: is already declared", index);
     *d = (FileDevice){ .declared = true,
                        .kind = kind,
                        .has_pressure = pressure == 1,
@@ -263,7 +263,7 @@ static bool read_event(Reader *reader, const Field *name, const char *at, const 
         return false;
     if (grips && !read_grip(&f[11], &e.grip, err)) return false;
     FileDevice *d = &reader->devices[e.device];
-    if (!d->declared) return wr_fail(err, "device %d: it is not declared before", e.device);
+    if (!d->declared) return wr_fail(err, "device %d: is not declared", e.device);
     e.held = (unsigned)held;
     e.eraser = d->kind == ERASER;
     e.finger = d->kind == FINGER;
@@ -280,7 +280,7 @@ static bool read_line(Reader *reader, int number, const char *line, const char *
     if (number == 1) {
         Field whole = { line, (size_t)(end - line) };
         return is_word(&whole, FIRST_LINE) ||
-               wr_fail(err, "the first line of a recording is '%s'", FIRST_LINE);
+               wr_fail(err, "the first line of a recording must be '%s'", FIRST_LINE);
     }
     if (!next_field(&at, end, &word) || word.text[0] == '#') return true;
     if (is_word(&word, "device")) return read_device(reader, at, end, err);
@@ -299,7 +299,7 @@ static bool read_all(Reader *reader, const char *bytes, size_t length, const cha
             return wr_fail(err, "%s:%d: %s", path, number, wr_error_message(&inner));
         at = stop < end ? stop + 1 : end;
     }
-    if (reader->events.count == 0) return wr_fail(err, "%s: it holds no event", path);
+    if (reader->events.count == 0) return wr_fail(err, "%s: contains no event", path);
     return true;
 }
 
@@ -335,7 +335,7 @@ void wr_pen_replay_end(WrPen *pen)
 bool wr_pen_replay(WrPen *pen, const char *path, double speed, WrError *err)
 {
     if (!(speed >= 0.0 && speed <= 1e6))
-        return wr_fail(err, "a replay %g times as fast: 0..1000000", speed);
+        return wr_fail(err, "a replay %g times as fast: must be 0..1000000", speed);
     Reader *reader = NULL;
     char *bytes = NULL;
     size_t length = 0;

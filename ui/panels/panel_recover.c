@@ -265,12 +265,12 @@ void wr_dialog_recover(WrApp *app)
     }
     const char *partial_report = recovery->partial_report;
     if (!wr_gui_dialog_begin(
-            partial_report ? "Not everything came back" : "Work that was not saved", 500))
+            partial_report ? "Not everything was recovered" : "Work that was not saved", 500))
         return;
     bool key = !app->dialog->fresh;
     if (!partial_report)
         wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT,
-                            "Wrinkle ended before this was saved. It can be brought back.");
+                            "Wrinkle ended before this was saved. It can be recovered.");
     tell(recovery);
     wr_gui_space(8);
     wr_busy_hold(app); /* the document of the command line may still be opening */

@@ -119,13 +119,13 @@ extern "C" WrGui *wr_gui_new(SDL_Renderer *renderer, double scale, char **font_f
 try {
     WrGui *gui = static_cast<WrGui *>(calloc(1, sizeof(WrGui)));
     if (!gui) {
-        wr_fail(err, "no memory for the window");
+        wr_fail(err, "not enough memory for the window");
         return nullptr;
     }
     gui->focus.stops = static_cast<WrKeyStop *>(calloc(WR_GUI_STOPS, sizeof(WrKeyStop)));
     gui->focus.coming = static_cast<WrKeyStop *>(calloc(WR_GUI_STOPS, sizeof(WrKeyStop)));
     if (!gui->focus.stops || !gui->focus.coming) {
-        wr_fail(err, "no memory for the window");
+        wr_fail(err, "not enough memory for the window");
         free(gui->focus.stops);
         free(gui->focus.coming);
         free(gui);

@@ -232,7 +232,7 @@ bool wr_gui_build_fonts(WrGui *gui, WrError *err)
     ImFontAtlas *atlas = ImGui::GetIO().Fonts;
     Face faces[WR_FONT_ICON] = {};
     FT_Library library;
-    if (FT_Init_FreeType(&library) != 0) return wr_fail(err, "no font could be drawn");
+    if (FT_Init_FreeType(&library) != 0) return wr_fail(err, "no font could be loaded");
     atlas->Clear();
     wr_gui_light_hinting(atlas);
     atlas->TexGlyphPadding = 1;
@@ -244,7 +244,7 @@ bool wr_gui_build_fonts(WrGui *gui, WrError *err)
         if (faces[i].bytes) space_letters(gui->fonts[i], &faces[i]);
     FT_Done_FreeType(library); /* and the faces */
     for (Face &face : faces) wr_free(face.bytes);
-    if (!pixels) return wr_fail(err, "no font could be drawn");
+    if (!pixels) return wr_fail(err, "no font could be loaded");
     if (gui->atlas) SDL_DestroyTexture(gui->atlas);
     gui->atlas = wr_gui_sdl_texture(gui->renderer, width, height, pixels);
     if (!gui->atlas) return wr_fail(err, "a texture of %dx%d: %s", width, height, SDL_GetError());

@@ -46,9 +46,7 @@ static bool fail_level(const char *isa, WrError *err)
     for (int i = 0; level_names[i]; i++) {
         if (strcmp(isa, level_names[i]) != 0) continue;
         if (i - 1 > wr_cpu_level())
-            return wr_fail(
-                err, "isa %s: this processor does not have it; auto picks the best that it has",
-                isa);
+            return wr_fail(err, "isa %s: not supported by this processor; use auto", isa);
         return wr_fail(err, "isa %s: not in this build; configure it with -DWR_KERNELS=all", isa);
     }
     snprintf(what, sizeof what, "isa %.60s", isa);

@@ -423,8 +423,8 @@ static bool check(const WrReferenceRequest *request, WrError *err)
                        request->height, SIZE_MAX_PIXELS);
     const int first = request->first, most = request->most;
     if (first < 0 || first > SAMPLES_MAX || (first & (first - 1)) != 0)
-        return wr_fail(err, "reference: %d samples a side to begin with: must be 1, 2, 4 .. %d",
-                       first, SAMPLES_MAX);
+        return wr_fail(err, "reference: %d initial samples a side: must be 1, 2, 4 .. %d", first,
+                       SAMPLES_MAX);
     if (most < 0 || most > SAMPLES_MAX || (most > 0 && most < first))
         return wr_fail(err, "reference: %d samples a side at most: must be %d..%d", most,
                        first > 0 ? first : 1, SAMPLES_MAX);

@@ -922,7 +922,7 @@ bool wr_reference_stage_init(WrReferenceStage *stage, const WrField *field, cons
 {
     const bool formula = scene->analytic.kind != WR_ANALYTIC_OFF;
     *stage = (WrReferenceStage){ .scene = scene, .periodic_u = true, .periodic_v = true };
-    if (!field && !formula) return wr_fail(err, "a picture of a table: there is no table");
+    if (!field && !formula) return wr_fail(err, "a picture of a table: no table is given");
     if (field) {
         stage->periodic_u = wr_field_wrap_u(field) == WR_WRAP_PERIODIC;
         stage->periodic_v = wr_field_wrap_v(field) == WR_WRAP_PERIODIC;

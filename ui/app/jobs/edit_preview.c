@@ -179,7 +179,8 @@ bool wr_edit_preview_generate(WrDocument *document, const char *line, WrLineTarg
     WrGenerateJob job = {
         .pool = pool, .progress = progress, .coarse = rough, .note = note, .note_ctx = notes
     };
-    bool good = wr_call_generator(call) || wr_fail(err, "%s: must be a generator's line", line);
+    bool good =
+        wr_call_generator(call) || wr_fail(err, "%s: must be the command of a generator", line);
     if (good && target == WR_LINE_NEW_LAYER) add_layer(document, call);
     good = good && (target == WR_LINE_INTO_ACTIVE ? into_active(document, call, &job, err)
                                                   : as_layer(document, call, &job, 1, err));
@@ -308,9 +309,9 @@ static bool adjust(Work *work, WrPool *pool, const WrProgress *progress, WrError
     options.mask = document->selection;
     const WrLayer *active = &document->layers[document->active];
     if (!work->ask.all_layers && active->is_group && !active->on_mask)
-        return wr_fail(err, "the active layer is a group, without heights of its own");
+        return wr_fail(err, "the active layer is a group, which has no heights of its own");
     if (!work->ask.all_layers && active->filter.op && !active->on_mask)
-        return wr_fail(err, "the active layer is a filter, without heights of its own");
+        return wr_fail(err, "the active layer is a filter layer, which has no heights of its own");
     if (!work->ask.all_layers) {
         WrStandIn stand_in = { .index = 0 };
         bool good = adjust_layer(work, wr_document_edit_begin(document, &stand_in), &options, err);

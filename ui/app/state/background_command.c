@@ -128,7 +128,7 @@ bool wr_busy_run(WrApp *app, WrBusyKind kind, const char *what, WrBusyWork *work
     app->gave_up = false;
     if (app->busy) {
         wr_busy_refuse(app);
-        return wr_fail(err, "%s: not while something else is being done", what);
+        return wr_fail(err, "%s: busy: another command is running", what);
     }
     if (app->drawn_at == 0.0) return work(app->session, ctx, err);
     const WrBusy busy = { .kind = kind, .what = (char *)what, .work = work, .ctx = ctx };

@@ -234,7 +234,7 @@ static bool is_free_for(const char *path, const char *bytes, size_t length, WrEr
                 memcmp(there, bytes, size) == 0;
     wr_free(there);
     return same ||
-           wr_fail(err, "%s: another picture of this name lies there; rename one of them", path);
+           wr_fail(err, "%s: another picture of this name is there; rename one of them", path);
 }
 
 /* A preset's picture must be in its folder, so a copy of the preset needs a copy of the picture. */

@@ -178,7 +178,7 @@ bool wr_generate_preset_save(WrApp *app, const char *name)
     wr_generate_line(hand, &line);
     bool good = generator_of(wr_text_get(&line)) == hand->generator
                     ? read_file(app, &err)
-                    : wr_fail(&err, "this cannot be made yet: the panel shows why");
+                    : wr_fail(&err, "this cannot be applied yet: the panel shows why");
     int i = good ? find(hand, hand->generator, own) : -1;
     if (good && i < 0 && hand->presets.count >= WR_GENERATE_PRESETS)
         good = wr_fail(&err, "there are %d presets: delete one first", WR_GENERATE_PRESETS);

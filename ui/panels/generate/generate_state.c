@@ -173,7 +173,7 @@ bool wr_generate_load(WrApp *app, const char *line)
     WrError err;
     bool good = wr_call_parse(line, false, &call, &err);
     const WrGenerator *generator = good ? wr_call_generator(call) : NULL;
-    if (good && !generator) good = wr_fail(&err, "no generator's line: %.80s", line);
+    if (good && !generator) good = wr_fail(&err, "not the command of a generator: %.80s", line);
     good = good && take_values(app, call, generator, &err);
     if (!good) wr_app_fail(app, &err);
     wr_call_free(call);

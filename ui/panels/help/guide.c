@@ -72,7 +72,8 @@ static bool read_page(WrGuide *guide, const char *name, WrError *err)
     bool good =
         wr_data_find(path, &place)
             ? wr_file_read(wr_text_get(&place), PAGE_BYTES, &text, &length, err)
-            : wr_fail(err, "%s is not beside the program: set WRINKLE_DATA to its folder", path);
+            : wr_fail(err, "%s was not found beside the program: set WRINKLE_DATA to its folder",
+                      path);
     wr_text_fini(&place);
     if (!good) return false;
     add_page(guide, name, text);
