@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# What of the guide is made from the program's own tables: between a line
+# Generates the reference tables of the guide from the program's own tables. The lines between
 #     <!-- wrinkle help --markdown ... -->
-# and the next line
+# and the next
 #     <!-- so far -->
-# stands what that command prints.
+# are replaced by the output of that command.
 #
 #   make.sh [--out FOLDER] [PROGRAM]
 #
-# PROGRAM   wrinkle, where it is not in build/ or in the PATH
-# --out     write the pages there (this folder, where only those that change are written)
+# PROGRAM   path of wrinkle; default: the one in build/, else in the PATH
+# --out     folder for the pages; default: this folder, in which only changed pages are written
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 out=$here program=''

@@ -1,10 +1,9 @@
 #!/usr/bin/env bash
-# list.sh FILE: the window's texts as gettext's template: those that its source gives to widgets, messages and wr_words, and
-# the reasons of the plan. The
-# tables' are besides what a walk through the window asks for (tests/ui/test_ui_words.c prints those that a language lacks).
-# What a language lacks of them: msgcmp ui/words/LANGUAGE.po FILE
-# list.sh FILE errors: the formats of errors and notes of src/ and ui/ (wr_fail and others); those of commands that run
-# without a window, and of the hard cases, are left out.
+# list.sh FILE: writes the window's texts as a gettext template: literals passed to widgets, messages and wr_words, and the
+# reasons of the plan. Texts in tables are not found here: tests/ui/test_ui_words.c prints those that a language lacks.
+# Texts that a language lacks: msgcmp ui/words/LANGUAGE.po FILE
+# list.sh FILE errors: writes the formats of errors and notes in src/ and ui/ (wr_fail and others), except those of
+# subcommands without a window and of the hard cases.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 out=$(realpath -m "$1")
