@@ -34,9 +34,10 @@ void wr_cli_help(const WrSubcommand *command, WrText *text)
         if (command->details) wr_text_addf(text, "%s\n\n", command->details);
         wr_text_add(text, "options:\n");
     } else {
-        wr_text_add(text, "wrinkle - an interactive paint program for bump functions\n\nusage:\n");
+        wr_text_add(text, "wrinkle - an interactive paint program for bump functions\n\n"
+                          "usage: wrinkle [FILE]\n       wrinkle SUBCOMMAND ...\n\nsubcommands:\n");
         for (const WrSubcommand *c = wr_subcommands; c->name; c++)
-            wr_text_addf(text, "  wrinkle %-52s %s\n", c->usage, c->help);
+            wr_text_addf(text, "  %-9s %s\n", c->name, c->help);
         wr_text_add(
             text, "\nFILE is a document (*.exr), a script (*.wrinkle) or any picture with heights; "
                   "left out, it is an\nempty 512x512 table on a plane.\n\n"

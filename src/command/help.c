@@ -385,10 +385,10 @@ void wr_help_overview(WrText *text)
     static const char *const titles[WR_CLASS_COUNT] = {
         [WR_ROW(WR_CLASS_EDIT)] = "Edits of the table",
         [WR_ROW(WR_CLASS_SCENE)] = "The scene",
-        [WR_ROW(WR_CLASS_VIEW)] = "How it is looked at",
+        [WR_ROW(WR_CLASS_VIEW)] = "Views",
         [WR_ROW(WR_CLASS_CHOICE)] = NULL,
         [WR_ROW(WR_CLASS_OUTPUT)] = "Files",
-        [WR_ROW(WR_CLASS_HISTORY)] = "What was done",
+        [WR_ROW(WR_CLASS_HISTORY)] = "History",
     };
     WR_ROWS_END(titles, WR_CLASS_COUNT);
     for (int kind = 0; kind < WR_CLASS_COUNT; kind++) {

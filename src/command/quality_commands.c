@@ -162,7 +162,7 @@ const WrCommand wr_command_dials = { .name = "dials",
                                      .row = row_dials,
                                      .run = run_dials,
                                      .print = print_dials,
-                                     .help = "accuracy against time",
+                                     .help = "set the dials of accuracy and time",
                                      .details = "Only given arguments change.",
                                      .example = "dials aa=supersample samples=4" };
 

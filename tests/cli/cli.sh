@@ -44,7 +44,7 @@ empty() {
 expect 0 --version
 grep -qE '^wrinkle [0-9]+\.[0-9]+\.[0-9]+$' out || complain "the version is: $(cat out)"
 expect 0 --help
-has out 'wrinkle render'
+has out 'render    render a picture'
 for command in run render export check inspect explain help; do
     expect 0 "$command" --help
     has out "wrinkle $command"

@@ -42,7 +42,7 @@ completes check --as norm ""
 completes help gra grain
 completes render docu document.exr
 # Every option that a subcommand's help names is completed.
-for subcommand in $("$program" --help | sed -nE 's/^  wrinkle \[?([a-z]+)\]? .*/\1/p'); do
+for subcommand in $("$program" --help | sed -nE '/^subcommands:/,/^$/s/^  ([a-z]+) .*/\1/p'); do
     for option in $("$program" "$subcommand" --help | grep -oE '^  (-o, )?--[a-z-]+' | grep -oE -- '--[a-z-]+'); do
         COMP_WORDS=(wrinkle "$subcommand" "$option") COMP_CWORD=2
         _wrinkle

@@ -84,7 +84,7 @@ done <<<"$table"
 # No subcommand is left out.
 while read -r name; do
     grep -q "^$name " <<<"$table" || complain "$name is not in the table"
-done < <("$program" --help | sed -nE 's/^  wrinkle \[?([a-z]+)\]? .*/\1/p')
+done < <("$program" --help | sed -nE '/^subcommands:/,/^$/s/^  ([a-z]+) .*/\1/p')
 # Without a display there is no window: one message, which names the subcommand for pictures. SDL_VIDEODRIVER=dummy opens one.
 # no_display WHY VARIABLE=VALUE...
 no_display() {

@@ -53,7 +53,7 @@ problems=$(groff -man -Tutf8 -ww -z "$share/man/man1/wrinkle.1" 2>&1)
 page=$(sed 's/\\-/-/g' "$share/man/man1/wrinkle.1")
 wrinkle=$folder/prefix/bin/wrinkle
 "$wrinkle" --help >help 2>&1 || fail "wrinkle --help failed"
-subcommands=$(sed -nE 's/^  wrinkle \[?([a-z]+)\]? .*/\1/p' help)
+subcommands=$(sed -nE '/^subcommands:/,/^$/s/^  ([a-z]+) .*/\1/p' help)
 [[ $(wc -w <<<"$subcommands") -ge 7 ]] || fail "wrinkle --help tells only of $subcommands"
 for subcommand in $subcommands; do
     grep -qx "\.B $subcommand" <<<"$page" || fail "the manual page lacks $subcommand"

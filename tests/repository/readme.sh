@@ -99,7 +99,7 @@ mapfile -t words < <(forms surface) && all_in formulas.md surface "${words[@]}"
 mapfile -t words < <(choices bump scheme) && all_in formulas.md scheme "${words[@]}"
 mapfile -t words < <(choices bump mode) && all_in formulas.md mode "${words[@]}"
 mapfile -t words < <(choices material model) && all_in formulas.md 'reflection model' "${words[@]}"
-mapfile -t words < <("$program" --help | sed -nE 's/^  wrinkle \[?([a-z]+)\]? .*/\1/p')
+mapfile -t words < <("$program" --help | sed -nE '/^subcommands:/,/^$/s/^  ([a-z]+) .*/\1/p')
 all_in command-line.md subcommand "${words[@]}"
 
 # ---- every variable of the environment that the program asks for, but the tests' own ----

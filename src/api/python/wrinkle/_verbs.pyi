@@ -510,7 +510,7 @@ class Verbs:
         'float', 'half', '16bit', '8bit'] | None = ..., shading: Literal['float', 'double', 'half'] | None = ...,
         arithmetic: Literal['exact', 'fast'] | None = ...
     ) -> None:
-        """Accuracy against time."""
+        """Set the dials of accuracy and time."""
 
     def tolerance(
         self, *_values: Any, rms: float | None = ..., max: float | None = ..., time: Any | None = ..., chosen: Any |
