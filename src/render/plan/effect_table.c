@@ -53,23 +53,23 @@ static void settle_bump(WrPlan *plan, const WrPlanRequest *ask)
 static WrVerdict decide_gradient(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const WrScheme scheme = ask->scene->scheme;
-    if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "no table is looked up");
+    if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "the table is not used");
     if (scheme != WR_SCHEME_CENTRAL && scheme != WR_SCHEME_NEAREST)
         return say(WR_VERDICT_NONE, why, "this scheme computes slopes from the heights");
     return say(WR_VERDICT_RUN, why,
-               "one look-up of central differences equals the paper's four of F");
+               "one lookup of central differences equals the paper's four lookups of F");
 }
 
 /* r u is rounded by at most r 2^-24 periods, r W 2^-24 texels of a table of width W (HC40). */
 static WrVerdict decide_wide(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const double r = fmax(fabs(ask->scene->replicate_u), fabs(ask->scene->replicate_v));
-    if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "no table is looked up");
+    if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "the table is not used");
     if (r < WR_WIDE_FROM)
         return say(WR_VERDICT_SPARED, why,
-                   "replication is under 1024: single precision is right to 1e-3 texel");
+                   "replication is below 1024: single precision is accurate to 1e-3 texel");
     return say(WR_VERDICT_RUN, why,
-               "replication of 1024 and more loses texels in single precision");
+               "replication is 1024 or more: single precision would lose texels");
 }
 
 static WrVerdict decide_invariant(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
@@ -96,7 +96,7 @@ static void settle_invariant(WrPlan *plan, const WrPlanRequest *ask)
 static WrVerdict decide_spread(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (ask->dials->aa != WR_AA_MOMENTS)
-        return say(WR_VERDICT_NONE, why, "the dials do not ask for moments");
+        return say(WR_VERDICT_NONE, why, "the dials are not set to moments");
     if (!runs(plan, WR_EFFECT_FILTER) && !plan->map_filtered)
         return say(WR_VERDICT_NONE, why, "nothing is filtered");
     if (!runs(plan, WR_EFFECT_SPECULAR) && !runs(plan, WR_EFFECT_MIRROR))
@@ -119,10 +119,10 @@ static void settle_spread(WrPlan *plan, const WrPlanRequest *ask)
 static WrVerdict decide_rounded(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const WrHeights heights = ask->dials->heights;
-    if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "no table is looked up");
+    if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "the table is not used");
     if (heights == WR_HEIGHTS_DOUBLE || heights == WR_HEIGHTS_FLOAT)
-        return say(WR_VERDICT_NONE, why, "the dial keeps heights as they are");
-    return say(WR_VERDICT_RUN, why, "the dial is set to heights of fewer bits");
+        return say(WR_VERDICT_NONE, why, "the dial is set to unrounded heights");
+    return say(WR_VERDICT_RUN, why, "the dial is set to heights with fewer bits");
 }
 
 static void settle_rounded(WrPlan *plan, const WrPlanRequest *ask)
@@ -138,9 +138,9 @@ static WrVerdict decide_double(const WrPlan *plan, const WrPlanRequest *ask, con
         return say(WR_VERDICT_RUN, why, "the dial is set to shading in double precision");
     if (wr_scene_is_thin(ask->scene))
         return say(WR_VERDICT_RUN, why,
-                   "the object is so flat that single precision would not find its place");
+                   "the object is so flat that single precision would not find (u,v)");
     if (plan->source == WR_SOURCE_TABLE && ask->dials->heights == WR_HEIGHTS_DOUBLE)
-        return say(WR_VERDICT_RUN, why, "the dial is set to look-ups in double precision");
+        return say(WR_VERDICT_RUN, why, "the dial is set to lookups in double precision");
     return say(WR_VERDICT_NONE, why, "the dial is set to single precision");
 }
 
@@ -158,7 +158,7 @@ static WrVerdict decide_half(const WrPlan *plan, const WrPlanRequest *ask, const
 {
     (void)plan;
     if (ask->dials->shading != WR_SHADING_HALF)
-        return say(WR_VERDICT_NONE, why, "the dial does not ask for it");
+        return say(WR_VERDICT_NONE, why, "the dial is not set to it");
     return say(WR_VERDICT_RUN, why, "the dial is set to normals and light in half precision");
 }
 
@@ -173,107 +173,104 @@ static WrVerdict decide_half(const WrPlan *plan, const WrPlanRequest *ask, const
 WR_ROWS(wr_effects);
 const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_DIFFUSE)] = { "E1", "diffuse", WR_PROOF_IDENTICAL, NULL,
-                                    "no light shines, diffuse is 0, the colour is black, or the "
-                                    "material is all metal; of "
-                                    "several lights those that do not shine",
+                                    "no light is on, diffuse is 0, the colour is black, or the "
+                                    "material is pure metal; with several lights, for those that "
+                                    "are off",
                                     STAGE(DIFFUSE), .spared = WR_RUN_DARK,
                                     .decide = wr_decide_diffuse },
     [WR_ROW(WR_EFFECT_SPECULAR)] = { "E2", "specular", WR_PROOF_IDENTICAL, NULL,
-                                     "no light shines, specular is 0, the reflection model has no "
-                                     "highlight, or its facets' index is 1",
+                                     "no light is on, specular is 0, the reflection model has no "
+                                     "highlight, or its index of refraction is 1",
                                      STAGE(SPECULAR), .spared = WR_RUN_DARK | WR_RUN_DULL,
                                      .decide = wr_decide_specular },
     [WR_ROW(WR_EFFECT_MODEL)] = { "E36", "reflection model", WR_PROOF_BOUNDED,
                                   "rounding of the light",
-                                  "the model is that of new scenes, its highlight white; without a "
-                                  "highlight, or of matt facets of roughness 0, it is Lambert's",
+                                  "the model is blinn-phong with a white highlight; without a "
+                                  "highlight, or for oren-nayar with roughness 0, Lambert's model "
+                                  "is used",
                                   0, .only_way = true, .spared = WR_RUN_DARK,
                                   .decide = wr_decide_model, .settle = wr_settle_model },
     [WR_ROW(WR_EFFECT_KEPT)] = { "E44", "kept diffuse light", WR_PROOF_IDENTICAL, NULL,
-                                 "highlights leave the model's diffuse light as it is, or its "
-                                 "energy is as published; there "
-                                 "is no diffuse light, as of metal, that could be too much beside "
-                                 "the highlight",
+                                 "the highlight does not change the model's diffuse light, or "
+                                 "energy=published; there is no diffuse light, as for metal",
                                  0, .spared = WR_RUN_DARK, .decide = wr_decide_kept,
                                  .settle = wr_settle_kept },
     [WR_ROW(WR_EFFECT_SURROUND)] = { "E41", "surroundings", WR_PROOF_IDENTICAL, NULL,
-                                     "there are none, or no light comes from them; diffuse is 0, "
-                                     "the colour is black, or the material is all metal",
+                                     "there is no environment, or it is black; diffuse is 0, the "
+                                     "colour is black, or the material is pure metal",
                                      STAGE(SURROUND), .decide = wr_decide_surround },
     [WR_ROW(WR_EFFECT_HARMONICS)] = { "E42", "harmonics", WR_PROOF_IDENTICAL, NULL,
-                                      "no diffuse light comes from surroundings, or they are of "
-                                      "one colour, for which one coefficient of the nine is enough",
+                                      "the environment gives no diffuse light, or has one colour, "
+                                      "for which one of the nine coefficients is enough",
                                       0, .decide = wr_decide_harmonics,
                                       .settle = wr_settle_harmonics },
     [WR_ROW(
         WR_EFFECT_MIRROR)] = { "E65", "mirrored surroundings", WR_PROOF_IDENTICAL, NULL,
-                               "there are none, or no light comes from them; specular is 0, the "
-                               "reflection model has no highlight, or its facets' index is 1",
+                               "there is no environment, or it is black; specular is 0, the "
+                               "reflection model has no highlight, or its index of refraction is 1",
                                STAGE(MIRROR), .decide = wr_decide_mirror },
     [WR_ROW(WR_EFFECT_BLUR)] = { "E43", "blurred surroundings", WR_PROOF_BOUNDED,
                                  "lookups within a thousandth of a radian",
-                                 "none are seen in the surface, they are of one colour, or the "
-                                 "lobe is a thousandth wide, where the surface mirrors",
+                                 "no environment is reflected, it has one colour, or the lobe is "
+                                 "narrower than a thousandth: a mirror",
                                  0, .decide = wr_decide_blur, .settle = wr_settle_blur },
     [WR_ROW(WR_EFFECT_COLOUR)] = { "E5", "colour picture", WR_PROOF_IDENTICAL, NULL,
-                                   "there is none, or it is white everywhere", STAGE(COLOUR),
+                                   "there is no picture, or it is white everywhere", STAGE(COLOUR),
                                    .decide = wr_decide_colour },
     [WR_ROW(WR_EFFECT_TINT)] = { "E64", "filtered colour", WR_PROOF_IDENTICAL, NULL,
-                                 "the dials ask for no filtering and no plane goes on to the "
-                                 "horizon, no colour picture is looked up, "
-                                 "or it is of one colour; footprints up to one of its texels look "
-                                 "up the picture itself",
+                                 "the dials are not set to filtering and no plane is endless, "
+                                 "there is no colour picture, or it has one colour; footprints up "
+                                 "to one of its texels use the picture itself",
                                  STAGE(TINT), .decide = wr_decide_tint, .settle = wr_settle_tint },
     [WR_ROW(WR_EFFECT_FACETS)] = { "E75", "pictures of roughness and metalness", WR_PROOF_IDENTICAL,
                                    NULL,
-                                   "there is none, the reflection model goes by neither, or no "
-                                   "light is worked out that does; footprints up to one of their "
-                                   "texels look up the pictures themselves",
+                                   "there are no such pictures, the reflection model uses neither, "
+                                   "or no light that needs them is computed; footprints up to one "
+                                   "of their texels use the pictures themselves",
                                    STAGE(FACETS), .only_way = true, .decide = wr_decide_facets,
                                    .settle = wr_settle_facets },
     [WR_ROW(WR_EFFECT_VARIED)] = { "E72", "roughness by place", WR_PROOF_IDENTICAL, NULL,
-                                   "neither a picture nor a solid texture drives it, the "
-                                   "reflection model goes by no "
-                                   "roughness, or no light is worked out",
+                                   "neither a picture nor a solid texture sets the roughness, the "
+                                   "reflection model has none, or no light is computed",
                                    0, .only_way = true, .decide = wr_decide_varied },
     [WR_ROW(WR_EFFECT_EMBOSSED)] = { "E71", "bump of the solid texture", WR_PROOF_BOUNDED,
                                      "rounding of the normal",
-                                     "there is none, or it drives no bump; its height is 0; no "
-                                     "light depends on the normal",
+                                     "there is no solid texture, or it does not drive bump; its "
+                                     "height is 0; no light depends on the normal",
                                      STAGE(GRAIN), .spared = WR_RUN_DARK,
                                      .decide = wr_decide_embossed },
     [WR_ROW(WR_EFFECT_GRAIN)] = { "E46", "solid texture", WR_PROOF_IDENTICAL, NULL,
-                                  "there is none, or both its colours are white; of two that are "
-                                  "one the pattern is left out",
+                                  "there is no solid texture, or both its colours are white; if "
+                                  "both are equal, the pattern is left out",
                                   STAGE(GRAIN), .decide = wr_decide_grain,
                                   .settle = wr_settle_grain },
     [WR_ROW(WR_EFFECT_OCTAVES)] = { "E45", "solid noise", WR_PROOF_IDENTICAL, NULL,
-                                    "no pattern is worked out, it has no noise, or the noise's "
-                                    "amount is 0",
+                                    "no pattern is computed, it has no noise, or the amount of "
+                                    "noise is 0",
                                     STAGE(GRAIN), .decide = wr_decide_octaves },
     [WR_ROW(WR_EFFECT_FADED)] = { "E70", "filtered solid texture", WR_PROOF_POLICY, NULL,
-                                  "no pattern is worked out; the dials ask for no filtering and no "
-                                  "plane goes on to the horizon",
+                                  "no pattern is computed; the dials are not set to filtering and "
+                                  "no plane is endless",
                                   STAGE(GRAIN), .decide = wr_decide_faded },
-    [WR_ROW(WR_EFFECT_NORMALS)] = { "E58", "normal map", WR_PROOF_IDENTICAL, NULL,
-                                    "there is none, or it is straight up everywhere; its strength "
-                                    "or repetition is 0; the mode is none; no light depends on "
-                                    "the normal",
-                                    STAGE(NORMALS), .spared = WR_RUN_DARK,
-                                    .decide = wr_decide_normals, .settle = wr_settle_normals },
-    [WR_ROW(WR_EFFECT_DISPLACED)] = { "E50", "displacement", WR_PROOF_BOUNDED,
-                                      "half a pixel, of where a point of the surface is seen",
-                                      "the surface is not displaced, or F moves no point of it by "
-                                      "half a pixel, and no lamp lets objects hide it: bump "
-                                      "suffices",
-                                      0, .finer = true, .decide = wr_decide_displaced,
-                                      .settle = wr_settle_displaced },
+    [WR_ROW(
+        WR_EFFECT_NORMALS)] = { "E58", "normal map", WR_PROOF_IDENTICAL, NULL,
+                                "there is no normal map, or it is flat; its strength or repetition "
+                                "is 0; the mode is none; no light depends on the normal",
+                                STAGE(NORMALS), .spared = WR_RUN_DARK, .decide = wr_decide_normals,
+                                .settle = wr_settle_normals },
+    [WR_ROW(
+        WR_EFFECT_DISPLACED)] = { "E50", "displacement", WR_PROOF_BOUNDED,
+                                  "half a pixel in the position of a surface point",
+                                  "the surface is not displaced, or F moves no point by half a "
+                                  "pixel and no lamp casts object shadows: bump mapping is enough",
+                                  0, .finer = true, .decide = wr_decide_displaced,
+                                  .settle = wr_settle_displaced },
     [WR_ROW(
         WR_EFFECT_PARALLAX)] = { "E85", "parallax", WR_PROOF_BOUNDED,
-                                 "half a pixel, of where a point of the surface is seen",
-                                 "the dial is off, the surface is displaced, or F moves no "
-                                 "point of it by half a pixel: bump suffices; meshes, bodies of "
-                                 "several faces and infinite planes have none",
+                                 "half a pixel in the position of a surface point",
+                                 "the dial is off, the surface is displaced, or F moves no point "
+                                 "by half a pixel: bump mapping is enough; meshes, surfaces of "
+                                 "several faces and endless planes have no parallax",
                                  STAGE(PARALLAX), .finer = true, .decide = wr_decide_parallax,
                                  .settle = wr_settle_parallax },
     [WR_ROW(WR_EFFECT_BUMP)] = { "E6", "bump", WR_PROOF_IDENTICAL, NULL,
@@ -284,20 +281,20 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                  .decide = decide_bump, .settle = settle_bump },
     [WR_ROW(WR_EFFECT_REORIENTED)] = { "E86", "relief over a normal map", WR_PROOF_IDENTICAL, NULL,
                                        "there is no normal map, its slopes are added, or the table "
-                                       "has no relief over it",
+                                       "has no relief on it",
                                        0, .spared = WR_RUN_DARK, .decide = wr_decide_reoriented,
                                        .settle = wr_settle_reoriented },
     [WR_ROW(
         WR_EFFECT_GRADIENT)] = { "E9", "gradient table", WR_PROOF_BOUNDED, "rounding of the slopes",
                                  "the scheme computes slopes from the heights. For central and "
-                                 "nearest one look-up of central differences equals the paper's "
-                                 "four of F",
+                                 "nearest, one lookup of central differences equals the paper's "
+                                 "four lookups of F",
                                  STAGE(LOOK), .only_way = true,
                                  .spared = WR_RUN_LEVEL | WR_RUN_DARK, .decide = decide_gradient },
     [WR_ROW(WR_EFFECT_WIDE)] = { "E10", "replication in double", WR_PROOF_BOUNDED,
                                  "a thousandth of a texel",
-                                 "replication is under 1024, where single precision is right to a "
-                                 "thousandth of a texel",
+                                 "replication is below 1024, where single precision is accurate to "
+                                 "a thousandth of a texel",
                                  0, .finer = true, .decide = decide_wide },
     [WR_ROW(
         WR_EFFECT_INVARIANT)] = { "E11", "scale invariance", WR_PROOF_BOUNDED,
@@ -314,160 +311,152 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                       .decide = wr_decide_curvature,
                                       .settle = wr_settle_curvature },
     [WR_ROW(WR_EFFECT_SHADOW)] = { "E47", "relief shadow", WR_PROOF_IDENTICAL, NULL,
-                                   "the material asks for none, no light is worked out, there is "
-                                   "no relief; of "
-                                   "formulas, tables that end, meshes, faces with tables of their "
-                                   "own and stretched "
-                                   "objects it is not known; of a displaced one all lights let "
-                                   "objects hide them. Lamps above the steepest horizon of "
-                                   "all look none up",
+                                   "the material's shadow is off, no light is computed, or there "
+                                   "is no relief. It is not available for formulas, tables that "
+                                   "are not periodic, meshes, faces with tables of their own and "
+                                   "stretched objects; for displaced surfaces, object shadows "
+                                   "replace it. Lamps above the steepest horizon need no lookup",
                                    STAGE(SHADOW), .only_way = true, .decide = wr_decide_shadow },
     [WR_ROW(WR_EFFECT_CAST)] = { "E49", "object shadow", WR_PROOF_IDENTICAL, NULL,
-                                 "no light that shines asks for any, `dials rays=0`, no light is "
-                                 "worked out; one convex or flat object "
-                                 "alone that is not displaced, or no ball about another stands "
-                                 "between its own and a lamp",
+                                 "no light casts object shadows, `dials rays=0`, or no light is "
+                                 "computed; the only object is convex or flat and not displaced, "
+                                 "or no bounding sphere of another object is between it and a lamp",
                                  STAGE(CAST), .spared = WR_RUN_DARK, .decide = wr_decide_cast,
                                  .settle = wr_settle_cast },
     [WR_ROW(WR_EFFECT_OCCLUSION)] = { "E48", "ambient occlusion", WR_PROOF_IDENTICAL, NULL,
-                                      "the material asks for none, there is neither ambient light "
-                                      "nor surroundings, there is no relief; of what has no relief "
-                                      "shadow it is not known either",
+                                      "the material's occlusion is off, there is neither ambient "
+                                      "light nor an environment, or there is no relief; not "
+                                      "available where relief shadows are not",
                                       STAGE(OCCLUSION), .only_way = true,
                                       .decide = wr_decide_occlusion,
                                       .settle = wr_settle_occlusion },
     [WR_ROW(WR_EFFECT_SAMPLES)] = { "E15", "supersampling", WR_PROOF_POLICY, NULL,
-                                    "the dial is set to one sample a pixel", STAGE(RESOLVE),
+                                    "the dial is set to one sample per pixel", STAGE(RESOLVE),
                                     .decide = wr_decide_samples, .settle = wr_settle_samples },
-    [WR_ROW(
-        WR_EFFECT_BOUND)] = { "E16", "refinement by bound", WR_PROOF_BOUNDED, "`contrast`",
-                              "the dials do not ask for it, or no bound on the intensity's change "
-                              "over "
-                              "a pixel is known: other surfaces than plane, cube and sphere, "
-                              "slopes "
-                              "not from central or nearest, a normal other than blinn, a colour "
-                              "picture; or bounds would spare too little of the view",
-                              STAGE(BOUND), .decide = wr_decide_bound },
+    [WR_ROW(WR_EFFECT_BOUND)] = { "E16", "refinement by bound", WR_PROOF_BOUNDED, "`contrast`",
+                                  "the dials are not set to it, or no bound on the change of "
+                                  "intensity within a pixel is available: surfaces other than "
+                                  "plane, cube and sphere, schemes other than central and nearest, "
+                                  "normals other than blinn, a colour picture; or bounds would "
+                                  "save too little of the view",
+                                  STAGE(BOUND), .decide = wr_decide_bound },
     [WR_ROW(WR_EFFECT_FILTER)] = { "E17", "filtered slopes", WR_PROOF_IDENTICAL, NULL,
-                                   "the dials ask for no filtering, or no table is looked up; "
-                                   "footprints "
-                                   "up to one texel look up the table itself",
+                                   "the dials are not set to filtering, or the table is not used; "
+                                   "footprints up to one texel use the table itself",
                                    STAGE(FOOTPRINT) | STAGE(PYRAMID), .decide = wr_decide_filter,
                                    .settle = wr_settle_filter },
     [WR_ROW(WR_EFFECT_BACK)] = { "E25", "back faces", WR_PROOF_IDENTICAL, NULL,
-                                 "a closed body seen from outside hides its own back", 0,
+                                 "a closed body seen from outside hides its back faces", 0,
                                  .decide = wr_decide_back },
     [WR_ROW(WR_EFFECT_DEPTH)] = { "E26", "depth buffer", WR_PROOF_IDENTICAL, NULL,
-                                  "the nearest root of the ray is enough; the view is still, and "
-                                  "the visible points of its samples are stored",
+                                  "the nearest intersection of the ray is enough; the view is at "
+                                  "rest, and the visible points of its samples are stored",
                                   STAGE(VISIBILITY), .only_way = true, .manner = true,
                                   .decide = wr_decide_depth, .settle = wr_settle_depth },
     [WR_ROW(WR_EFFECT_NEWTON)] = { "E27", "inversion by Newton", WR_PROOF_BOUNDED,
                                    "rounding of u and v",
-                                   "rays meet the surface in closed form; the view rests, and its "
-                                   "(u,v) are known",
+                                   "rays are intersected in closed form; the view is at rest, and "
+                                   "its (u,v) are stored",
                                    STAGE(NEWTON), .manner = true, .decide = wr_decide_newton,
                                    .settle = wr_settle_newton },
     [WR_ROW(WR_EFFECT_PERSPECTIVE)] = { "E28", "perspective divide", WR_PROOF_IDENTICAL, NULL,
                                         "the camera is orthographic", 0, .only_way = true,
                                         .decide = wr_decide_perspective },
     [WR_ROW(WR_EFFECT_AGAIN)] = { "E29", "re-rendering", WR_PROOF_IDENTICAL, NULL,
-                                  "the view rests and no edit reaches the tile", 0,
+                                  "the view is at rest and no edit reaches the tile", 0,
                                   .only_way = true, .manner = true, .decide = wr_decide_again },
     [WR_ROW(WR_EFFECT_STEADY)] = { "E76", "normals of a resting view", WR_PROOF_IDENTICAL, NULL,
-                                   "nothing but light and material of a resting view has changed "
-                                   "since its points and normals were noted",
+                                   "the view is at rest, and only light and material have changed "
+                                   "since its points and normals were stored",
                                    0, .only_way = true, .manner = true,
                                    .decide = wr_decide_relight },
     [WR_ROW(WR_EFFECT_BESIDE)] = { "E30", "tiles beside the object", WR_PROOF_IDENTICAL, NULL,
-                                   "beyond the object's outline tiles, and parts of tiles, are "
-                                   "cleared and no more",
+                                   "tiles, and parts of tiles, outside the object's outline are "
+                                   "only cleared",
                                    0, .only_way = true, .manner = true,
                                    .decide = wr_decide_beside },
     [WR_ROW(WR_EFFECT_SPREAD)] = { "E31", "spread of slopes", WR_PROOF_POLICY, NULL,
-                                   "the dials do not ask for moments, nothing is filtered, or "
-                                   "there is no "
-                                   "highlight",
+                                   "the dials are not set to moments, nothing is filtered, or "
+                                   "there is no highlight",
                                    STAGE(SPREAD), .decide = decide_spread,
                                    .settle = settle_spread },
     [WR_ROW(WR_EFFECT_WIDENED)] = { "E39", "widening without spread", WR_PROOF_IDENTICAL, NULL,
-                                    "no highlight is widened. Else runs of samples over which "
-                                    "slopes do not spread, as where a pixel is no larger than a "
-                                    "texel, have theirs as it is",
+                                    "no highlight is widened. Otherwise it is skipped for runs of "
+                                    "samples without a spread of slopes, as where a pixel is not "
+                                    "larger than a texel",
                                     0, .only_way = true, .manner = true,
                                     .decide = wr_decide_widened },
-    [WR_ROW(WR_EFFECT_FACED)] = { "E40", "normals bent into view", WR_PROOF_IDENTICAL, NULL,
-                                  "only facets that are small mirrors are bent. Of those, "
-                                  "runs of samples whose normals all face the viewer",
-                                  0, .only_way = true, .manner = true, .decide = wr_decide_faced },
+    [WR_ROW(
+        WR_EFFECT_FACED)] = { "E40", "normals bent into view", WR_PROOF_IDENTICAL, NULL,
+                              "the reflection model has no microfacet highlight. Otherwise it is "
+                              "skipped for runs of samples whose normals all face the viewer",
+                              0, .only_way = true, .manner = true, .decide = wr_decide_faced },
     [WR_ROW(WR_EFFECT_FAINT)] = { "E37", "faint highlights", WR_PROOF_BOUNDED,
-                                  "`faint` for each light, where colours are up to 1",
-                                  "highlights are not of facets, or the dial keeps them however "
-                                  "faint; by place they are not bounded. Else those below `faint` "
-                                  "are none, and runs of samples where all are, by the most that "
-                                  "D, V and F can be there, have none worked out",
+                                  "`faint` for each light, for colours up to 1",
+                                  "the reflection model has no microfacet highlight, or the dial "
+                                  "keeps faint highlights; with roughness by place there is no "
+                                  "bound. Otherwise highlights below `faint` are dropped, and "
+                                  "skipped for runs of samples where all are below it by the "
+                                  "largest possible D, V and F",
                                   0, .decide = wr_decide_faint, .settle = wr_settle_faint },
     [WR_ROW(WR_EFFECT_ROUNDED)] = { "E32", "rounded heights", WR_PROOF_POLICY, NULL,
-                                    "the dial keeps heights as they are", 0,
+                                    "the dial is set to unrounded heights", 0,
                                     .decide = decide_rounded, .settle = settle_rounded },
     [WR_ROW(WR_EFFECT_DOUBLE)] = { "E33", "double precision", WR_PROOF_POLICY, NULL,
                                    "the dial is set to single precision", 0,
                                    .decide = decide_double, .settle = settle_double },
     [WR_ROW(WR_EFFECT_HALF)] = { "E34", "half precision", WR_PROOF_POLICY, NULL,
-                                 "the dial does not ask for normals and light in half precision",
+                                 "the dial is not set to normals and light in half precision",
                                  STAGE(HALF), .decide = decide_half },
-    [WR_ROW(
-        WR_EFFECT_PARAMETERS)] = { "E54", "u and v", WR_PROOF_IDENTICAL, NULL,
-                                   "on a sphere, a cylinder, a cone or a mesh nothing is looked up "
-                                   "there: no "
-                                   "bump, no colour "
-                                   "picture; other surfaces are met at u and v",
-                                   STAGE(PARAMETERS), .only_way = true,
-                                   .decide = wr_decide_parameters },
+    [WR_ROW(WR_EFFECT_PARAMETERS)] = { "E54", "u and v", WR_PROOF_IDENTICAL, NULL,
+                                       "on a sphere, a cylinder, a cone or a mesh, nothing needs "
+                                       "them: no bump, no colour picture; other surfaces are "
+                                       "intersected at u and v",
+                                       STAGE(PARAMETERS), .only_way = true,
+                                       .decide = wr_decide_parameters },
     [WR_ROW(WR_EFFECT_TANGENTS)] = { "E55", "tangents", WR_PROOF_IDENTICAL, NULL,
-                                     "on a sphere, a cylinder, a cone or a mesh no slope turns the "
-                                     "normal "
-                                     "and no colour picture is filtered; other surfaces give them "
-                                     "with the point",
+                                     "on a sphere, a cylinder, a cone or a mesh, no slope tilts "
+                                     "the normal and no colour picture is filtered; other surfaces "
+                                     "compute them with the point",
                                      0, .only_way = true, .spared = WR_RUN_LEVEL,
                                      .decide = wr_decide_tangents },
     [WR_ROW(WR_EFFECT_DARK)] = { "E18", "light on the dark side", WR_PROOF_IDENTICAL, NULL,
-                                 "all lights are behind a run of samples, however the slopes that "
-                                 "it could read bend its normals: it has the ambient light alone, "
-                                 "and no bump. Asked where the highlight is gated, of blinn's "
-                                 "normals from a gradient table, and where nothing is bent",
+                                 "all lights are behind a run of samples, for every slope that it "
+                                 "could read: it gets only ambient light, without bump. Tested "
+                                 "where the highlight is gated, for blinn's normals from a "
+                                 "gradient table, and for unbumped normals",
                                  0, .only_way = true, .manner = true, .decide = wr_decide_dark },
     [WR_ROW(WR_EFFECT_GROUND)] = { "E63", "bump on level ground", WR_PROOF_IDENTICAL, NULL,
                                    "no tile of the table that a run of samples could read has a "
-                                   "slope: n' is n there. Asked where less than three quarters of "
-                                   "the table's tiles have slopes",
+                                   "slope, so n' is n. Tested if less than three quarters of the "
+                                   "table's tiles have slopes",
                                    0, .only_way = true, .manner = true,
                                    .decide = wr_decide_ground },
     [WR_ROW(WR_EFFECT_HIDDEN)] = { "E52", "hidden objects", WR_PROOF_IDENTICAL, NULL,
-                                   "one object is shown. Of several, drawn from the front, one "
-                                   "is left out of each tile that nearer ones fill",
+                                   "there is one visible object. Several are drawn front to back, "
+                                   "and an object is skipped in tiles that nearer objects fill",
                                    0, .only_way = true, .manner = true,
                                    .decide = wr_decide_hidden },
     [WR_ROW(WR_EFFECT_BETWEEN)] = { "E53", "depth between objects", WR_PROOF_IDENTICAL, NULL,
-                                    "one object is shown, and in tiles that only one object's "
-                                    "bound meets. Where several do, a sample that another hides "
-                                    "goes before its light is worked out",
+                                    "there is one visible object; in tiles that only one object's "
+                                    "bounding box touches. Elsewhere hidden samples are dropped "
+                                    "before shading",
                                     STAGE(BETWEEN), .only_way = true, .manner = true,
                                     .decide = wr_decide_between },
     [WR_ROW(WR_EFFECT_SMOOTH)] = { "E57", "interpolated normals", WR_PROOF_BOUNDED,
                                    "two units of the last place",
-                                   "the three normals of each of a mesh's triangles are the same, "
-                                   "or no light depends on them",
+                                   "the three normals of each triangle are equal, or no light "
+                                   "depends on them",
                                    0, .decide = wr_decide_smooth },
     [WR_ROW(WR_EFFECT_BLOCKS)] = { "E61", "blocks that look away", WR_PROOF_IDENTICAL, NULL,
-                                   "of a closed mesh seen from outside, blocks of triangles whose "
-                                   "normals all look away from the eye",
+                                   "for a closed mesh seen from outside, blocks of triangles that "
+                                   "all face away are skipped",
                                    0, .only_way = true, .manner = true,
                                    .decide = wr_decide_blocks },
     [WR_ROW(WR_EFFECT_HORIZON)] = { "E67", "horizon", WR_PROOF_IDENTICAL, NULL,
-                                    "no plane goes on to the horizon, or rays are parallel. Else "
-                                    "slopes ease off where a pixel holds half a period, "
-                                    "and the plane fades where it holds all its sides",
+                                    "no plane is endless, or rays are parallel. Otherwise slopes "
+                                    "fade where a pixel covers half a period, and the plane fades "
+                                    "where a pixel covers its whole width",
                                     0, .only_way = true, .decide = wr_decide_horizon },
 };
 WR_ROWS_END(wr_effects, WR_EFFECT_COUNT);

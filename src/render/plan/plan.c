@@ -52,7 +52,7 @@ static const char *no_ground(const WrPlan *plan, const WrPlanRequest *ask)
 /* sloped is -1 where no single-precision table is read. */
 WrVerdict wr_decide_ground(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
-    if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "no table is looked up");
+    if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "the table is not used");
     const char *reason = no_ground(plan, ask);
     if (reason) return say(WR_VERDICT_RUN, why, reason);
     const double sloped = ask->facts.sloped;
@@ -143,9 +143,7 @@ WrVerdict wr_decide_samples(const WrPlan *plan, const WrPlanRequest *ask, const 
     if (!takes_grid(dials))
         return say(WR_VERDICT_NONE, why, "the dial is set to one sample at the pixel's centre");
     if (dials->samples == 1)
-        return say(WR_VERDICT_NONE, why,
-                   "the dial is set to one sample a "
-                   "pixel");
+        return say(WR_VERDICT_NONE, why, "the dial is set to one sample per pixel");
     if (dials->aa == WR_AA_ADAPTIVE && unbounded(ask))
         return say(WR_VERDICT_RUN, why,
                    "up to K x K are allowed: no bound is known for several objects");

@@ -223,7 +223,7 @@ WrVerdict wr_decide_filter(const WrPlan *plan, const WrPlanRequest *ask, const c
 {
     if (!wants_filter(ask->dials))
         return say(WR_VERDICT_NONE, why, "the dials ask for no filtering");
-    if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "no table is looked up");
+    if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "the table is not used");
     if (still(ask->scene)) return say(WR_VERDICT_SPARED, why, "replication is 0,0: F is constant");
     return say(WR_VERDICT_RUN, why,
                "footprints over a texel look up a pyramid; smaller ones level 0");

@@ -28,7 +28,7 @@ WrVerdict wr_decide_back(const WrPlan *plan, const WrPlanRequest *ask, const cha
         return say(WR_VERDICT_RUN, why, "the surface is open: its back can be seen");
     if (!ask->facts.outside)
         return say(WR_VERDICT_RUN, why, "the eye may be inside the body: its inner walls are seen");
-    return say(WR_VERDICT_SPARED, why, "a closed body seen from outside hides its own back");
+    return say(WR_VERDICT_SPARED, why, "a closed body seen from outside hides its back faces");
 }
 
 WrVerdict wr_decide_depth(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
