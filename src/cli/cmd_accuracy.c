@@ -139,7 +139,7 @@ static bool check_line(const WrCli *cli, WrError *err)
         return wr_fail(err, "--size %dx%d: the reference takes at most %d along a side", cli->width,
                        cli->height, LARGEST);
     if (cli->differences && (!wr_path_info(cli->differences, &info) || info.kind != WR_KIND_FOLDER))
-        return wr_fail(err, "--differences %.200s: is no folder", cli->differences);
+        return wr_fail(err, "--differences %.200s: is not a folder", cli->differences);
     return illusion_check(cli, err);
 }
 

@@ -468,8 +468,7 @@ static int export_several(const WrCli *cli)
     const int threads = wr_pool_threads(cli->pool) / (jobs > 0 ? jobs : 1);
     Batch batch = { .cli = cli, .count = cli->file_count, .threads = threads > 0 ? threads : 1 };
     if (!wr_path_is_folder(cli->out)) {
-        wr_fail(&err, "-o %.200s: is no folder: the files are written into one that is there",
-                cli->out);
+        wr_fail(&err, "-o %.200s: is not a folder: the files need an existing folder", cli->out);
         return wr_cli_fail(cli, WR_EXIT_FAILED, &err);
     }
     batch.items = wr_alloc((size_t)batch.count, sizeof *batch.items);

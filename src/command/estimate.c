@@ -214,8 +214,8 @@ static double drawing(const Job *job, const Need *need)
     {                                                                                              \
         verb, form, .unknown = why                                                                 \
     }
-#define BY_FILE "it goes by what is in the file"
-#define BY_AREA "it goes by how much of the table it covers"
+#define BY_FILE "it depends on the content of the file"
+#define BY_AREA "it depends on the area that it covers"
 
 /* Upper bounds; a test counts the bytes in use and fails if one is exceeded, or is far above the peak. */
 static const Need needs[] = {
@@ -289,8 +289,8 @@ static const Need needs[] = {
     { "export", "cavity", texels, .bytes = 8.8 },
     { "export", "wear", texels, .bytes = 8.8 },
     { "export", "occlusion", texels, .bytes = 18 },
-    UNKNOWN("export", "horizon", "it goes by the number of directions and threads"),
-    UNKNOWN("export", "solid", "it goes by the relief, and by its error="),
+    UNKNOWN("export", "horizon", "it depends on the number of directions and threads"),
+    UNKNOWN("export", "solid", "it depends on the relief and on error="),
     { "export", "glb", texels, .bytes = 36 }, /* three maps in memory */
     { "maps", NULL, texels, .bytes = 32 },
     { "render", NULL, picture, .bytes = 17 },

@@ -105,13 +105,13 @@ static void explain(const WrSession *session, const WrLayer *layer, const WrLaye
     const bool now = latest.at > session->made_before, needed = need->why == WR_LAYER_NEEDED;
     plan->run = now ? WR_LAYER_EVALUATED : needed ? WR_LAYER_REUSED : WR_LAYER_SKIPPED;
     /* a command that changes the values of a hidden layer makes it */
-    if (now && !needed) wr_message_addf(&text, "its own values have changed");
+    if (now && !needed) wr_message_addf(&text, "its own settings have changed");
     else if (now) wr_message_addf(&text, "it or a layer below has changed");
     else if (!needed) print_need(need, &text);
     else if (layer->is_group) wr_message_addf(&text, "a group of the layers below it");
     else if (!layer->line && !layer->mask_line && !layer->filter.op)
         wr_message_addf(&text, "painted or read, not computed");
-    else wr_message_addf(&text, "nothing that it reads has changed");
+    else wr_message_addf(&text, "nothing that it depends on has changed");
     snprintf(plan->message, sizeof plan->message, "%s", wr_text_get(&text));
     wr_message_print(plan->message, NULL, plan->reason, sizeof plan->reason);
     wr_text_fini(&text);

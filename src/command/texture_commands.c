@@ -126,12 +126,12 @@ static WrImage *find_laid(WrSession *session, WrCall *call, const char *name, in
 }
 
 /* Arguments of a file are refused in a line without a file. */
-static bool refuse_without(const WrCall *call, const char *const *names, const char *why,
-                           WrError *err)
+static bool refuse_without(const WrCall *call, const char *const *names, bool off, WrError *err)
 {
-    for (; *names; names++)
-        if (wr_call_given(call, *names)) return wr_fail(err, "%s %s=", why, *names);
-    return true;
+    while (*names && !wr_call_given(call, *names)) names++;
+    if (!*names) return true;
+    return off ? wr_fail(err, "%s= cannot be given with off", *names)
+               : wr_fail(err, "%s= needs a file", *names);
 }
 
 /* ---- Texture maps of the object: colour and normals ---- */
@@ -203,7 +203,7 @@ static bool change_colour(WrSession *session, const WrCall *call, WrError *err)
     const WrScene *now = session->state.document->scene;
     if (!now->colour || now->colouring.count > 0)
         return wr_fail(err, "the object has no colour picture: name a file");
-    if (!refuse_without(call, of_file, "only a line that names a file takes", err)) return false;
+    if (!refuse_without(call, of_file, false, err)) return false;
     WrScene *scene = wr_scene_clone(now);
     take_repeat(call, &scene->colour_laid);
     wr_session_replace_scene(session, scene);
@@ -217,7 +217,7 @@ static bool run_colour(WrSession *session, WrCall *call, WrError *err)
     const char *name = file->given ? file->text : NULL;
     const bool off = name && strcmp(name, "off") == 0;
     if (!name) return change_colour(session, call, err);
-    if (off && !refuse_without(call, of_colour, "off takes no", err)) return false;
+    if (off && !refuse_without(call, of_colour, true, err)) return false;
     WrImage *image = off ? NULL : find_laid(session, call, name, WR_OBJECT_COLOUR, err);
     WrImage *colour = image ? linear_colour(image, err) : NULL;
     wr_image_free(image);
@@ -393,7 +393,7 @@ static bool change_normals(WrSession *session, const WrCall *call, WrNormalMap *
 {
     static const char *const of_file[] = { "channels", "coding", "layer", "part", "sha256", NULL };
     if (!map->image) return wr_fail(err, "the object has no normal map: name a file");
-    if (!refuse_without(call, of_file, "only a line that names a file takes", err)) return false;
+    if (!refuse_without(call, of_file, false, err)) return false;
     if (!change_green(call, map, err) || !change_space(session, call, map, err)) return false;
     if (map->object && wr_call_given(call, "frame"))
         return wr_fail(err, "frame=: this is an object-space map, which has no tangent frame");
@@ -409,7 +409,7 @@ static bool run_normals(WrSession *session, WrCall *call, WrError *err)
     const WrArg *file = wr_call_arg(call, "FILE|off");
     const char *name = file->given ? file->text : NULL;
     const bool off = name && (strcmp(name, "off") == 0 || strcmp(name, "none") == 0);
-    if (off && !refuse_without(call, of_map, "off takes no", err)) return false;
+    if (off && !refuse_without(call, of_map, true, err)) return false;
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     WrNormalMap *map = &scene->normals;
     bool good = true;
@@ -607,7 +607,7 @@ static bool change(WrSession *session, const WrCall *call, WrFacetKind kind, WrE
     const WrScene *now = session->state.document->scene;
     if (!now->facets[kind].image)
         return wr_fail(err, "the object has no picture of %s: name a file", verbs[kind]);
-    if (!refuse_without(call, of_file, "only a line that names a file takes", err)) return false;
+    if (!refuse_without(call, of_file, false, err)) return false;
     WrScene *scene = wr_scene_clone(now);
     take_repeat(call, &scene->facets[kind].laid);
     wr_session_replace_scene(session, scene);
@@ -632,7 +632,7 @@ static bool run(WrSession *session, WrCall *call, WrFacetKind kind, WrError *err
     const char *name = file->given ? file->text : NULL;
     const bool off = name && strcmp(name, "off") == 0;
     if (!name) return change(session, call, kind, err);
-    if (off && !refuse_without(call, of_map, "off takes no", err)) return false;
+    if (off && !refuse_without(call, of_map, true, err)) return false;
     WrImage *image = off ? NULL : read_numbers(session, call, name, kind, err);
     if (!off && !image) return false;
     WrScene *scene = wr_scene_clone(session->state.document->scene);

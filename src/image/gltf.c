@@ -401,7 +401,7 @@ static bool fetch(const Gltf *file, const char *uri, WrText *out, WrError *err)
     if (strncmp(uri, "data:", 5) == 0) {
         const bool coded = comma && comma - uri >= 12 && memcmp(comma - 7, ";base64", 7) == 0;
         return (coded && wr_gltf_base64(comma + 1, out)) ||
-               wr_fail(err, "%s: a data: URI is not of base64, or damaged", file->path);
+               wr_fail(err, "%s: a data: URI is not base64, or damaged", file->path);
     }
     WrText name = { 0 };
     char *folder = wr_path_folder(file->path), *full = NULL, *bytes = NULL;

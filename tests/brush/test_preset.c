@@ -368,7 +368,7 @@ static void with_draws_curves_which_files_keep(void **state)
     static const struct {
         const char *settings, *words;
     } wrong[] = {
-        { "opaque:pressur=0,0|1,1", "opaque:pressur: is no input" },
+        { "opaque:pressur=0,0|1,1", "opaque:pressur: unknown input" },
         { "opak:pressure=0,0|1,1", "'opak' is not a setting" },
         { "opaque:pressure=0,0", "one point: must be 2..64" },
         { "opaque:pressure=0,0|1", "point '1': must be x,y" },
@@ -378,7 +378,7 @@ static void with_draws_curves_which_files_keep(void **state)
         { "opaque:pressure=0,0|1e10,1", "point '1e10,1'" },
         { "opaque:pressure=0.5,0|0.4,1", "point '0.4,1': its x must not be below" },
         { "opaque:pressure", "must be NAME=VALUE or NAME:INPUT" },
-        { "opaque:=0,0|1,1", "opaque:: is no input" },
+        { "opaque:=0,0|1,1", "opaque:: unknown input" },
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         assert_null(wr_preset_with(preset, wrong[i].settings, &err));

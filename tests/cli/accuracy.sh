@@ -25,7 +25,7 @@ refuse() {
 
 refuse 1 'must be one of derivative, normal' --axis colour
 refuse 1 'at most 4096' --size 5000x10
-refuse 1 'is no folder' --differences nosuch
+refuse 1 'is not a folder' --differences nosuch
 refuse 1 'rms=VALUE or max=VALUE' --size 16x16 --tolerance time=8ms
 refuse 1 'above 0' --size 16x16 --tolerance rms=0
 refuse 1 'above 0' --size 16x16 --tolerance rms=nan
@@ -33,7 +33,7 @@ refuse 1 '.png or .svg' --size 8x8 --runs 3 --axis normal --plot plot.bmp
 refuse 1 'No such file' nosuch.wrinkle
 refuse 1 '--illusion alone' --size 8x8 --map map.png
 refuse 1 'goes with --size' --size 8x8 --illusion --csv a.csv
-refuse 1 'nothing here can be displaced' --size 8x8 --illusion --do 'bump height=0'
+refuse 1 'nothing to displace' --size 8x8 --illusion --do 'bump height=0'
 refuse 1 'map.xyz' --size 8x8 --illusion --map map.xyz --do 'dab 0.3,0.7 radius=60 strength=1' --do 'bump height=0.1'
 refuse 1 '--runs 2' --runs 2
 refuse 2 '--csv' --csv

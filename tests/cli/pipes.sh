@@ -129,7 +129,7 @@ run 2 export a.wrinkle c.exr --as slopes -o ./
 has err 'c.exr: is an input'
 same named.exr c.exr 'the input'
 run 1 export a.wrinkle b.wrinkle --as height -o nowhere/
-has err 'is no folder'
+has err 'is not a folder'
 run 2 export a.wrinkle b.wrinkle --as height -o two --watch
 run 1 export a.wrinkle b.wrinkle --as height -o two -j 0
 run 2 export a.wrinkle two.png --as height

@@ -133,7 +133,8 @@ static void misses_are_noted_and_padded(void **state)
     WrSession *s = with_low(&said);
     must_run(s, "bump height=1");
     must_run(s, "bake half.obj padding=3 cage=1");
-    assert_non_null(strstr(said.text, "1728 texels, 864 of which missed it (0 met only backs)"));
+    assert_non_null(
+        strstr(said.text, "1728 texels, 864 of which missed it (0 hit only back faces)"));
     assert_near((double)f_at(s, 26, 20), (double)f_at(s, 23, 20), 0.01);
     assert_near((double)f_at(s, 27, 20), 0, 0); /* beyond; u wraps round at the other side */
     assert_true(f_at(s, 45, 20) > 0);
@@ -281,7 +282,7 @@ static void errors_name_the_remedy(void **state)
     WrSession *s = with_low(&said);
     must_fail(s, "bake none.obj", "none.obj");
     must_fail(s, "bake away.obj cage=1", "do both meshes have the same position and unit?");
-    must_fail(s, "bake high.obj size=64x64", "has the table's size 48x36");
+    must_fail(s, "bake high.obj size=64x64", "of the table's size, 48x36");
     must_fail(s, "bake high.obj cage=-1", "must be auto, or a distance above 0");
     must_fail(s, "bake high.obj samples=9", "1..8");
     must_fail(s,

@@ -391,10 +391,10 @@ static void what_a_newer_version_may_hold_is_damage_in_this_one(void **state)
                   { good, 5, opacity, "wrinkle:opacity '1.5'" },
                   { good, 5, visible, "wrinkle:visible 'maybe'" },
                   { good, 5, NULL, "wrinkle:solo 'many'" },
-                  { twice, 4, NULL, "part 'cover:1 ' has no place" },
-                  { wrong, 3, NULL, "part 'cover:2' has no place" },
-                  { first, 3, NULL, "part 'mask:1' has no place" },
-                  { late, 4, NULL, "part 'mask:1' has no place" },
+                  { twice, 4, NULL, "part 'cover:1 ' does not belong" },
+                  { wrong, 3, NULL, "part 'cover:2' does not belong" },
+                  { first, 3, NULL, "part 'mask:1' does not belong" },
+                  { late, 4, NULL, "part 'mask:1' does not belong" },
                   { wide, 3, NULL, "with 3 channels" } };
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         WrLoaded loaded;

@@ -254,7 +254,7 @@ static void other_edits_of_its_heights_are_refused_or_make_it_plain(void **state
     must_run(s, "layer rasterize made");
     assert_true(wr_hash_equal(seen, wr_field_hash(wr_document_field(doc(s)))));
     must_run(s, "dab 0.5,0.5 radius=4");
-    must_fail(s, "layer rasterize made", "is not a generator layer");
+    must_fail(s, "layer rasterize made", "is already a plain layer");
     must_run(s, "undo 2");
     must_run(s, "layer duplicate made");
     assert_string_equal(doc(s)->layers[2].line, made(s)->line);

@@ -446,7 +446,7 @@ static void commands_choose_and_tell_what_they_took(void **state)
     write_layers("scene.exr", names, 4, 1);
     must_run(s, "image scene.exr");
     assert_non_null(
-        strstr(said.text, "took diffuse.R, diffuse.G, diffuse.B of its channels Depth.Z"));
+        strstr(said.text, "used diffuse.R, diffuse.G, diffuse.B of its channels Depth.Z"));
     must_run(s, "image scene.exr channel=Depth.Z");
     for (int k = 0; k < 15; k++) assert_near(f_at(s, k % 5, k / 5), k / 5 + k % 5 / 4.0, 1e-6);
     assert_non_null(strstr(wr_session_last_command(s), "layer=Depth.Z"));

@@ -228,7 +228,7 @@ static void missing_files_are_noted_once_and_their_heights_stay(void **state)
     said.text[0] = '\0';
     if (!wr_session_open(s, "stones.exr", &err)) fail_msg("%s", err.text);
     assert_true(wr_hash_equal(before, wr_session_hash(s)));
-    const char *first = strstr(said.text, "stone.png is missing here");
+    const char *first = strstr(said.text, "stone.png is missing");
     assert_true(first && strstr(said.text, "and 1 more layers"));
     assert_null(strstr(first + 20, "is missing"));
     const char *name = wr_line_missing_file(doc(s)->layers[2].line, &path);

@@ -344,7 +344,7 @@ static void only_needed_layers_are_made(void **state)
     must_run(s, "layer solo top");
     check_plan(s, 3, WR_LAYER_SKIPPED, "layer 6 is shown alone");
     assert_int_equal(makings(s, "layer set 2 change=\"steps=7\""), 1);
-    check_plan(s, 2, WR_LAYER_EVALUATED, "its own values");
+    check_plan(s, 2, WR_LAYER_EVALUATED, "its own settings");
     assert_int_equal(makings(s, "layer solo 3"), 1);
     /* and all have the right bits when they are shown */
     must_run(s, "layer solo off");

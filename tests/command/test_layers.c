@@ -269,7 +269,7 @@ static void several_generator_layers_become_plain(void **state)
     WrSession *s = session_of((const char *[]){
         "table 24x17", "layer add p from=\"pattern bricks\"", "layer add q", "dab 0.3,0.6",
         "layer add r from=\"noise perlin\"", "layer add t from=\"pattern dots\"", NULL });
-    must_fail(s, "layer rasterize 2,3", "layer 3 is no generator layer");
+    must_fail(s, "layer rasterize 2,3", "layer 3 is already a plain layer");
     assert_non_null(doc(s)->layers[1].line);
     must_run(s, "layer rasterize 5,2");
     assert_null(doc(s)->layers[1].line);

@@ -140,7 +140,7 @@ static void the_space_changes_without_the_file(void **state)
     must_run(s, "normalmap two.exr space=object green=up");
     assert_int_equal(unlink("two.exr"), 0);
     must_run(s, "normalmap space=tangent");
-    expect_told(&said, "1 texels that look away");
+    expect_told(&said, "1 normals that point below the surface");
     const float *made = map_of(s)->image->data;
     assert_near(made[0], 1, 1e-5);
     assert_near(made[2], WR_NORMAL_MIN / hypot(0.6, WR_NORMAL_MIN), 1e-6);

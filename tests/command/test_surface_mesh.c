@@ -551,7 +551,7 @@ static void exports_leave_the_file_alone(void **state)
     write_file("inner/roof.obj", roof);
     write_file("inner/s.wrinkle", "surface mesh file=roof.obj\n");
     if (!wr_session_open(s, "inner/s.wrinkle", &err)) fail_msg("%s", err.text);
-    must_fail(s, "export obj inner/roof.obj", "inner/roof.obj: is a file that was read here");
+    must_fail(s, "export obj inner/roof.obj", "inner/roof.obj: this file was read as an input");
     char *bytes;
     size_t length;
     if (!wr_file_read("inner/roof.obj", 1 << 20, &bytes, &length, &err)) fail_msg("%s", err.text);
@@ -586,7 +586,7 @@ static void a_fitting_error_is_named(void **state)
         snprintf(line, sizeof line, "export stl out.stl triangles=%d error=0.0003", most);
         assert_false(wr_session_run(s, line, &err));
         const char *named = strstr(err.text, "triangles: give error=");
-        if (!named || sscanf(named, "triangles: error=%lf fits", &fits) != 1)
+        if (!named || sscanf(named, "triangles: give error=%lf", &fits) != 1)
             fail_msg("%s", err.text);
         snprintf(line, sizeof line, "export stl out.stl triangles=%d error=%.6g", most, fits);
         must_run(s, line);
@@ -766,7 +766,7 @@ static void a_layer_is_a_mask(void **state)
     must_run(s, "select rect from=0.5,0 to=1,1");
     must_run(s, "fill 1.3");
     must_run(s, "surface mesh file=sheet.obj mask=2 projection=box cell=3mm turn=0,0,31");
-    assert_non_null(strstr(wr_text_get(&notes), "layer 2 is hidden: it is a mask now"));
+    assert_non_null(strstr(wr_text_get(&notes), "layer 2 was hidden: it is now a mask"));
     assert_non_null(strstr(wr_text_get(&notes), "masks leave relief on 2 of 4 triangles"));
     if (!strstr(surface_line(s, &line), " mask=where\n")) fail_msg("%s", wr_text_get(&line));
     must_run(s, "replicate 3,2");
@@ -913,7 +913,7 @@ static void masks_need_normals(void **state)
     assert_null(strstr(wr_text_get(&notes), "edges look rounded"));
     must_run(s, "surface mesh crease=180");
     assert_non_null(strstr(wr_text_get(&notes), "masks leave relief on 4 of 4 triangles; the file "
-                                                "has no normals, so that edges are rounded"));
+                                                "has no normals, so edges look rounded"));
     wr_session_free(s);
     wr_text_fini(&notes);
 }
@@ -985,9 +985,9 @@ static void hostile_projections_are_refused(void **state)
         { "soft=nan", "soft=nan: must be" },
         { "materials=,", "has no such material" },
         { "materials=0", "has no such material" },
-        { "projection=box cell=1um unit=m", "reaches over more than 65536 cells" },
-        { "projection=planar at=1e9,0,0", "reaches over more than 65536 cells" },
-        { "projection=spherical cell=1e-300", "reaches over more than 65536 cells" },
+        { "projection=box cell=1um unit=m", "extends over more than 65536 cells" },
+        { "projection=planar at=1e9,0,0", "extends over more than 65536 cells" },
+        { "projection=spherical cell=1e-300", "extends over more than 65536 cells" },
     };
     WrText notes = { 0 };
     char line[160];

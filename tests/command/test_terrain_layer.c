@@ -157,7 +157,7 @@ static void form_and_bump_are_two_layers(void **state)
     const float top = f_at(s, 10, 10);
     assert_true(top > 0.5f);
     must_run(s, "surface terrain layer=hill cells=4");
-    assert_non_null(strstr(said.text, "layer 2 is hidden"));
+    assert_non_null(strstr(said.text, "layer 2 was hidden"));
     assert_false(is_visible(s, 1));
     assert_true(f_at(s, 10, 10) == 0);              /* no longer a bump */
     must_run(s, "dab 0.5,0.5 radius=5 strength=1"); /* though hidden, it can be painted */

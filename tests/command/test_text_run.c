@@ -100,7 +100,7 @@ static void mistakes_are_told_and_change_nothing(void **state)
 {
     (void)state;
     static const char *const lines[][2] = { { "text a file=" WR_SOURCE_DIR "/README.md",
-                                              "no font" },
+                                              "not a readable font" },
                                             { "text a file=/nonexistent", "/nonexistent" },
                                             { "text a size=0", "above 0" },
                                             { "text a axes=wght=900", "not variable" },

@@ -67,7 +67,7 @@ static void a_failure_leaves_the_view(void **state)
     must_fail(s, "image nosuch.png", "nosuch.png");
     must_fail(s, "camera perspective eye=1,1,1 target=1,1,1", "camera");
     must_fail(s, "rotate", "pose=own");
-    must_fail(s, "rotate 1,2,3 pose=own", "one of");
+    must_fail(s, "rotate 1,2,3 pose=own", "not both");
     assert_true(turned(s) == 40);
     wr_session_free(s);
 }

@@ -362,10 +362,10 @@ static void strange_documents_are_refused_with_a_reason(void **state)
     check_not_loaded("channels.exr", "with 2 channels");
     Part stranger[3] = { f, layer, { "mask", 8, 6, 1, 2 } };
     write_parts("stranger.exr", "1", "periodic", stranger, 3);
-    check_not_loaded("stranger.exr", "part 'mask' has no place");
+    check_not_loaded("stranger.exr", "part 'mask' does not belong");
     Part early[3] = { f, { "colour", 8, 6, 3, 2 }, layer };
     write_parts("early.exr", "1", "periodic", early, 3);
-    check_not_loaded("early.exr", "part 'layer:base' has no place"); /* after the colour */
+    check_not_loaded("early.exr", "part 'layer:base' does not belong"); /* after the colour */
     Part grey[3] = { f, layer, { "colour", 8, 6, 1, 2 } };
     write_parts("grey.exr", "1", "periodic", grey, 3);
     check_not_loaded("grey.exr", "colour picture has 1 channels");

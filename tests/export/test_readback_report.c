@@ -154,7 +154,7 @@ static void wrong_codes_are_noticed(const char *name)
     wrong = 1;
     assert_true(wr_file_write("w.png", old, sizeof old, &err));
     assert_false(wr_export(&kind, document, &options, NULL, "w.png", NULL, &err));
-    assert_non_null(strstr(err.text, "row 100 is wrong by"));
+    assert_non_null(strstr(err.text, "row 100 differs by"));
     assert_non_null(strstr(err.text, "w.png"));
     assert_true(wr_file_read("w.png", 4096, &bytes, &length, &err));
     assert_int_equal(length, sizeof old);

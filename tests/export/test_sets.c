@@ -239,7 +239,7 @@ static void wrong_lines_are_refused_by_number(void **state)
         { "height x.png", "must have one *" },
         { "height *_*.png", "must have one *" },
         { "height *", "must have one *" },
-        { "height *.xyz", "ending 'xyz'" },
+        { "height *.xyz", "extension 'xyz'" },
         { "height *.png depth=7", "bad.set:1: depth '7': must be 8, 16 or 32" },
         { "height *.png depth", "must be a setting, name=value" },
         { "height *.png nosuch=1", "height: unknown name \"nosuch\": must be one of depth" },
@@ -294,7 +294,7 @@ static void hostile_files_and_names_are_refused(void **state)
     }
     WrMapSetRequest order = { set, "nowhere", "clay", NULL, 0, NULL };
     assert_false(wr_export_map_set(&order, document, NULL, &told, &err));
-    assert_non_null(strstr(err.text, "nowhere: is no folder"));
+    assert_non_null(strstr(err.text, "nowhere: is not a folder"));
     wr_map_set_free(set);
     wr_text_fini(&told);
     wr_document_free(document);

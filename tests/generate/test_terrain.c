@@ -265,7 +265,7 @@ static void wrong_sizes_are_told_with_what_would_fit(void **state)
                   { "4x99999", "as in 1024x512", 32 },
                   { "-4x4", "as in 1024x512", 32 },
                   { "4x444444444444444", "as in 1024x512", 32 },
-                  { "4x4", "but there are 31", 31 } };
+                  { "4x4", "the file has 31", 31 } };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         WrRaw r = { .kind = WR_RAW_U16, .width = 7 };
         WrError err = { "" };

@@ -336,7 +336,7 @@ static void texts_are_read_or_told(void **state)
         { "1\n1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 0\n",
           "line 2: \"0\" is not the number of a point" },
         { "1\n1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16\n15\n",
-          "line 3: 15 points, but a patch names" },
+          "line 3: 15 points, but a patch refers" },
         { head, "line 3: the file ends before a coordinate" },
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {

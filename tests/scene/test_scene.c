@@ -322,8 +322,8 @@ static void impossible_cameras_are_refused_and_nothing_is_written(void **state)
     WrScene *scene = wr_scene_new();
     const WrCamera good = scene->camera;
     assert_refused(scene, NAN, 1, "turn");
-    assert_refused(scene, 0, 0, "wide");
-    assert_refused(scene, 0, NAN, "wide");
+    assert_refused(scene, 0, 0, "aspect ratio");
+    assert_refused(scene, 0, NAN, "aspect ratio");
     scene->camera.target = scene->camera.eye = (WrVec3){ 1, 2, 3 };
     assert_refused(scene, 0, 1, "eye = target = 1,2,3");
     scene->camera = good;

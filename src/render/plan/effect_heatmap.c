@@ -15,15 +15,15 @@ typedef struct Hue {
    A byte of the map: the lower bits tell the work (WR_MAP_), the upper ones log2 of the samples along a
    pixel's side. mask selects bits, all of which must equal `bits`. */
 static const Hue hues[] = {
-    { WR_MAP_RENDERED, 0, "not rendered: left as it was", "black", { 0, 0, 0 } },
-    { WR_MAP_COVERED, 0, "nothing of the object", "slate", { 96, 96, 128 } },
+    { WR_MAP_RENDERED, 0, "not rendered: unchanged", "black", { 0, 0, 0 } },
+    { WR_MAP_COVERED, 0, "outside the object", "slate", { 96, 96, 128 } },
     { WR_MAP_LIT, 0, "ambient light alone", "violet", { 160, 96, 192 } },
     { WR_MAP_LOOKED | WR_MAP_WIDE,
       WR_MAP_WIDE,
       "light and filtered colour, no bump",
       "yellow",
       { 240, 224, 64 } },
-    { WR_MAP_LOOKED, 0, "light alone, no bump", "grey", { 224, 224, 224 } },
+    { WR_MAP_LOOKED, 0, "light, no bump", "grey", { 224, 224, 224 } },
     { WR_MAP_WIDE, WR_MAP_WIDE, "bump from filtered slopes", "orange", { 255, 128, 0 } },
     { 0, 0, "bump", "blue", { 0, 200, 255 } },
 };

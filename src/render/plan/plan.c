@@ -34,18 +34,19 @@ static bool is_forced(const WrPlan *plan, WrEffect effect)
    itself, or the tangents that the skipped stage would have computed. */
 static const char *no_ground(const WrPlan *plan, const WrPlanRequest *ask)
 {
-    if (is_forced(plan, WR_EFFECT_BUMP)) return "bump is forced: it runs everywhere";
+    if (is_forced(plan, WR_EFFECT_BUMP)) return "bump is switched on: it runs everywhere";
     if (runs(plan, WR_EFFECT_NORMALS)) return "a normal map has slopes where the table has none";
-    if (plan->bump == WR_BUMP_EXACT) return "the exact normal turns with heights, not slopes alone";
+    if (plan->bump == WR_BUMP_EXACT)
+        return "the exact normal depends on heights, not only on slopes";
     if (wr_plan_is_weighted(ask->scene))
         return "the relief's mask has slopes where the table has none";
     if (wr_schemes[plan->scheme].taps == WR_TAPS_FITTED)
-        return "this scheme's coefficients each reach over the whole table";
-    if (runs(plan, WR_EFFECT_FILTER)) return "a footprint may reach over any of the table";
-    if (runs(plan, WR_EFFECT_TINT)) return "the colour picture's footprints go by tangents";
-    if (plan->facets_filtered) return "footprints of pictures of roughness go by tangents";
+        return "each coefficient of this scheme depends on the whole table";
+    if (runs(plan, WR_EFFECT_FILTER)) return "a footprint may cover any part of the table";
+    if (runs(plan, WR_EFFECT_TINT)) return "the colour picture's footprints need tangents";
+    if (plan->facets_filtered) return "footprints of roughness maps need tangents";
     if (plan->precision != WR_PRECISION_SINGLE)
-        return "slopes of single precision say nothing of those in double";
+        return "slopes in single precision do not bound those in double";
     return NULL;
 }
 
@@ -57,9 +58,9 @@ WrVerdict wr_decide_ground(const WrPlan *plan, const WrPlanRequest *ask, const c
     if (reason) return say(WR_VERDICT_RUN, why, reason);
     const double sloped = ask->facts.sloped;
     if (!(sloped >= 0 && sloped < MOSTLY_SLOPED))
-        return say(WR_VERDICT_RUN, why, "most of the table has slopes: asking is not worth it");
+        return say(WR_VERDICT_RUN, why, "most of the table has slopes: the test would not pay off");
     return say(WR_VERDICT_SPARED, why,
-               "much of the table is level: runs of samples there have no bump");
+               "much of the table is flat: runs of samples there skip bump");
 }
 
 /* ---- the dark side ---- */
@@ -69,20 +70,18 @@ WrVerdict wr_decide_ground(const WrPlan *plan, const WrPlanRequest *ask, const c
    amount without such a bound. */
 static const char *no_cone(const WrPlan *plan, const WrPlanRequest *ask)
 {
-    if (runs(plan, WR_EFFECT_DISPLACED)) return "facets of a displaced surface face anywhere";
-    if (runs(plan, WR_EFFECT_PARALLAX))
-        return "the points that parallax shows may be on either "
-               "side";
-    if (runs(plan, WR_EFFECT_EMBOSSED)) return "no bound is known of a solid texture's slopes";
-    if (wr_plan_is_weighted(ask->scene))
-        return "no bound is known of the slopes of the relief's mask";
+    if (runs(plan, WR_EFFECT_DISPLACED))
+        return "facets of a displaced surface may face any direction";
+    if (runs(plan, WR_EFFECT_PARALLAX)) return "points seen by parallax may be on either side";
+    if (runs(plan, WR_EFFECT_EMBOSSED)) return "slopes of a solid texture have no bound";
+    if (wr_plan_is_weighted(ask->scene)) return "slopes of the relief's mask have no bound";
     if (plan->bump == WR_BUMP_NONE) return NULL;
-    if (is_forced(plan, WR_EFFECT_BUMP)) return "bump is forced: it runs everywhere";
-    if (runs(plan, WR_EFFECT_NORMALS)) return "no bound is known of a normal map's slopes";
-    if (plan->bump != WR_BUMP_BLINN) return "no bound is known of how far this normal turns";
+    if (is_forced(plan, WR_EFFECT_BUMP)) return "bump is switched on: it runs everywhere";
+    if (runs(plan, WR_EFFECT_NORMALS)) return "slopes of a normal map have no bound";
+    if (plan->bump != WR_BUMP_BLINN) return "the tilt of this normal has no bound";
     if (!runs(plan, WR_EFFECT_GRADIENT) || runs(plan, WR_EFFECT_FILTER) ||
         plan->precision != WR_PRECISION_SINGLE)
-        return "no bound is known of slopes but a gradient table's own";
+        return "only slopes of a gradient table have a bound";
     return NULL;
 }
 
@@ -92,13 +91,14 @@ static const char *no_dark(const WrPlan *plan, const WrPlanRequest *ask)
 {
     const bool shines = runs(plan, WR_EFFECT_SPECULAR);
     if (is_forced(plan, WR_EFFECT_DIFFUSE) || is_forced(plan, WR_EFFECT_SPECULAR))
-        return "light is forced: it runs everywhere";
-    if (v3_len(ask->scene->sizes) > 0) return "the object is stretched: its normals turn with it";
-    if (ask->facts.normals) return "normals are wanted everywhere";
+        return "light is switched on: it runs everywhere";
+    if (v3_len(ask->scene->sizes) > 0) return "the object is stretched, which changes its normals";
+    if (ask->facts.normals) return "normals are needed everywhere";
     if (runs(plan, WR_EFFECT_SURROUND) || runs(plan, WR_EFFECT_MIRROR))
-        return "surroundings shine there too";
-    if (shines && !ask->scene->material.gate) return "a highlight without gate shows there too";
-    if (runs(plan, WR_EFFECT_BOUND)) return "a bound of the light's change is wanted everywhere";
+        return "the environment lights those places too";
+    if (shines && !ask->scene->material.gate)
+        return "a highlight without gate is visible there too";
+    if (runs(plan, WR_EFFECT_BOUND)) return "a bound of the change of light is needed everywhere";
     if (runs(plan, WR_EFFECT_HALF)) return "the dial is set to light in half precision";
     return no_cone(plan, ask);
 }
@@ -106,11 +106,12 @@ static const char *no_dark(const WrPlan *plan, const WrPlanRequest *ask)
 WrVerdict wr_decide_dark(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (!runs(plan, WR_EFFECT_DIFFUSE) && !runs(plan, WR_EFFECT_SPECULAR))
-        return say(WR_VERDICT_NONE, why, "no light is worked out");
+        return say(WR_VERDICT_NONE, why, "no light is computed");
     const char *reason = no_dark(plan, ask);
     if (reason) return say(WR_VERDICT_RUN, why, reason);
-    return say(WR_VERDICT_SPARED, why,
-               "runs that all lights are behind, bump or not, have ambient light alone");
+    return say(
+        WR_VERDICT_SPARED, why,
+        "runs of samples with all lights behind them, bumped or not, get only ambient light");
 }
 
 /* ---- beside the object ---- */
@@ -120,7 +121,7 @@ WrVerdict wr_decide_beside(const WrPlan *plan, const WrPlanRequest *ask, const c
 {
     (void)plan, (void)ask;
     return say(WR_VERDICT_SPARED, why,
-               "only the part of a tile is drawn that the object may be on");
+               "only the part of a tile that the object may cover is drawn");
 }
 
 /* ---- Plan rows of sampling: samples per pixel, and the bound for taking fewer ---- */
@@ -145,16 +146,14 @@ WrVerdict wr_decide_samples(const WrPlan *plan, const WrPlanRequest *ask, const 
     if (dials->samples == 1)
         return say(WR_VERDICT_NONE, why, "the dial is set to one sample per pixel");
     if (dials->aa == WR_AA_ADAPTIVE && unbounded(ask))
-        return say(WR_VERDICT_RUN, why,
-                   "up to K x K are allowed: no bound is known for several objects");
+        return say(WR_VERDICT_RUN, why, "up to K x K: several objects have no bound");
     if (dials->aa == WR_AA_ADAPTIVE && ask->facts.lively)
-        return say(WR_VERDICT_RUN, why,
-                   "up to K x K are allowed: here fewer would cost more, so all are used");
-    return say(WR_VERDICT_RUN, why,
-               dials->aa == WR_AA_SUPERSAMPLE
-                   ? "the dial is set to the mean of K x K intensities"
-                   : "up to K x K where one is not enough for `contrast`; a smooth view may be as "
-                     "near with fewer");
+        return say(WR_VERDICT_RUN, why, "up to K x K: fewer would cost more here, so all are used");
+    return say(
+        WR_VERDICT_RUN, why,
+        dials->aa == WR_AA_SUPERSAMPLE
+            ? "the dial is set to the mean of K x K intensities"
+            : "up to K x K where one sample does not meet `contrast`; smooth views need fewer");
 }
 
 /* Solid textures need a known number of texels per pixel for the estimate (wr_solid_texture_texels). */
@@ -178,30 +177,24 @@ void wr_settle_samples(WrPlan *plan, const WrPlanRequest *ask)
 static const char *no_bound(const WrPlan *plan, const WrPlanRequest *ask)
 {
     if (runs(plan, WR_EFFECT_SHADOW) || runs(plan, WR_EFFECT_CAST))
-        return "no bound is known of shadows: K x K everywhere";
+        return "shadows have no bound: K x K everywhere";
     if (ask->dials->shading == WR_SHADING_HALF)
-        return "no bound is known of rounding to half precision: K x K everywhere";
-    if (v3_len(ask->scene->sizes) > 0)
-        return "no bound is known of a stretched object: K x K everywhere";
-    if (runs(plan, WR_EFFECT_MODEL))
-        return "no bound is known of this reflection: K x K everywhere";
+        return "rounding to half precision has no bound: K x K everywhere";
+    if (v3_len(ask->scene->sizes) > 0) return "a stretched object has no bound: K x K everywhere";
+    if (runs(plan, WR_EFFECT_MODEL)) return "this reflection model has no bound: K x K everywhere";
     if (runs(plan, WR_EFFECT_SURROUND) || runs(plan, WR_EFFECT_MIRROR))
-        return "no bound is known of light from surroundings: K x K everywhere";
+        return "light from an environment has no bound: K x K everywhere";
     const WrInversion how = surface_of(ask)->inversion;
     if (runs(plan, WR_EFFECT_DISPLACED))
-        return "no bound is known of a displaced surface: K x K everywhere";
-    if (runs(plan, WR_EFFECT_PARALLAX)) return "no bound is known of parallax: K x K everywhere";
+        return "a displaced surface has no bound: K x K everywhere";
+    if (runs(plan, WR_EFFECT_PARALLAX)) return "parallax has no bound: K x K everywhere";
     if (how != WR_INVERT_PLANE && how != WR_INVERT_CUBE && how != WR_INVERT_SPHERE)
-        return "no bound is known on this surface: K x K everywhere";
-    if (runs(plan, WR_EFFECT_COLOUR))
-        return "no bound is known for a colour picture: K x K everywhere";
-    if (runs(plan, WR_EFFECT_GRAIN))
-        return "no bound is known for a solid texture: K x K everywhere";
-    if (runs(plan, WR_EFFECT_NORMALS))
-        return "no bound is known for a normal map: K x K everywhere";
+        return "this surface has no bound: K x K everywhere";
+    if (runs(plan, WR_EFFECT_COLOUR)) return "a colour picture has no bound: K x K everywhere";
+    if (runs(plan, WR_EFFECT_GRAIN)) return "a solid texture has no bound: K x K everywhere";
+    if (runs(plan, WR_EFFECT_NORMALS)) return "a normal map has no bound: K x K everywhere";
     if (plan->bump == WR_BUMP_NONE) return NULL;
-    if (plan->bump != WR_BUMP_BLINN)
-        return "no bound is known for this normal formula: K x K everywhere";
+    if (plan->bump != WR_BUMP_BLINN) return "this normal formula has no bound: K x K everywhere";
     if (!runs(plan, WR_EFFECT_GRADIENT))
         return "a bound needs slopes from a table, central or nearest: K x K everywhere";
     return NULL;
@@ -210,14 +203,14 @@ static const char *no_bound(const WrPlan *plan, const WrPlanRequest *ask)
 WrVerdict wr_decide_bound(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (ask->dials->aa != WR_AA_ADAPTIVE || plan->refine != WR_REFINE_BOUND)
-        return say(WR_VERDICT_NONE, why, "the dials do not ask for a bound");
+        return say(WR_VERDICT_NONE, why, "the dials are not set to a bound");
     const char *reason = no_bound(plan, ask);
     if (reason) return say(WR_VERDICT_NONE, why, reason);
     if (ask->facts.among > 1)
-        return say(WR_VERDICT_NONE, why, "no bound is known of several objects: K x K everywhere");
+        return say(WR_VERDICT_NONE, why, "several objects have no bound: K x K everywhere");
     if (ask->facts.lively)
         return say(WR_VERDICT_NONE, why,
-                   "bounds would spare too little of this view: K x K everywhere");
+                   "bounds would save too little of this view: K x K everywhere");
     return say(WR_VERDICT_RUN, why,
                "K x K only where the intensity may change by more than `contrast`");
 }
@@ -233,7 +226,7 @@ WrVerdict wr_decide_displaced(const WrPlan *plan, const WrPlanRequest *ask, cons
 {
     const WrScene *scene = ask->scene;
     (void)plan;
-    if (!scene->displaced) return say(WR_VERDICT_NONE, why, "the table turns the normal alone");
+    if (!scene->displaced) return say(WR_VERDICT_NONE, why, "the table only tilts the normal");
     const char *reason = wr_shape_unmoved(&scene->shape);
     if (reason) return say(WR_VERDICT_NONE, why, reason);
     if (scene->height == 0) return say(WR_VERDICT_SPARED, why, "height is 0: F is 0");
@@ -243,8 +236,9 @@ WrVerdict wr_decide_displaced(const WrPlan *plan, const WrPlanRequest *ask, cons
        blocked, or none. */
     const bool met = wr_shadow_rays_needed(scene) && ask->dials->rays > 0;
     if (ask->facts.rise >= 0 && ask->facts.rise < SEEN && !met)
-        return say(WR_VERDICT_SPARED, why, "F moves no point by half a pixel: bump looks the same");
-    return say(WR_VERDICT_RUN, why, "F moves the surface: facets of P + F n are seen");
+        return say(WR_VERDICT_SPARED, why,
+                   "F moves no point by half a pixel: bump mapping looks the same");
+    return say(WR_VERDICT_RUN, why, "F moves the surface: facets of P + F n are drawn");
 }
 
 void wr_settle_displaced(WrPlan *plan, const WrPlanRequest *ask)
@@ -256,17 +250,18 @@ void wr_settle_displaced(WrPlan *plan, const WrPlanRequest *ask)
 WrVerdict wr_decide_parallax(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const WrScene *scene = ask->scene;
-    if (!scene->parallax) return say(WR_VERDICT_NONE, why, "rays end at the base");
+    if (!scene->parallax) return say(WR_VERDICT_NONE, why, "rays end at the base surface");
     if (runs(plan, WR_EFFECT_DISPLACED))
-        return say(WR_VERDICT_NONE, why, "the surface itself is displaced: rays meet its facets");
+        return say(WR_VERDICT_NONE, why, "the surface itself is displaced: rays hit its facets");
     const char *reason = wr_shape_without_parallax(&scene->shape);
     if (reason) return say(WR_VERDICT_NONE, why, reason);
     if (scene->height == 0) return say(WR_VERDICT_SPARED, why, "height is 0: F is 0");
     if (scene->analytic.kind == WR_ANALYTIC_OFF && ask->facts.zero)
         return say(WR_VERDICT_SPARED, why, "the table is 0 everywhere");
     if (ask->facts.rise >= 0 && ask->facts.rise < SEEN)
-        return say(WR_VERDICT_SPARED, why, "F moves no point by half a pixel: bump looks the same");
-    return say(WR_VERDICT_RUN, why, "rays go on from the base to the relief");
+        return say(WR_VERDICT_SPARED, why,
+                   "F moves no point by half a pixel: bump mapping looks the same");
+    return say(WR_VERDICT_RUN, why, "rays continue from the base surface to the relief");
 }
 
 void wr_settle_parallax(WrPlan *plan, const WrPlanRequest *ask)
@@ -317,9 +312,9 @@ WrVerdict wr_decide_curvature(const WrPlan *plan, const WrPlanRequest *ask, cons
     if (surface_of(ask)->held)
         return say(WR_VERDICT_NONE, why,
                    is_cut(ask) ? "only the exact normal needs them"
-                               : "triangles are flat: there are none");
+                               : "triangles are flat: they are zero");
     if (runs(plan, WR_EFFECT_EXACT))
-        return say(WR_VERDICT_RUN, why, "the exact normal needs how n turns");
+        return say(WR_VERDICT_RUN, why, "the exact normal needs the change of n");
     return say(WR_VERDICT_SPARED, why, "only the exact normal needs them");
 }
 
@@ -414,15 +409,15 @@ WR_ROWS_END(wr_cost_names, WR_COST_COUNT);
 
 WR_ROWS(wr_cost_reasons);
 const char *const wr_cost_reasons[WR_COST_COUNT] = {
-    [WR_ROW(WR_COST_PREPARE)] = "copies of the table, pyramids, the view, the mesh",
-    [WR_ROW(WR_COST_VISIBILITY)] = "which samples the object covers",
+    [WR_ROW(WR_COST_PREPARE)] = "tables, pyramids, the view, the mesh",
+    [WR_ROW(WR_COST_VISIBILITY)] = "samples that the object covers",
     [WR_ROW(WR_COST_GEOMETRY)] = "points, tangents and normals of the surface",
     [WR_ROW(WR_COST_LIGHT)] = "diffuse light and highlight of the one light, in one pass",
-    [WR_ROW(WR_COST_STORE)] = "colours are put together and stored",
-    [WR_ROW(WR_COST_CLEAR)] = "tiles are emptied; those that hold nothing are left out",
-    [WR_ROW(WR_COST_REST)] = "overhead between the stages: loops, the clock",
-    [WR_ROW(WR_COST_WAIT)] = "threads that found no tile to do",
-    [WR_ROW(WR_COST_CHOOSE)] = "estimates of the tolerance, blocks compared and put together",
+    [WR_ROW(WR_COST_STORE)] = "colours are combined and stored",
+    [WR_ROW(WR_COST_CLEAR)] = "tiles are cleared; empty ones are skipped",
+    [WR_ROW(WR_COST_REST)] = "overhead between the stages: loops, timing",
+    [WR_ROW(WR_COST_WAIT)] = "threads without work",
+    [WR_ROW(WR_COST_CHOOSE)] = "error estimates of the tolerance, comparing and combining blocks",
 };
 WR_ROWS_END(wr_cost_reasons, WR_COST_COUNT);
 

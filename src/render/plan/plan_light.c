@@ -13,11 +13,11 @@ WrVerdict wr_decide_kept(const WrPlan *plan, const WrPlanRequest *ask, const cha
     const WrMaterial *m = &ask->scene->material;
     if (!wr_reflect_shares(&wr_reflects[m->model], m->energy == WR_ENERGY_KEPT))
         return say(WR_VERDICT_NONE, why,
-                   "the material's diffuse light does not go by its highlight");
-    if (!runs(plan, WR_EFFECT_MODEL)) return say(WR_VERDICT_NONE, why, "no light is worked out");
+                   "the material's diffuse light does not depend on its highlight");
+    if (!runs(plan, WR_EFFECT_MODEL)) return say(WR_VERDICT_NONE, why, "no light is computed");
     if (!runs(plan, WR_EFFECT_DIFFUSE))
-        return say(WR_VERDICT_SPARED, why, "there is no diffuse light beside the highlight");
-    return say(WR_VERDICT_RUN, why, "diffuse light is the incoming light without the highlight's");
+        return say(WR_VERDICT_SPARED, why, "there is no diffuse light besides the highlight");
+    return say(WR_VERDICT_RUN, why, "diffuse light is the incoming light minus the highlight's");
 }
 
 void wr_settle_kept(WrPlan *plan, const WrPlanRequest *ask)
@@ -34,14 +34,14 @@ WrVerdict wr_decide_widened(const WrPlan *plan, const WrPlanRequest *ask, const 
     (void)ask;
     if (!runs(plan, WR_EFFECT_SPREAD)) return say(WR_VERDICT_NONE, why, "no highlight is widened");
     return say(WR_VERDICT_SPARED, why,
-               "runs of samples over which no slopes spread have their highlights as they are");
+               "runs of samples without a spread of slopes keep their highlights");
 }
 
 /* Reason why no microfacet model runs, or NULL. */
 static const char *no_facets(const WrPlan *plan)
 {
     if (!runs(plan, WR_EFFECT_MODEL) || !wr_reflects[plan->model].facets)
-        return "highlights are not of facets";
+        return "the highlight is not from microfacets";
     return NULL;
 }
 
@@ -53,21 +53,20 @@ WrVerdict wr_decide_faced(const WrPlan *plan, const WrPlanRequest *ask, const ch
     if (runs(plan, WR_EFFECT_VARIED))
         return say(WR_VERDICT_RUN, why, "not decided where roughness varies over the surface");
     return say(WR_VERDICT_SPARED, why,
-               "runs of samples whose normals all face the viewer have none to bend");
+               "runs of samples whose normals all face the viewer need no bending");
 }
 
 WrVerdict wr_decide_faint(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const char *reason = no_facets(plan);
     if (reason) return say(WR_VERDICT_NONE, why, reason);
-    if (ask->dials->faint == 0)
-        return say(WR_VERDICT_NONE, why, "the dial keeps highlights however faint they are");
+    if (ask->dials->faint == 0) return say(WR_VERDICT_NONE, why, "the dial keeps faint highlights");
     if (!runs(plan, WR_EFFECT_SPECULAR))
-        return say(WR_VERDICT_NONE, why, "no highlight is worked out");
+        return say(WR_VERDICT_NONE, why, "no highlight is computed");
     if (runs(plan, WR_EFFECT_VARIED))
-        return say(WR_VERDICT_NONE, why, "where roughness goes by place they are not bounded");
+        return say(WR_VERDICT_NONE, why, "with roughness by place they have no bound");
     return say(WR_VERDICT_SPARED, why,
-               "highlights below `faint` are none; runs that have no other are not worked out");
+               "highlights below `faint` are dropped; runs without others are skipped");
 }
 
 void wr_settle_faint(WrPlan *plan, const WrPlanRequest *ask)
@@ -93,8 +92,8 @@ WrVerdict wr_decide_surround(const WrPlan *plan, const WrPlanRequest *ask, const
     const WrMaterial *m = &ask->scene->material;
     (void)plan;
     if (!ask->scene->environment.light)
-        return say(WR_VERDICT_NONE, why, "the scene has no surroundings");
-    if (!shine(ask->scene)) return say(WR_VERDICT_SPARED, why, "no light comes from them");
+        return say(WR_VERDICT_NONE, why, "the scene has no environment");
+    if (!shine(ask->scene)) return say(WR_VERDICT_SPARED, why, "the environment is black");
     if (m->diffuse == 0) return say(WR_VERDICT_SPARED, why, "diffuse is 0");
     if (all_metal(ask->scene))
         return say(WR_VERDICT_SPARED, why, "a metal has no diffuse reflection");
@@ -108,16 +107,16 @@ WrVerdict wr_decide_surround(const WrPlan *plan, const WrPlanRequest *ask, const
 WrVerdict wr_decide_harmonics(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (!runs(plan, WR_EFFECT_SURROUND))
-        return say(WR_VERDICT_NONE, why, "there is no diffuse light of surroundings");
+        return say(WR_VERDICT_NONE, why, "the environment gives no diffuse light");
     if (ask->scene->environment.light->even)
         return say(WR_VERDICT_SPARED, why,
-                   "the surroundings are of one colour: one coefficient is all of them");
+                   "the environment has one colour: one coefficient is enough");
     if (ask->dials->harmonics == 0)
         return say(WR_VERDICT_NONE, why, "harmonics=0: only their mean is used");
     return say(WR_VERDICT_RUN, why,
                ask->dials->harmonics == 1
-                   ? "diffuse light of them turns with the normal: by 4 coefficients"
-                   : "diffuse light of them turns with the normal: by 9 coefficients");
+                   ? "its diffuse light depends on the normal: 4 coefficients"
+                   : "its diffuse light depends on the normal: 9 coefficients");
 }
 
 void wr_settle_harmonics(WrPlan *plan, const WrPlanRequest *ask)
@@ -135,13 +134,14 @@ WrVerdict wr_decide_mirror(const WrPlan *plan, const WrPlanRequest *ask, const c
     const WrMaterial *m = &ask->scene->material;
     (void)plan;
     if (!ask->scene->environment.light)
-        return say(WR_VERDICT_NONE, why, "the scene has no surroundings");
+        return say(WR_VERDICT_NONE, why, "the scene has no environment");
     if (!wr_reflects[m->model].shines)
         return say(WR_VERDICT_NONE, why, "the reflection model has no highlight");
-    if (!shine(ask->scene)) return say(WR_VERDICT_SPARED, why, "no light comes from them");
+    if (!shine(ask->scene)) return say(WR_VERDICT_SPARED, why, "the environment is black");
     if (m->specular == 0) return say(WR_VERDICT_SPARED, why, "specular is 0");
-    if (lacks_highlight(m)) return say(WR_VERDICT_SPARED, why, "facets of index 1 reflect nothing");
-    return say(WR_VERDICT_RUN, why, "they are seen about the mirrored direction");
+    if (lacks_highlight(m))
+        return say(WR_VERDICT_SPARED, why, "facets with index of refraction 1 reflect nothing");
+    return say(WR_VERDICT_RUN, why, "the environment is reflected");
 }
 
 /* A lobe of WR_ALPHA_MIN is as wide as a texel of an environment of 6000 columns: bilinear fetches blur as much. */
@@ -149,14 +149,15 @@ WrVerdict wr_decide_blur(const WrPlan *plan, const WrPlanRequest *ask, const cha
 {
     WrEnvironmentBrdf gloss;
     if (!runs(plan, WR_EFFECT_MIRROR))
-        return say(WR_VERDICT_NONE, why, "no surroundings are seen in the surface");
+        return say(WR_VERDICT_NONE, why, "no environment is reflected");
     if (ask->scene->environment.light->even)
-        return say(WR_VERDICT_SPARED, why, "surroundings of one colour are the same when blurred");
+        return say(WR_VERDICT_SPARED, why,
+                   "an environment of one colour does not change when blurred");
     wr_scene_gloss(&ask->scene->material, &gloss);
     const bool widened = roughens(ask->scene) || ask->dials->aa == WR_AA_MOMENTS;
     if (gloss.alpha <= WR_ALPHA_MIN && !widened)
         return say(WR_VERDICT_SPARED, why,
-                   "so smooth a surface mirrors: its lobe is a thousandth wide");
+                   "the surface is a mirror: its lobe is narrower than a thousandth");
     if (widened)
         return say(WR_VERDICT_RUN, why,
                    "reflections are blurred by the width of each sample's lobe");
@@ -199,7 +200,7 @@ WrVerdict wr_decide_diffuse(const WrPlan *plan, const WrPlanRequest *ask, const 
         return say(WR_VERDICT_SPARED, why, "a metal has no diffuse reflection");
     if (m->colour.x == 0 && m->colour.y == 0 && m->colour.z == 0)
         return say(WR_VERDICT_SPARED, why, "the material's colour is black");
-    return say(WR_VERDICT_RUN, why, "a light shines and diffuse is not 0");
+    return say(WR_VERDICT_RUN, why, "a light is on and diffuse is not 0");
 }
 
 WrVerdict wr_decide_specular(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
@@ -209,9 +210,10 @@ WrVerdict wr_decide_specular(const WrPlan *plan, const WrPlanRequest *ask, const
     const WrMaterial *m = &ask->scene->material;
     if (!wr_reflects[m->model].shines)
         return say(WR_VERDICT_SPARED, why, "the reflection model has no highlight");
-    if (lacks_highlight(m)) return say(WR_VERDICT_SPARED, why, "facets of index 1 reflect nothing");
+    if (lacks_highlight(m))
+        return say(WR_VERDICT_SPARED, why, "facets with index of refraction 1 reflect nothing");
     if (m->specular == 0) return say(WR_VERDICT_SPARED, why, "specular is 0");
-    return say(WR_VERDICT_RUN, why, "a light shines and specular is not 0");
+    return say(WR_VERDICT_RUN, why, "a light is on and specular is not 0");
 }
 
 /* Reason why another model equals Blinn-Phong's stages, or NULL.
@@ -223,8 +225,9 @@ static const char *same_model(const WrPlan *plan, const WrScene *scene)
     const bool shines = wr_reflects[m->model].shines && runs(plan, WR_EFFECT_SPECULAR);
     const WrReflectDiffuse diffuse = wr_reflects[m->model].diffuse;
     if (diffuse == WR_DIFFUSE_ROUGH && m->roughness == 0 && !roughens(scene) && !shines)
-        return "facets of roughness 0 are matt as a whole: Lambert's";
-    if (diffuse == WR_DIFFUSE_LAMBERT && !shines) return "without a highlight it is Lambert's";
+        return "roughness 0 is Lambert's model";
+    if (diffuse == WR_DIFFUSE_LAMBERT && !shines)
+        return "without a highlight it is Lambert's model";
     return NULL;
 }
 
@@ -232,9 +235,9 @@ WrVerdict wr_decide_model(const WrPlan *plan, const WrPlanRequest *ask, const ch
 {
     const WrMaterial *m = &ask->scene->material;
     if (m->model == WR_REFLECT_DEFAULT && m->tint == 0)
-        return say(WR_VERDICT_NONE, why, "the material is Blinn-Phong's, its highlight white");
+        return say(WR_VERDICT_NONE, why, "the model is Blinn-Phong with a white highlight");
     if (!runs(plan, WR_EFFECT_SPECULAR) && !runs(plan, WR_EFFECT_DIFFUSE))
-        return say(WR_VERDICT_NONE, why, "no light is worked out");
+        return say(WR_VERDICT_NONE, why, "no light is computed");
     const char *reason = same_model(plan, ask->scene);
     if (reason) return say(WR_VERDICT_SPARED, why, reason);
     return say(WR_VERDICT_RUN, why,
@@ -262,14 +265,14 @@ WrVerdict wr_decide_facets(const WrPlan *plan, const WrPlanRequest *ask, const c
     const WrScene *scene = ask->scene;
     const bool rough = scene->facets[WR_FACET_ROUGHNESS].image;
     if (!rough && !scene->facets[WR_FACET_METALNESS].image)
-        return say(WR_VERDICT_NONE, why, "the object has no picture of roughness or metalness");
+        return say(WR_VERDICT_NONE, why, "the object has no roughness or metalness map");
     if (!(rough && roughens(scene)) && !metal_varies(scene))
-        return say(WR_VERDICT_NONE, why, "the reflection model does not go by them");
+        return say(WR_VERDICT_NONE, why, "the reflection model does not use them");
     if (!goes_by_facets(plan))
-        return say(WR_VERDICT_NONE, why, "no light is worked out that goes by them");
+        return say(WR_VERDICT_NONE, why, "no light that uses them is computed");
     return say(WR_VERDICT_RUN, why,
-               wants_filter(ask->dials) ? "light goes by them: by their means over footprints"
-                                        : "light goes by them");
+               wants_filter(ask->dials) ? "light uses their means over footprints"
+                                        : "light uses them");
 }
 
 void wr_settle_facets(WrPlan *plan, const WrPlanRequest *ask)
@@ -287,9 +290,9 @@ WrVerdict wr_decide_varied(const WrPlan *plan, const WrPlanRequest *ask, const c
     if (runs(plan, WR_EFFECT_FACETS)) return say(WR_VERDICT_RUN, why, "pictures tell it");
     if (!driven) return say(WR_VERDICT_NONE, why, "roughness is the same everywhere");
     if (!grain_roughens(ask->scene))
-        return say(WR_VERDICT_NONE, why, "the reflection model goes by no roughness");
+        return say(WR_VERDICT_NONE, why, "the reflection model has no roughness");
     if (!goes_by_facets(plan))
-        return say(WR_VERDICT_NONE, why, "no light is worked out that goes by roughness");
+        return say(WR_VERDICT_NONE, why, "no light that uses roughness is computed");
     return say(WR_VERDICT_RUN, why, "the solid texture drives roughness");
 }
 
@@ -302,13 +305,12 @@ static const char *no_horizon(const WrPlan *plan, const WrPlanRequest *ask)
     int columns, rows;
     wr_surface_cells(&ask->scene->shape, &columns, &rows);
     if (plan->source == WR_SOURCE_FORMULA)
-        return "the relief is a formula: only tables have shadows";
-    if (surface_of(ask)->held) return "on meshes and patches the relief has no shadows yet";
-    if (columns * rows != 1)
-        return "where each face has its own part of the table it has no shadows yet";
-    if (ask->facts.ends) return "the table ends at its edges: shadows are of tables that repeat";
+        return "the relief is a formula: only tables cast relief shadows";
+    if (surface_of(ask)->held) return "on meshes and patches the relief casts no shadows";
+    if (columns * rows != 1) return "relief shadows need one table for all faces";
+    if (ask->facts.ends) return "the table ends at its edges: relief shadows need a periodic table";
     if (sizes.x != 0 || sizes.y != 0 || sizes.z != 0)
-        return "the object is stretched along an axis: its relief has no shadows yet";
+        return "the object is stretched along an axis: its relief casts no shadows";
     return NULL;
 }
 
@@ -329,30 +331,28 @@ WrVerdict wr_decide_shadow(const WrPlan *plan, const WrPlanRequest *ask, const c
     const char *reason = no_horizon(plan, ask);
     if (reason) return say(WR_VERDICT_NONE, why, reason);
     if (!runs(plan, WR_EFFECT_DIFFUSE) && !runs(plan, WR_EFFECT_SPECULAR))
-        return say(WR_VERDICT_NONE, why, "no light is worked out");
+        return say(WR_VERDICT_NONE, why, "no light is computed");
     if (!runs(plan, WR_EFFECT_BUMP) || plan->source != WR_SOURCE_TABLE)
-        return say(WR_VERDICT_NONE, why, "there is no relief to throw any");
+        return say(WR_VERDICT_NONE, why, "there is no relief");
     if (rays_tell(plan, ask))
-        return say(WR_VERDICT_NONE, why, "rays to the lamps meet the displaced surface itself");
+        return say(WR_VERDICT_NONE, why, "rays to the lamps hit the displaced surface itself");
     return say(WR_VERDICT_RUN, why, "lamps below the relief's horizon are hidden");
 }
 
 WrVerdict wr_decide_cast(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (!wr_shadow_rays_needed(ask->scene))
-        return say(WR_VERDICT_NONE, why, "no light has them on");
-    if (ask->dials->rays == 0)
-        return say(WR_VERDICT_NONE, why, "the dial lets no ray go to a lamp");
+        return say(WR_VERDICT_NONE, why, "no light casts object shadows");
+    if (ask->dials->rays == 0) return say(WR_VERDICT_NONE, why, "the dial rays is 0");
     if (!runs(plan, WR_EFFECT_DIFFUSE) && !runs(plan, WR_EFFECT_SPECULAR))
-        return say(WR_VERDICT_NONE, why, "no light is worked out");
+        return say(WR_VERDICT_NONE, why, "no light is computed");
     if (ask->facts.hiders > 0)
-        return say(WR_VERDICT_RUN, why, "an object can stand between this one and a lamp");
+        return say(WR_VERDICT_RUN, why, "an object may be between this one and a lamp");
     /* Convex: a point that faces the lamp sees it, and one that does not is dark by n.l already. */
-    return say(
-        WR_VERDICT_SPARED, why,
-        ask->facts.among > 1
-            ? "no object's ball stands between this one's and a lamp, and it hides none itself"
-            : "a convex or flat object alone hides no lamp from itself");
+    return say(WR_VERDICT_SPARED, why,
+               ask->facts.among > 1 ? "no bounding sphere of another object is between this object "
+                                      "and a lamp, and it shadows no other"
+                                    : "a single convex or flat object cannot shadow itself");
 }
 
 void wr_settle_cast(WrPlan *plan, const WrPlanRequest *ask)
@@ -373,10 +373,10 @@ WrVerdict wr_decide_occlusion(const WrPlan *plan, const WrPlanRequest *ask, cons
     const char *reason = no_horizon(plan, ask);
     if (reason) return say(WR_VERDICT_NONE, why, reason);
     if (ask->scene->height == 0 || still(ask->scene) || ask->facts.flat || ask->facts.zero)
-        return say(WR_VERDICT_NONE, why, "there is no relief to hide any sky");
+        return say(WR_VERDICT_NONE, why, "there is no relief");
     if (!has_sky(plan, &ask->scene->material))
-        return say(WR_VERDICT_SPARED, why, "there is neither ambient light nor surroundings");
-    return say(WR_VERDICT_RUN, why, "hollows of the relief see less of the sky");
+        return say(WR_VERDICT_SPARED, why, "there is neither ambient light nor an environment");
+    return say(WR_VERDICT_RUN, why, "hollows of the relief get less light from the sky");
 }
 
 /* Rounded down to a multiple of WR_HORIZON_MIN directions. */

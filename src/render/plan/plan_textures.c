@@ -46,15 +46,15 @@ WrVerdict wr_decide_tint(const WrPlan *plan, const WrPlanRequest *ask, const cha
        same way (E67). */
     const bool endless = wr_shape_endless(&ask->scene->shape) && !ask->scene->camera.orthographic;
     if (!wants_filter(ask->dials) && !endless)
-        return say(WR_VERDICT_NONE, why, "the dials ask for no filtering");
+        return say(WR_VERDICT_NONE, why, "the dials are not set to filtering");
     if (!runs(plan, WR_EFFECT_COLOUR))
-        return say(WR_VERDICT_NONE, why, "no colour picture is looked up");
+        return say(WR_VERDICT_NONE, why, "the colour picture is not used");
     if (ru == 0 && rv == 0)
-        return say(WR_VERDICT_SPARED, why, "it is laid 0 times: one place of it is seen");
+        return say(WR_VERDICT_SPARED, why, "it repeats 0 times: one point of it is visible");
     if (colour_even(ask->scene->colour))
-        return say(WR_VERDICT_SPARED, why, "the colour picture is of one colour");
+        return say(WR_VERDICT_SPARED, why, "the colour picture has one colour");
     return say(WR_VERDICT_RUN, why,
-               "footprints over a texel look up means of it; smaller ones itself");
+               "footprints above a texel use its means; smaller ones the picture itself");
 }
 
 void wr_settle_tint(WrPlan *plan, const WrPlanRequest *ask)
@@ -88,8 +88,8 @@ WrVerdict wr_decide_grain(const WrPlan *plan, const WrPlanRequest *ask, const ch
         return say(WR_VERDICT_NONE, why, "the solid texture drives no colour");
     if (all_white(grain)) return say(WR_VERDICT_SPARED, why, "both its colours are white");
     if (one_colour(grain))
-        return say(WR_VERDICT_RUN, why, "both its colours are one: no pattern is worked out");
-    return say(WR_VERDICT_RUN, why, "the object is cut out of it");
+        return say(WR_VERDICT_RUN, why, "both its colours are equal: no pattern is computed");
+    return say(WR_VERDICT_RUN, why, "the object looks carved from it");
 }
 
 /* Reason why the solid texture does not bend the normal, or NULL if it does. */
@@ -110,7 +110,7 @@ WrVerdict wr_decide_embossed(const WrPlan *plan, const WrPlanRequest *ask, const
         return say(WR_VERDICT_NONE, why, "the solid texture drives no bump");
     const char *reason = no_embossing(plan, ask);
     if (reason) return say(WR_VERDICT_SPARED, why, reason);
-    return say(WR_VERDICT_RUN, why, "the solid texture has heights and a light shows them");
+    return say(WR_VERDICT_RUN, why, "the solid texture has heights, and a light depends on them");
 }
 
 /* True if its pattern is used. */
@@ -127,24 +127,26 @@ void wr_settle_grain(WrPlan *plan, const WrPlanRequest *ask)
 WrVerdict wr_decide_octaves(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (plan->grain == WR_SOLID_TEXTURE_OFF)
-        return say(WR_VERDICT_NONE, why, "no solid pattern is worked out");
+        return say(WR_VERDICT_NONE, why, "no solid pattern is computed");
     if (!wr_grains[plan->grain].noisy)
         return say(WR_VERDICT_NONE, why, "the solid texture has no noise");
     if (ask->scene->grain.amount == 0)
-        return say(WR_VERDICT_SPARED, why, "the solid texture's noise has the amount 0");
-    return say(WR_VERDICT_RUN, why, "noise moves the solid texture");
+        return say(WR_VERDICT_SPARED, why, "the amount of the solid texture's noise is 0");
+    return say(WR_VERDICT_RUN, why, "noise distorts the solid texture");
 }
 
 WrVerdict wr_decide_faded(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const bool endless = wr_shape_endless(&ask->scene->shape) && !ask->scene->camera.orthographic;
     if (plan->grain == WR_SOLID_TEXTURE_OFF)
-        return say(WR_VERDICT_NONE, why, "no solid pattern is worked out");
+        return say(WR_VERDICT_NONE, why, "no solid pattern is computed");
     if (!wants_filter(ask->dials) && !endless)
-        return say(WR_VERDICT_NONE, why, "the dials ask for no filtering");
-    return say(WR_VERDICT_RUN, why,
-               endless ? "towards the horizon pixels hold any number of its rings"
-                       : "octaves finer than pixels are their mean, and edges as wide as pixels");
+        return say(WR_VERDICT_NONE, why, "the dials are not set to filtering");
+    return say(
+        WR_VERDICT_RUN, why,
+        endless
+            ? "towards the horizon a pixel covers many of its rings"
+            : "octaves finer than a pixel are replaced by their mean, and edges are a pixel wide");
 }
 
 /* ---- a normal map ---- */
@@ -174,34 +176,32 @@ WrVerdict wr_decide_normals(const WrPlan *plan, const WrPlanRequest *ask, const 
     if (scene->bump == WR_BUMP_NONE) return say(WR_VERDICT_NONE, why, "bump mode is none");
     if (!lit(plan, ask)) return say(WR_VERDICT_SPARED, why, "no light depends on the normal");
     if (map->strength == 0) return say(WR_VERDICT_SPARED, why, "its strength is 0");
-    if (map->object)
-        return say(WR_VERDICT_RUN, why,
-                   "its normals of the object's axes are those that light shows");
-    if (map_still(scene)) return say(WR_VERDICT_SPARED, why, "it is laid 0 times: it has no slope");
-    if (map_even(map->image))
-        return say(WR_VERDICT_SPARED, why, "the normal map is straight up everywhere");
+    if (map->object) return say(WR_VERDICT_RUN, why, "its object-space normals replace the others");
+    if (map_still(scene)) return say(WR_VERDICT_SPARED, why, "it repeats 0 times: it has no slope");
+    if (map_even(map->image)) return say(WR_VERDICT_SPARED, why, "the normal map is flat");
     switch (wr_scene_frame(scene)) {
     case WR_FRAME_MIKK:
-        return say(WR_VERDICT_RUN, why, "a light shows its normals, in MikkTSpace's frames");
+        return say(WR_VERDICT_RUN, why, "a light depends on its normals, in frames of MikkTSpace");
     case WR_FRAME_LECTURE:
-        return say(WR_VERDICT_RUN, why, "a light shows its normals, in frames along Pu and Pv");
+        return say(WR_VERDICT_RUN, why,
+                   "a light depends on its normals, in frames along Pu and Pv");
     default:
         return say(WR_VERDICT_RUN, why,
                    map->combine == WR_COMBINE_SLOPES
-                       ? "its slopes are added to the table's and a light shows them"
-                       : "a light shows its slopes");
+                       ? "its slopes are added to the table's, and a light depends on them"
+                       : "a light depends on its slopes");
     }
 }
 
 WrVerdict wr_decide_reoriented(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (!runs(plan, WR_EFFECT_NORMALS))
-        return say(WR_VERDICT_NONE, why, "no normal map is looked up");
+        return say(WR_VERDICT_NONE, why, "the normal map is not used");
     if (ask->scene->normals.combine == WR_COMBINE_SLOPES)
         return say(WR_VERDICT_NONE, why, "the table's slopes and the normal map's are added");
     if (!runs(plan, WR_EFFECT_BUMP))
-        return say(WR_VERDICT_SPARED, why, "the normal map has no relief over it");
-    return say(WR_VERDICT_RUN, why, "the relief turns with the normals of the map under it");
+        return say(WR_VERDICT_SPARED, why, "the normal map has no relief on it");
+    return say(WR_VERDICT_RUN, why, "the relief's normals are rotated with those of the map");
 }
 
 void wr_settle_reoriented(WrPlan *plan, const WrPlanRequest *ask)
@@ -222,11 +222,11 @@ void wr_settle_normals(WrPlan *plan, const WrPlanRequest *ask)
 WrVerdict wr_decide_filter(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (!wants_filter(ask->dials))
-        return say(WR_VERDICT_NONE, why, "the dials ask for no filtering");
+        return say(WR_VERDICT_NONE, why, "the dials are not set to filtering");
     if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "the table is not used");
     if (still(ask->scene)) return say(WR_VERDICT_SPARED, why, "replication is 0,0: F is constant");
     return say(WR_VERDICT_RUN, why,
-               "footprints over a texel look up a pyramid; smaller ones level 0");
+               "footprints above a texel use a pyramid; smaller ones its level 0");
 }
 
 void wr_settle_filter(WrPlan *plan, const WrPlanRequest *ask)

@@ -23,11 +23,13 @@ static bool is_held(const WrPlanRequest *ask)
 WrVerdict wr_decide_back(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (runs(plan, WR_EFFECT_DISPLACED))
-        return say(WR_VERDICT_RUN, why, "a displaced surface may fold: its back can be seen");
+        return say(WR_VERDICT_RUN, why,
+                   "a displaced surface may overlap itself: its back may be visible");
     if (!is_closed(ask))
-        return say(WR_VERDICT_RUN, why, "the surface is open: its back can be seen");
+        return say(WR_VERDICT_RUN, why, "the surface is open: its back may be visible");
     if (!ask->facts.outside)
-        return say(WR_VERDICT_RUN, why, "the eye may be inside the body: its inner walls are seen");
+        return say(WR_VERDICT_RUN, why,
+                   "the eye may be inside the body: its inner walls may be visible");
     return say(WR_VERDICT_SPARED, why, "a closed body seen from outside hides its back faces");
 }
 
@@ -36,9 +38,9 @@ WrVerdict wr_decide_depth(const WrPlan *plan, const WrPlanRequest *ask, const ch
     if (runs(plan, WR_EFFECT_DISPLACED))
         return say(WR_VERDICT_RUN, why, "facets of the displaced surface hide others");
     if (surface_of(ask)->inversion != WR_INVERT_MESH && !is_held(ask))
-        return say(WR_VERDICT_NONE, why, "the nearest root of the ray is enough");
+        return say(WR_VERDICT_NONE, why, "the nearest intersection of the ray is enough");
     if (ask->facts.uv_cached || ask->facts.relight)
-        return say(WR_VERDICT_SPARED, why, "the view is still: its visible points are stored");
+        return say(WR_VERDICT_SPARED, why, "the view is at rest: its visible points are stored");
     return say(WR_VERDICT_RUN, why, "parts of the surface may hide others");
 }
 
@@ -53,11 +55,11 @@ WrVerdict wr_decide_newton(const WrPlan *plan, const WrPlanRequest *ask, const c
 {
     if (plan->inversion == WR_INVERT_TRIANGLES)
         return say(WR_VERDICT_NONE, why,
-                   "rays meet triangles in closed form, and patches near them in a few steps");
+                   "rays hit triangles in closed form, and patches near them in a few steps");
     if (plan->inversion != WR_INVERT_MESH)
-        return say(WR_VERDICT_NONE, why, "rays meet this surface in closed form");
+        return say(WR_VERDICT_NONE, why, "rays hit this surface in closed form");
     if (ask->facts.uv_cached || ask->facts.relight)
-        return say(WR_VERDICT_SPARED, why, "the view rests: u and v are known");
+        return say(WR_VERDICT_SPARED, why, "the view is at rest: u and v are stored");
     return say(WR_VERDICT_RUN, why, "this surface has no closed inverse");
 }
 
@@ -82,10 +84,12 @@ WrVerdict wr_decide_perspective(const WrPlan *plan, const WrPlanRequest *ask, co
 WrVerdict wr_decide_again(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (runs(plan, WR_EFFECT_DISPLACED))
-        return say(WR_VERDICT_RUN, why, "an edit moves the displaced surface: facets are new");
+        return say(WR_VERDICT_RUN, why,
+                   "an edit moves the displaced surface: facets are made again");
     if (!ask->facts.rests || runs(plan, WR_EFFECT_BOUND))
         return say(WR_VERDICT_RUN, why, "a new picture: every tile is rendered");
-    return say(WR_VERDICT_SPARED, why, "the view rests: only tiles that an edit reached are new");
+    return say(WR_VERDICT_SPARED, why,
+               "the view is at rest: only tiles that an edit reached are rendered");
 }
 
 WrVerdict wr_decide_relight(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
@@ -93,7 +97,7 @@ WrVerdict wr_decide_relight(const WrPlan *plan, const WrPlanRequest *ask, const 
     if (!plan->normals) return say(WR_VERDICT_NONE, why, "no light depends on the normal");
     const char *status = ask->facts.relight_status;
     if (ask->facts.relight) return say(WR_VERDICT_SPARED, why, status);
-    return say(WR_VERDICT_RUN, why, status ? status : "points and normals are new");
+    return say(WR_VERDICT_RUN, why, status ? status : "points and normals have changed");
 }
 
 /* ---- surface geometry ---- */
@@ -111,20 +115,20 @@ static bool is_round(const WrPlanRequest *ask)
 WrVerdict wr_decide_parameters(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (runs(plan, WR_EFFECT_DISPLACED))
-        return say(WR_VERDICT_RUN, why, "the displaced surface's frame goes by them");
+        return say(WR_VERDICT_RUN, why, "the displaced surface's frame needs them");
     if (runs(plan, WR_EFFECT_PARALLAX) && is_round(ask))
-        return say(WR_VERDICT_RUN, why, "rays go on from there to the relief");
+        return say(WR_VERDICT_RUN, why, "rays continue from there to the relief");
     if (!is_round(ask) && !is_held(ask))
-        return say(WR_VERDICT_NONE, why, "rays meet this surface at u and v");
+        return say(WR_VERDICT_NONE, why, "rays hit this surface at u and v");
     if (plan->source != WR_SOURCE_NONE || runs(plan, WR_EFFECT_COLOUR) ||
         runs(plan, WR_EFFECT_NORMALS) || runs(plan, WR_EFFECT_OCCLUSION) ||
         runs(plan, WR_EFFECT_FACETS))
-        return say(WR_VERDICT_RUN, why, "table, formula or a picture is looked up there");
+        return say(WR_VERDICT_RUN, why, "the table, a formula or a picture is evaluated there");
     if (plan->grain != WR_SOLID_TEXTURE_OFF && plan->sampling == WR_SAMPLING_ADAPTIVE)
-        return say(WR_VERDICT_RUN, why, "how fine the solid texture is in a pixel goes by them");
+        return say(WR_VERDICT_RUN, why, "the footprint in the solid texture needs them");
     if (runs(plan, WR_EFFECT_CURVATURE) || runs(plan, WR_EFFECT_BOUND))
-        return say(WR_VERDICT_RUN, why, "second derivatives or bounds go by them");
-    return say(WR_VERDICT_SPARED, why, "nothing is looked up at u and v");
+        return say(WR_VERDICT_RUN, why, "second derivatives or bounds need them");
+    return say(WR_VERDICT_SPARED, why, "nothing is evaluated at u and v");
 }
 
 WrVerdict wr_decide_tangents(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
@@ -134,13 +138,13 @@ WrVerdict wr_decide_tangents(const WrPlan *plan, const WrPlanRequest *ask, const
         return say(WR_VERDICT_NONE, why, "the surface's formula returns them with the point");
     if (!plan->normals) return say(WR_VERDICT_NONE, why, "no light depends on the normal");
     if (plan->bump != WR_BUMP_NONE || runs(plan, WR_EFFECT_FILTER))
-        return say(WR_VERDICT_RUN, why, "slopes turn the normal along them");
+        return say(WR_VERDICT_RUN, why, "slopes tilt the normal along them");
     if (runs(plan, WR_EFFECT_TINT))
-        return say(WR_VERDICT_RUN, why, "the colour picture's footprints go by them");
+        return say(WR_VERDICT_RUN, why, "the colour picture's footprints need them");
     if (plan->facets_filtered)
-        return say(WR_VERDICT_RUN, why, "footprints of pictures of roughness go by them");
-    if (runs(plan, WR_EFFECT_BOUND)) return say(WR_VERDICT_RUN, why, "bounds go by them");
-    return say(WR_VERDICT_SPARED, why, "no slope turns the normal");
+        return say(WR_VERDICT_RUN, why, "footprints of roughness maps need them");
+    if (runs(plan, WR_EFFECT_BOUND)) return say(WR_VERDICT_RUN, why, "bounds need them");
+    return say(WR_VERDICT_SPARED, why, "no slope tilts the normal");
 }
 
 /* ---- among several objects ---- */
@@ -148,16 +152,16 @@ WrVerdict wr_decide_tangents(const WrPlan *plan, const WrPlanRequest *ask, const
 WrVerdict wr_decide_hidden(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     (void)plan;
-    if (ask->facts.among <= 1) return say(WR_VERDICT_NONE, why, "one object is shown");
-    return say(WR_VERDICT_SPARED, why,
-               "objects are drawn from the front; where one fills a tile, objects behind it are "
-               "skipped");
+    if (ask->facts.among <= 1) return say(WR_VERDICT_NONE, why, "there is one visible object");
+    return say(
+        WR_VERDICT_SPARED, why,
+        "objects are drawn front to back; in tiles that one fills, objects behind it are skipped");
 }
 
 WrVerdict wr_decide_between(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     (void)plan;
-    if (ask->facts.among <= 1) return say(WR_VERDICT_NONE, why, "one object is shown");
+    if (ask->facts.among <= 1) return say(WR_VERDICT_NONE, why, "there is one visible object");
     return say(WR_VERDICT_RUN, why, "objects may hide others where their outlines meet");
 }
 
@@ -168,13 +172,14 @@ WrVerdict wr_decide_horizon(const WrPlan *plan, const WrPlanRequest *ask, const 
     if (!wr_shape_endless(&ask->scene->shape))
         return say(WR_VERDICT_NONE, why, "the surface ends within the pixel");
     if (ask->scene->camera.orthographic)
-        return say(WR_VERDICT_NONE, why, "parallel rays: every pixel holds as much of the plane");
-    return say(WR_VERDICT_RUN, why, "the plane goes on to the horizon, where it fades");
+        return say(WR_VERDICT_NONE, why,
+                   "parallel rays: every pixel covers the same area of the plane");
+    return say(WR_VERDICT_RUN, why, "the plane is endless, and fades at the horizon");
 }
 
 /* ---- mesh files ---- */
 
-static const char not_held[] = "the surface is no mesh out of a file";
+static const char not_held[] = "the surface is not a mesh from a file";
 
 WrVerdict wr_decide_smooth(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
@@ -182,17 +187,19 @@ WrVerdict wr_decide_smooth(const WrPlan *plan, const WrPlanRequest *ask, const c
     (void)plan;
     if (!is_held(ask)) return say(WR_VERDICT_NONE, why, not_held);
     if (!plan->normals) return say(WR_VERDICT_SPARED, why, "no light depends on the normal");
-    if (mesh && mesh->patches) return say(WR_VERDICT_RUN, why, "normals are those of the patches");
+    if (mesh && mesh->patches)
+        return say(WR_VERDICT_RUN, why, "normals are computed from the patches");
     if (!mesh || mesh->faceted)
-        return say(WR_VERDICT_SPARED, why, "the three normals of each triangle are the same");
-    return say(WR_VERDICT_RUN, why, "the normals of triangles' corners differ");
+        return say(WR_VERDICT_SPARED, why, "the three normals of each triangle are equal");
+    return say(WR_VERDICT_RUN, why, "the normals at the corners of triangles differ");
 }
 
 WrVerdict wr_decide_blocks(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (!is_held(ask)) return say(WR_VERDICT_NONE, why, not_held);
     if (runs(plan, WR_EFFECT_BACK))
-        return say(WR_VERDICT_RUN, why, "backs are drawn: blocks that look away may be seen");
+        return say(WR_VERDICT_RUN, why,
+                   "back faces are drawn: blocks that face away may be visible");
     return say(WR_VERDICT_SPARED, why,
-               "blocks whose normals all look away from the eye hold backs alone");
+               "blocks whose normals all face away from the eye have only back faces");
 }
