@@ -71,7 +71,13 @@ extern "C" void wr_gui_menu_end(void)
 extern "C" bool wr_gui_menu_item(const char *label, const char *keys, bool checked, bool enabled)
 try {
     char said[320];
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImVec2 end(at.x + ImGui::GetContentRegionAvail().x, at.y + ImGui::GetTextLineHeight());
+    /* The grey of key names is too dark on the colour of the entry under the pointer. */
+    const bool lit = enabled && ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(at, end);
+    if (lit) ImGui::PushStyleColor(ImGuiCol_TextDisabled, wr_gui_colour_u32(WR_COLOUR_TEXT));
     bool pressed = ImGui::MenuItem(wr_gui_labelled(label, said), keys, checked, enabled);
+    if (lit) ImGui::PopStyleColor();
     if (enabled) wr_gui_stop(WR_STOP_ITEM, false);
     return pressed;
 }
