@@ -197,21 +197,20 @@ static bool hc27(WrHardMeasurement *g, WrError *err)
 #define WAVES "table 64x64\nformula fourier terms=3,0,0.5;0,5,0.25,90,0\n"
 static const WrHardCase rows[] = {
     SIDE(24, "a perturbed normal that faces away from the eye",
-         "it is left as it is; diffuse and highlight stay within 0 and their strength",
-         "violations", 0, 0, NULL,
-         WAVES "surface plane\nrotate -80,0,0\nbump height=0.2\nmaterial specular=1"),
-    SIDE(25, "a wrinkle that faces a light behind the surface",
-         "it is lit by n'.l alone, as in the paper; where that is not above 0 there is ambient "
-         "alone",
-         "intensity", 1e-6, 1e-12, "a gate by the unbent normal, with the materials",
-         WAVES "surface sphere\nbump height=0.2\nlight directional to=1,0,-0.2"),
+         "it is not changed; diffuse and highlight stay between 0 and their strength", "violations",
+         0, 0, NULL, WAVES "surface plane\nrotate -80,0,0\nbump height=0.2\nmaterial specular=1"),
+    SIDE(
+        25, "a wrinkle that faces a light behind the surface",
+        "it is lit by n'.l only, as in the paper; where that is not above 0, by ambient light only",
+        "intensity", 1e-6, 1e-12, "a gate by the unbent normal, with the materials",
+        WAVES "surface sphere\nbump height=0.2\nlight directional to=1,0,-0.2"),
     SIDE(26, "n'.l within a last place of 0",
          "the gated highlight jumps by no more than ks (n'.h)^s, the plain sum not at all",
          "intensity", 1e-6, 1e-12, NULL,
          WAVES "surface sphere\nbump height=0.05\nmaterial specular=1 shininess=5\n"
                "light directional to=1,0,0"),
     SIDE(27, "a patch seen edge on, n.v down to 1e-6",
-         "no NaN, and as high as it is to a row of samples", "rows", 1, 1, NULL,
+         "no NaN, and its height in the picture is right to one row of samples", "rows", 1, 1, NULL,
          WAVES "surface plane\nrotate -89,0,0\nbump height=0.05"),
 };
 WR_HARD_LIST(side, rows);
@@ -459,7 +458,7 @@ static const WrHardCase rows_pyramid[] = {
     { .id = "HC57",
       .subject = WR_HARD_TABLE,
       .what = "the seam of cylinder, sphere and torus",
-      .holds = "n' is the same on both of its sides, to the bit, and F goes on beside it",
+      .holds = "n' is the same on both sides, to the bit, and F is continuous there",
       .unit = "violations",
       .bound = { 0, 0 },
       .measure = hc57,
@@ -468,7 +467,7 @@ static const WrHardCase rows_pyramid[] = {
     { .id = "HC58",
       .subject = WR_HARD_TABLE,
       .what = "the spline through the samples of tables from one texel up",
-      .holds = "it meets every sample, in float to the rounding of its coefficients",
+      .holds = "it passes through every sample, in float to the rounding of its coefficients",
       .unit = "height",
       .bound = { 2e-6, 1e-13 },
       .measure = hc58,
@@ -685,12 +684,12 @@ static const WrHardCase rows_maps[] = {
         "exact",
         0),
     MAP(138, "two channels with x^2 + y^2 above 1", "on the rim, finite, counted", 0),
-    MAP(139, "texels 0,0,0: vectors that look away",
+    MAP(139, "texels 0,0,0: vectors that point below the surface",
         "slopes keep their signs and stay finite; counted", 0),
     MAP(140, "green down, of f(u) + g(v)", "undecided, which is reported; of f(u + v) it is found",
         NAN),
     MAP(141, "a normal map that went through a colour conversion", "it is reported", NAN),
-    MAP(142, "slopes of a thousand, times a hundred, laid a billion times",
+    MAP(142, "slopes of a thousand, times a hundred, repeated a billion times",
         "means and moments are finite", 0),
 };
 WR_HARD_LIST(maps, rows_maps);
@@ -1082,8 +1081,8 @@ static bool hc23(WrHardMeasurement *g, WrError *err)
     }
 static const WrHardCase rows_bump[] = {
     BUMP(13, "exact normals beyond the focal distance",
-         "n turns over with the sign of the determinant: not on the sphere, but on the cylinder",
-         "rad", 2e-6, 1e-13,
+         "n flips with the sign of the determinant: not on the sphere, but on the cylinder", "rad",
+         2e-6, 1e-13,
          "table 64x64\nfill 1\nsurface cylinder\nbump mode=exact scheme=bspline height=-1.5"),
     BUMP(14, "a height of 1e30 without a slope, on a plane", "n to the bit in every mode",
          "violations", 0, 0, "table 64x64\nfill 1\nsurface plane\nbump mode=exact height=1e30"),

@@ -83,7 +83,7 @@ static bool hc48(WrHardMeasurement *g, WrError *err)
 static const WrHardCase rows[] = {
     { .id = "HC47",
       .subject = WR_HARD_TABLE,
-      .what = "a level table, whatever its level",
+      .what = "a flat table at any level",
       .holds = "F is the level and the slopes are 0, to the bit, in every scheme",
       .unit = "violations",
       .bound = { 0, 0 },
@@ -340,7 +340,8 @@ static bool hc54(WrHardMeasurement *g, WrError *err)
     }
 static const WrHardCase rows_limits[] = {
     ROW(49, "a NaN, infinite or largest height in a table",
-        "NaN and infinity become 0 and are counted; the largest spoils the scheme's reach alone",
+        "NaN and infinity become 0 and are counted; the largest affects only the scheme's "
+        "neighbourhood",
         "violations", 0, 0,
         "table 100x100\ngrid cells=8x8 width=2\ndab 0.5,0.5 radius=0.5 strength=3e38\nsurface "
         "plane"),
@@ -348,7 +349,8 @@ static const WrHardCase rows_limits[] = {
         0, 0,
         "table 8x8\npattern checks across=8 rows=8 height=1e30\nsurface plane\nbump height=1e-30"),
     ROW(51, "heights of 8 bits",
-        "slopes are off by as much as half a code can do: terraces, so tables hold floats",
+        "slopes differ by up to the effect of half a code: terraces, which is why tables store "
+        "floats",
         "n / 510", 1.001, 1 + 1e-6,
         "table 256x256\nformula fourier terms=1,0,0.5\nsurface plane\nbump height=0.2\n"
         "dials heights=8bit"),
@@ -1181,7 +1183,7 @@ static bool hc45(WrHardMeasurement *g, WrError *err)
 }
 
 static const WrHardCase rows_table[] = {
-    ROW(35, "u at 0, at 1, beside them, and -0", "indices stay in the table; 1 is 0 to the bit",
+    ROW(35, "u at 0, at 1, next to them, and -0", "indices stay in the table; 1 is 0 to the bit",
         "violations", 0, 0, "table 64x64\nnoise perlin cells=8\nsurface cylinder"),
     ROW(36, "u just below 0, down to values that 1 - u cannot represent",
         "F there is F(0) to slope times u", "height", 1e-6, 1e-7, NULL),
@@ -1191,7 +1193,7 @@ static const WrHardCase rows_table[] = {
     ROW(39, "the first and last cells", "those of the table rolled by half, to the bit",
         "violations", 0, 0, "table 32x64\nnoise perlin cells=8\nsurface cylinder"),
     ROW(40, "a thousand to ten million repeats, whole and broken",
-        "the place in the table is right", "texels", 1e-3, 1e-3,
+        "the position in the table is right", "texels", 1e-3, 1e-3,
         "table 64x64\ngrid cells=8x8 width=2\nsurface plane\nreplicate 1e6,1e6\nbump height=1e-8"),
     ROW(41, "repeats of 0, of -1, and broken ones",
         "0 is level, -1 the mirror image, r broken ones r times as steep at the broken part of r u",
@@ -1204,7 +1206,7 @@ static const WrHardCase rows_table[] = {
         "the paper's difference across it is 0 to the bit; bilinear has its slope", "violations", 0,
         0, "table 2x16\ndab 0.25,0.5 radius=1 strength=1\nsurface plane\nbump scheme=bilinear"),
     ROW(45, "a checkerboard of single texels",
-        "the paper's difference does not see it, to the bit; bilinear does", "violations", 0, 0,
+        "the paper's difference is 0, to the bit; bilinear has its slopes", "violations", 0, 0,
         "table 16x16\npattern checks across=16 rows=16 bevel=0\nsurface plane\nbump "
         "scheme=bilinear"),
     ROW(46, "sizes that are no power of two, up to 16383", "true modulus, to the bit", "violations",

@@ -409,7 +409,7 @@ static const WrHardCase rows[] = {
     { .id = "HC125",
       .subject = WR_HARD_RENDER,
       .what = "a sphere displaced to its middle, and by a million",
-      .holds = "every value is a number; facets end at their limit, and it is said",
+      .holds = "every value is finite; facets stop at their limit, which is reported",
       .unit = "violations",
       .bound = { 0, 0 },
       .measure = hc125,
@@ -671,16 +671,16 @@ static const WrHardCase dabs[] = {
     ROW(70, "a dab larger than the table, up to infinitely large", "each texel is touched once",
         "height", 0, "table 64x64\ndab 0.5,0.5 radius=1e6 strength=1\nsurface plane"),
     ROW(71, "radii of 0, below 0, NaN, and a third of a texel; strengths of 0, NaN and infinity",
-        "nothing; the third of a texel one texel, the infinite strength float's end", "violations",
-        0, "table 50x40\ndab 0.999,0.001 radius=0.3 strength=1\nsurface plane"),
+        "no change; a third of a texel paints one texel, infinite strength gives the largest float",
+        "violations", 0, "table 50x40\ndab 0.999,0.001 radius=0.3 strength=1\nsurface plane"),
 };
 WR_HARD_LIST(dab, dabs);
 
 static const WrHardCase strokes[] = {
     ROW(72, "a stroke that stays in one place", "one dab, to the bit", "height", 0,
         "table 80x80\nstroke radius=12 strength=1 points=0.3,0.7;0.3,0.7;0.3,0.7\nsurface plane"),
-    ROW(73, "a stroke across the seam", "it goes the short way: the rolled stroke, to the bit",
-        "height", 0,
+    ROW(73, "a stroke across the seam",
+        "it takes the short way: equal to the rolled stroke, to the bit", "height", 0,
         "table 128x64\nstroke radius=6 strength=1 points=0.9,0.9;1.1,0.1\nsurface torus\nbump "
         "height=0.3"),
     ROW(74, "a pen's pressure that is NaN, infinite, below 0 or above 1; wild tilts",

@@ -480,8 +480,7 @@ static const WrHardCase rows_stretch[] = {
     { .id = "HC153",
       .subject = WR_HARD_GEOMETRY,
       .what = "an object mirrored and stretched a hundredfold, or flat",
-      .holds =
-          "n keeps to its side: by the cofactors, with the determinant's sign, which is + at 0",
+      .holds = "n stays on its side: by the cofactors, with the determinant's sign, + at 0",
       .unit = "violations",
       .bound = { 0, 0 },
       .measure = wr_hard_hc153,
@@ -490,7 +489,7 @@ static const WrHardCase rows_stretch[] = {
     { .id = "HC154",
       .subject = WR_HARD_RENDER,
       .what = "two objects 1 apart, ten million from the middle",
-      .holds = "they stand and are picked as they are in the middle",
+      .holds = "they are drawn and picked as at the origin",
       .unit = "violations",
       .bound = { 0, 0 },
       .measure = wr_hard_hc154,
@@ -555,7 +554,7 @@ static bool hc32(WrHardMeasurement *g, WrError *err)
 static const WrHardCase rows_mesh[] = {
     MESH(28, "a triangle whose texture coordinates span no area",
          "an orthonormal frame from n alone, and it is reported"),
-    MESH(29, "a triangle without area", "it is left out"),
+    MESH(29, "a triangle without area", "it is skipped"),
     MESH(30, "texture coordinates that span 1e-30, of either sign",
          "tangents of length 1 or the frame from n; handedness follows the sign"),
     FRAME(31, "a vertex shared by mirrored texture coordinates",
@@ -584,8 +583,8 @@ static const WrHardCase later[] = {
     FRAME(129, "texture coordinates one unit of the last place apart at a shared corner",
           "two corners with two frames, which is reported"),
     FRAME(130, "two triangles folded onto each other, tangents opposite",
-          "each keeps its own, unit; no NaN"),
-    FRAME(131, "a triangle whose places coincide beside a good one",
+          "each keeps its own unit tangents; no NaN"),
+    FRAME(131, "a triangle whose corners coincide, next to a good one",
           "it copies its neighbour's frame; alone it has (1,0,0)"),
     FRAME(132, "five triangles at one edge", "the frames' groups end, every frame is one"),
     { .id = "HC133",
@@ -1286,10 +1285,10 @@ static bool hc11(WrHardMeasurement *g, WrError *err)
 static const WrHardCase rows_surface[] = {
     GEOMETRY(01, "the sphere's poles", "n is the axis itself, pointing outward", "rad", 1e-6, 1e-6,
              "table 64x64\ngrid cells=8x8 width=2\nsurface sphere\nrotate 15,0,0\nbump height=0.3"),
-    GEOMETRY(02, "on the way to a pole, F of one value there",
-             "n' is that of the surface gradient down to the last place", "rad", 1e-7, 1e-14,
+    GEOMETRY(02, "approaching a pole where F has one value",
+             "n' follows the surface gradient down to the last place", "rad", 1e-7, 1e-14,
              "analytic fourier terms=1,1,0.3,0,-90\nsurface sphere\nrotate 15,0,0\nbump height=1"),
-    GEOMETRY(03, "a pole under a table that has no one value there", "n' is of length 1 and finite",
+    GEOMETRY(03, "a pole where the table has several values", "n' has length 1 and is finite",
              "relative", 1e-6, 1e-14,
              "table 64x64\nnoise perlin cells=8\nsurface sphere\nrotate 15,0,0\nbump height=0.1"),
     GEOMETRY(04, "the cone's tip", "each u has the normal of its own generator", "rad", 1e-6, 1e-14,
@@ -1303,12 +1302,12 @@ static const WrHardCase rows_surface[] = {
         "0.75,0,0.125;0.75,0.375,0.125;0.375,0.75,0.125;0,0.75,0.125;1,0,0;1,0.5,0;"
         "0.5,1,0;0,1,0\nbump height=0.15"),
     GEOMETRY(06, "a patch whose sixteen points are equal",
-             "the normal is the defined one and no picture of it holds a NaN", "violations", 0, 0,
+             "the normal is the defined one and no picture contains a NaN", "violations", 0, 0,
              "table 64x64\ngrid cells=8x8 width=2\nsurface bezier "
              "points=0,0,0;0,0,0;0,0,0;0,0,0;0,0,0;0,0,0;0,0,0;"
              "0,0,0;0,0,0;0,0,0;0,0,0;0,0,0;0,0,0;0,0,0;0,0,0;0,0,0"),
     GEOMETRY(07, "a patch that is a straight line",
-             "the normal is the defined one and no picture of it holds a NaN", "violations", 0, 0,
+             "the normal is the defined one and no picture contains a NaN", "violations", 0, 0,
              "table 64x64\ngrid cells=8x8 width=2\nsurface bezier "
              "points=0,0,0;1,1,0;2,2,0;3,3,0;1,1,0;2,2,0;3,3,0;"
              "4,4,0;2,2,0;3,3,0;4,4,0;5,5,0;3,3,0;4,4,0;5,5,0;6,6,0"),
@@ -1316,13 +1315,13 @@ static const WrHardCase rows_surface[] = {
              "n points away from the tube's centre line", "rad", 1e-6, 1e-14,
              "table 64x64\nnoise perlin cells=6\nsurface torus R=0.25 r=0.75\nbump height=0.3"),
     GEOMETRY(09, "objects 1e20 times as large and as small",
-             "the scale-invariant n' stays; so does the paper's if heights grow alike", "rad", 1e-6,
-             1e-13,
+             "the scale-invariant n' does not change; nor does the paper's if heights scale too",
+             "rad", 1e-6, 1e-13,
              "table 64x64\nnoise perlin cells=6\nsurface torus R=1e20 r=3e19\nbump height=2e19"),
-    GEOMETRY(10, "Pu 1e10 times as long as Pv", "n stands upright on both", "last places", 4, 4,
+    GEOMETRY(10, "Pu 1e10 times as long as Pv", "n is orthogonal to both", "last places", 4, 4,
              "table 64x64\ngrid cells=8x8 width=2\nsurface plane a=1 b=1e-10\nbump height=1e-12"),
     GEOMETRY(11, "Pu and Pv a thousandth to a millionth of a radian apart",
-             "n is off by no more than rounding over the sine of their angle", "last places / sine",
-             1, 1, NULL),
+             "the error of n is at most rounding over the sine of their angle",
+             "last places / sine", 1, 1, NULL),
 };
 WR_HARD_LIST(surface, rows_surface);

@@ -543,7 +543,7 @@ static bool hc88(WrHardMeasurement *g, WrError *err)
     }
 #define WAVES "table 64x64\nformula fourier terms=3,0,0.5;0,5,0.25,90,0\n"
 static const WrHardCase seen[] = {
-    ROW(82, "surfaces that reach behind the eye",
+    ROW(82, "surfaces that extend behind the eye",
         "the mesh agrees with the closed form, and pictures with the reference", "of pixels", 0.02,
         0.02,
         WAVES "surface bent c=0,0,0\nrotate 0,0,0\nbump height=0.02\n"
@@ -570,8 +570,8 @@ static const WrHardCase seen[] = {
 WR_HARD_LIST(sight, seen);
 
 static const WrHardCase turned[] = {
-    ROW(87, "a day of turning at 60 Hz", "the angle is that of the tick's number", "rad", NAN, 1e-9,
-        NULL),
+    ROW(87, "a day of rotation at 60 Hz", "the angle is that of the tick's number", "rad", NAN,
+        1e-9, NULL),
     ROW(88, "any number of turns", "the rotation's determinant is 1 and its rows are orthonormal",
         "relative", NAN, 1e-6, NULL),
 };

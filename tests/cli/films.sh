@@ -29,8 +29,8 @@ grep -qF "Debian's package ffmpeg" err || complain "the package is not named: $(
 refused '#### for the frame' -o t.png --frames 1-3
 refused 'a film needs --frames' -o t.mp4
 refused '--fps needs --frames' -o t.gif --fps 5
-refused 'are of films' -o 't##.png' --frames 1-3 --fps 5
-refused 'not of a film' -o t.gif --frames 1-3 --missing
+refused 'only for films' -o 't##.png' --frames 1-3 --fps 5
+refused 'not in a film' -o t.gif --frames 1-3 --missing
 refused 'must be frames a second, 0.1..240' -o t.gif --frames 1-3 --fps 0
 refused 'must be how often' -o t.gif --frames 1-3 --loop -1
 refused '0.1..50 frames a second of GIF' -o t.gif --frames 1-3 --fps 60

@@ -255,7 +255,7 @@ static void plain_layers_keep_their_heights(void **state)
     said.text[0] = '\0';
     must_run(s, "variant use worn");
     assert_non_null(strstr(said.text, "layer 2 \"wall\" no longer has a generator"));
-    assert_non_null(strstr(said.text, "layer 3 \"dirt\" has no live mask any more"));
+    assert_non_null(strstr(said.text, "layer 3 \"dirt\" no longer has a live mask"));
     assert_true(doc(s)->layers[1].opacity == 1.0f);
     assert_true(wr_hash_equal(wall, wr_field_hash(doc(s)->layers[1].heights)));
     assert_true(wr_hash_equal(mask, wr_field_hash(doc(s)->layers[2].mask)));

@@ -258,7 +258,7 @@ static void what_cannot_reach_is_left_out(void **state)
         Shot shot = shot_of(ground, NULL), forced = shot_of(ground, all);
         assert_false(shot.frame.plan->rows[WR_EFFECT_CAST].run);
         assert_true(forced.frame.plan->rows[WR_EFFECT_CAST].ran);
-        assert_non_null(strstr(shot.frame.plan->rows[WR_EFFECT_CAST].reason, "ball"));
+        assert_non_null(strstr(shot.frame.plan->rows[WR_EFFECT_CAST].reason, "bounding sphere"));
         assert_true(same_picture(&shot, &forced));
         put_away(&shot);
         put_away(&forced);

@@ -291,7 +291,7 @@ static void what_waits_is_not_done_to_other_layers(void **state)
     assert_int_equal(app->brush->jobs.count, 0);
     const WrMessage *said = wr_messages_shown(app->messages, 0.0);
     assert_non_null(said);
-    assert_non_null(strstr(said->text, "layers are others"));
+    assert_non_null(strstr(said->text, "layers have changed"));
     finish(&bench);
 }
 
