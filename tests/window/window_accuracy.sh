@@ -18,7 +18,7 @@ printf '%s\n' 'width 1280' 'height 800' 'turning 0' 'ants 0' 'range_follows 0' '
 
 patch=360x500+600+160 # the sphere, without the chips above and the labels below
 panel=250x330+1016+140
-plot=180x140+1064+265 # three steps of the wheel down
+plot=180x140+1064+265 # four steps of the wheel down
 # much A B WHERE WHAT: those pictures differ there; same A B WHERE WHAT: they do not.
 much() {
     local changed
@@ -55,7 +55,7 @@ scroll() {
 }
 
 start small.wrinkle
-scroll 3 5
+scroll 4 5
 shot plotted # the window is not at rest before the plot is there
 [[ $(convert plotted.ppm -crop $plot -unique-colors -format '%w' info:) -gt 20 ]] ||
     complain "there is no plot of what accuracy costs"
@@ -73,7 +73,7 @@ count=0
 while picked && [[ $((count++)) -lt 4 ]]; do
     key ctrl+z # the pointer is over the panel
 done
-scroll 3 4
+scroll 4 4
 
 # ---- two settings: split, its line, held and flickering ----
 home

@@ -16,7 +16,7 @@ printf 'table 128x128\nsave out.exr\nexport height out.tif\n' >save.wrinkle
 
 # ---- in the shell ----
 WR_THREADS=0 LD_PRELOAD=$shim "$program" run save.wrinkle >out 2>err && complain "exported without a thread"
-grep -q 'need threads, and the system gives no more' err || complain "not the reason: $(cat err)"
+grep -q 'need threads, but the system allows no more' err || complain "not the reason: $(cat err)"
 [[ -s out.exr ]] || complain "a document was not saved without a thread"
 [[ ! -e out.tif ]] || complain "a file was begun all the same"
 
