@@ -1265,7 +1265,7 @@ static const WrForm analytic_forms[] = {
                                            .rows_high = WR_TERMS_MAX,
                                            .shape = "k,l,a[,phase_u,phase_v];...",
                                            .help = "the terms" } } },
-    [WR_ROW(FORM_OFF)] = { .name = "off", .help = "the table, as without a formula" },
+    [WR_ROW(FORM_OFF)] = { .name = "off", .help = "use the table again" },
 };
 WR_ROWS_END(analytic_forms, ANALYTIC_FORMS);
 

@@ -125,7 +125,7 @@ static WrImage *find_laid(WrSession *session, WrCall *call, const char *name, in
     return image;
 }
 
-/* Arguments of a file are refused in a line without a file. */
+/* Refuses arguments that belong to a file: the line names none, or with `off` removes it. */
 static bool refuse_without(const WrCall *call, const char *const *names, bool off, WrError *err)
 {
     while (*names && !wr_call_given(call, *names)) names++;

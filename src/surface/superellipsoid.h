@@ -115,14 +115,8 @@ static const WrSurfaceInfo superellipsoid_row = {
                   0.1,
                   4,
                   false,
-                  "exponent from pole to pole: 0.1 box, 1 round, 2 straight" },
-                { "e2",
-                  1,
-                  { 0.4 },
-                  0.1,
-                  4,
-                  false,
-                  "exponent around the axis: 0.1 box, 1 round, 2 straight" } },
+                  "from pole to pole: 0.1 box, 1 round, 2 straight" },
+                { "e2", 1, { 0.4 }, 0.1, 4, false, "exponent around the axis, as e1" } },
     /* Upright with u = 1/2 in front, rotated 35 degrees to the left and tilted 25 forward, like the
      * cube. */
     .pose_deg = { -50.89, 47.94, 31.11 },

@@ -84,8 +84,8 @@ static void run_if_agreed(WrApp *app, WrText *line, const char *done)
 
 void wr_dialog_table(WrApp *app)
 {
-    static const char *const wraps[] = { "Repeats both ways", "Edges at left and right",
-                                         "Edges at top and bottom", "Ends all around" };
+    static const char *const wraps[] = { "Repeats both ways", "Ends at left and right",
+                                         "Ends at top and bottom", "Ends all around" };
     _Static_assert(WR_LENGTH(wraps) == WR_DOCUMENT_WRAPS, "in the order of their words");
     WrForms *f = app->forms;
     if (!wr_gui_dialog_begin("New table", 400)) return;

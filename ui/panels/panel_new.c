@@ -70,8 +70,8 @@ static void surface_row(WrNewForm *form)
 
 void wr_dialog_new(WrApp *app)
 {
-    static const char *const wraps[] = { "Repeats both ways", "Edges at left and right",
-                                         "Edges at top and bottom", "Ends all around" };
+    static const char *const wraps[] = { "Repeats both ways", "Ends at left and right",
+                                         "Ends at top and bottom", "Ends all around" };
     _Static_assert(WR_LENGTH(wraps) == WR_DOCUMENT_WRAPS, "in the order of their words");
     WrNewForm *form = &app->forms->fresh;
     const char *starters[WR_STARTERS];
