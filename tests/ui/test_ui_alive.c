@@ -159,7 +159,7 @@ static bool try_to_edit(Long *work)
     if (!wr_busy_greys(app)) return false;
     if (work->stage++ == 0) {
         assert_false(wr_action_can(app, wr_action_find(app, "layer_add")));
-        assert_false(wr_action_can(app, wr_action_find(app, "undo")));
+        assert_true(wr_action_can(app, wr_action_find(app, "undo"))); /* it is queued */
         assert_true(wr_action_can(app, wr_action_find(app, "layer_show")));
         assert_true(wr_action_can(app, wr_action_find(app, "theme_dark")));
         assert_false(wr_app_run_line(app, "fill 0.37"));
@@ -230,6 +230,50 @@ static void what_waits_is_done_in_its_order(void **state)
     assert_int_equal(strncmp(stroke, "stroke ", 7), 0);
     assert_string_equal(wr_session_history_line(bench.session, before + 1), "layer set 1 lock=on");
     assert_int_equal(app->messages->unread, 1); /* the layer is locked */
+    finish(&bench);
+}
+
+/* Two strokes, undo twice, redo, and a stroke that is not yet released when the command ends. */
+static bool paint_and_undo(Long *work)
+{
+    WrApp *app = work->app;
+    const SDL_Rect *canvas = &app->layout->canvas;
+    SDL_Event down = button(SDL_MOUSEBUTTONDOWN, canvas->x + canvas->w / 2 - 9, canvas->y + 80);
+    if (!wr_busy_greys(app) || app->waits->items.count < work->stage) return false;
+    switch (work->stage++) {
+    case 0: push_stroke(app, 0, 41); break;
+    case 1: push_stroke(app, 7, -29); break;
+    case 2:
+    case 3: push_key(SDLK_z, KMOD_LCTRL); break;
+    case 4: push_key(SDLK_z, KMOD_LCTRL | KMOD_LSHIFT); break;
+    case 5: SDL_PushEvent(&down); break;
+    default: return true;
+    }
+    return false;
+}
+
+static void an_undo_waits_behind_the_strokes(void **state)
+{
+    (void)state;
+    Bench bench;
+    WrError err;
+    begin(&bench);
+    WrApp *app = bench.app;
+    const SDL_Rect *canvas = &app->layout->canvas;
+    const int before = wr_session_history_position(bench.session);
+    Long work = { .app = app, .watch = paint_and_undo };
+    assert_true(run(&work, &err));
+    draw_again(app);
+    draw_again(app);
+    assert_int_equal(app->waits->items.count, 0);
+    assert_int_equal(wr_session_history_position(bench.session), before + 1);
+    assert_true(app->brush->drawing); /* the last stroke goes on */
+    SDL_Event up = button(SDL_MOUSEBUTTONUP, canvas->x + canvas->w / 2 + 31, canvas->y + 95);
+    SDL_PushEvent(&up);
+    for (int i = 0; i < 50 && app->brush->jobs.count > 0; i++) draw_again(app);
+    assert_int_equal(wr_session_history_position(bench.session), before + 2);
+    assert_int_equal(wr_session_redo_count(bench.session), 0);
+    assert_int_equal(app->messages->unread, 0);
     finish(&bench);
 }
 
@@ -397,6 +441,7 @@ int main(void)
         cmocka_unit_test(a_click_right_after_another_is_not_lost),
         cmocka_unit_test(an_edit_is_refused_with_words),
         cmocka_unit_test(what_waits_is_done_in_its_order),
+        cmocka_unit_test(an_undo_waits_behind_the_strokes),
         cmocka_unit_test(what_waits_is_dropped_with_what_is_given_up),
         cmocka_unit_test(what_waits_is_not_done_to_other_layers),
         cmocka_unit_test(a_line_of_a_widget_does_not_hold_its_picture_up),

@@ -454,6 +454,7 @@ void wr_input_router_pen(WrApp *app, const WrPenEvent *event)
     wr_app_redraw(app);
     switch (event->kind) {
     case WR_PEN_LOST:
+        if (holds) end_held(app);
         if (holds) wr_input_router_let_go(app);
         return;
     case WR_PEN_CANCEL:
@@ -611,4 +612,10 @@ void wr_input_router_event(WrApp *app, const SDL_Event *event)
     }
 }
 
-const WrPart wr_part_hand = { .let_go = end_held };
+/* A queued action does not end the stroke that was begun after it. */
+static void let_go_for_action(WrApp *app)
+{
+    if (!wr_busy_runs_queue(app) || !wr_strokes_newest_is_queued(app)) end_held(app);
+}
+
+const WrPart wr_part_hand = { .let_go = let_go_for_action };

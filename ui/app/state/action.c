@@ -5,6 +5,7 @@
 #include "ui/app/state/messages.h"
 #include "ui/app/state/registry.h"
 #include "ui/app/state/session_view.h"
+#include "ui/toolkit/words.h"
 
 #include "base/array.h"
 #include "base/error.h"
@@ -41,15 +42,30 @@ static bool layer_fits(const WrApp *app, const WrAction *action, WrError *err)
 
 bool wr_action_can(const WrApp *app, const WrAction *action)
 {
-    if (action->edits && wr_busy_greys(app)) return false;
     WrError err;
+    if (action->waits && wr_busy_refuses(app)) return wr_busy_lets_wait(app);
+    if (action->edits && wr_busy_greys(app)) return false;
     return (!action->enabled || action->enabled(app)) && layer_fits(app, action, &err);
+}
+
+static void run_late(WrApp *app, const char *name, bool dropped)
+{
+    const WrAction *action = wr_action_find(app, name);
+    if (!dropped && wr_action_can(app, action)) action->run(app);
+}
+
+/* True if the action is queued behind the running command. */
+static bool puts_off(WrApp *app, const WrAction *action)
+{
+    if (!action->waits || !wr_busy_refuses(app) || !wr_busy_lets_wait(app)) return false;
+    wr_busy_put_off(app, wr_words(action->label), run_late, action->name, false);
+    return true;
 }
 
 static void run_now(WrApp *app, const char *name)
 {
     const WrAction *action = wr_action_find(app, name);
-    if (action && action->edits && wr_busy_refuse(app)) return;
+    if (action && (puts_off(app, action) || (action->edits && wr_busy_refuse(app)))) return;
     if (action && wr_action_can(app, action)) action->run(app);
     wr_app_redraw(app);
 }
@@ -57,7 +73,7 @@ static void run_now(WrApp *app, const char *name)
 void wr_action_run(WrApp *app, const char *name)
 {
     const WrAction *action = wr_action_find(app, name);
-    if (action && action->edits && wr_busy_refuse(app)) return;
+    if (action && (puts_off(app, action) || (action->edits && wr_busy_refuse(app)))) return;
     for (WrActionFamily *const *f = app->registry->families; !action && *f; f++)
         if ((*f)(app, name)) break;
     WrError err;

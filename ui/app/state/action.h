@@ -21,6 +21,7 @@ struct WrAction {
     bool (*checked)(const WrApp *app); /* NULL: never */
     /* changes the document or a file of it: disabled while a command runs in the background */
     bool edits;
+    bool waits; /* of those: queued behind the running command and the strokes that wait for it */
     WrActionLayer layer;
     const char *several; /* label for %d chosen layers; NULL: the same */
     int row_menu; /* its part of the context menu of a layer's row, from 1; 0: it is not there */

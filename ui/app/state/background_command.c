@@ -460,6 +460,11 @@ void wr_busy_put_off(WrApp *app, const char *words, WrBusyLate *late, const char
     wr_app_redraw(app);
 }
 
+bool wr_busy_runs_queue(const WrApp *app)
+{
+    return app->waits->running;
+}
+
 static WrWaiting take(WrWaits *waits, int index)
 {
     WrWaiting taken = waits->items.data[index];

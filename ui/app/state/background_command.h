@@ -3,9 +3,9 @@
    While a command runs, app->busy is not NULL, and app->session is a snapshot of the session (wr_session_snapshot),
    from which the window reads. Only the worker has access to the session itself. A snapshot rejects all commands, so
    a missing check causes an error and not a data race. User actions meanwhile are handled in three ways. Lines with
-   the same meaning afterwards, such as a layer's visibility, and strokes are queued and run in order when the command
-   ends. Other changes of the document are refused, with a note in the status bar. Everything else is done at once.
-   The kind is set by an action's row (`edits`), a tool's row (`meanwhile`) and, for lines, by ui/app/state/run_line.c.
+   the same meaning afterwards, such as a layer's visibility, strokes, undo and redo are queued and run in order when the
+   command ends. Other changes of the document are refused, with a note in the status bar. Everything else is done at once.
+   The kind is set by an action's row (`edits`, `waits`), a tool's row (`meanwhile`) and, for lines, by ui/app/state/run_line.c.
 
    All frames are drawn by the main loop: it is never entered recursively from within a frame. */
 #pragma once
@@ -73,6 +73,7 @@ void wr_busy_settle(WrApp *app);
 typedef void WrBusyLate(WrApp *app, const char *text, bool dropped);
 void wr_busy_put_off(WrApp *app, const char *words, WrBusyLate *late, const char *text,
                      bool of_layers);
+bool wr_busy_runs_queue(const WrApp *app); /* true while a queued action runs */
 /* Remove the newest queued action of that kind and text; it is not called. */
 void wr_busy_take_back(WrApp *app, WrBusyLate *late, const char *text);
 

@@ -293,6 +293,12 @@ bool wr_strokes_under_way(const WrApp *app)
     return app->brush->jobs.count > 0;
 }
 
+bool wr_strokes_newest_is_queued(const WrApp *app)
+{
+    const WrBrushState *hand = app->brush;
+    return hand->jobs.count > 0 && hand->jobs.data[hand->jobs.count - 1].waits;
+}
+
 void wr_strokes_finish(WrApp *app)
 {
     wr_strokes_end(app);

@@ -70,6 +70,8 @@ void wr_strokes_work(WrApp *app);        /* once before each frame */
 bool wr_strokes_waits(const WrApp *app); /* there are undrawn samples */
 /* True if a stroke is being drawn or undrawn; it becomes a step before any other command. */
 bool wr_strokes_under_way(const WrApp *app);
+/* True if the newest stroke waits for a background command. */
+bool wr_strokes_newest_is_queued(const WrApp *app);
 void wr_strokes_finish(WrApp *app); /* draw the rest now */
 void wr_strokes_cancel(WrApp *app); /* discard the present stroke */
 /* Overlay on the canvas: strokes that wait for a background command. */
