@@ -331,13 +331,13 @@ def check_errors():
         for operator in (bpy.ops.wrinkle.paint, bpy.ops.wrinkle.follow, bpy.ops.wrinkle.bring_mesh):
             fails(operator, sentence)
     preferences.program = "/nowhere/wrinkle"
-    fails(bpy.ops.wrinkle.paint, "/nowhere/wrinkle: is no program")
+    fails(bpy.ops.wrinkle.paint, "/nowhere/wrinkle: not a program")
     preferences.program = WRINKLE
     bpy.context.scene.wrinkle.document = ""
     fails(bpy.ops.wrinkle.paint, "no document is chosen")
     bpy.context.scene.wrinkle.document = write("bad.wrinkle", "table 8x8\nnonsense\n")
     fails(bpy.ops.wrinkle.follow, 'unknown command "nonsense"')
-    fails(bpy.ops.wrinkle.import_set, "holds no maps", filepath=folder("nothing"))
+    fails(bpy.ops.wrinkle.import_set, "contains no maps", filepath=folder("nothing"))
     os.makedirs("torn")
     with open("blender/wave_normal.png", "rb") as source, open("torn/wave_normal.png", "wb") as file:
         file.write(source.read()[:-20])
@@ -360,7 +360,7 @@ def check_meshes():
     made = thing.active_material
     assert made.wrinkle.of_mesh and made.wrinkle.document.endswith("box.exr")
     assert abs(made.node_tree.nodes["Wrinkle"].inputs["Scale"].default_value - 0.05) < 1e-6
-    fails(bpy.ops.wrinkle.send_mesh, "is there already", filepath=os.path.abspath("box.exr"), window=False)
+    fails(bpy.ops.wrinkle.send_mesh, "already exists", filepath=os.path.abspath("box.exr"), window=False)
     wrinkle("open box.exr\nfill 1\nsave box.exr\n")
     bpy.ops.wrinkle.export_all()
     assert "normal-baked" in made.node_tree.nodes["Wrinkle Normals"].image.name

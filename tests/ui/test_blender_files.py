@@ -149,7 +149,7 @@ class Sets(unittest.TestCase):
             self.assertEqual({m.path for m in maps.maps.values()}, {m.path for m in whole.maps.values()})
 
     def test_two_sets_in_a_folder_need_a_choice(self):
-        with self.assertRaisesRegex(WrinkleError, "holds maps of a, b; choose"):
+        with self.assertRaisesRegex(WrinkleError, "contains maps of a, b; choose"):
             mapset.read_set("both")
         self.assertEqual(mapset.read_set("both", "b").name, "b")
 
@@ -164,7 +164,7 @@ class Sets(unittest.TestCase):
             self.assertEqual(mapset.read_map(name).width, 37)
 
     def test_other_files_are_errors(self):
-        for path, text in (("none", "cannot be read"), (folder("empty"), "holds no maps"), (write("x.json", "{}"), "no list of receipts")):
+        for path, text in (("none", "cannot be read"), (folder("empty"), "contains no maps"), (write("x.json", "{}"), "not a list from")):
             with self.assertRaisesRegex(WrinkleError, text):
                 mapset.read_set(path)
 
@@ -175,10 +175,10 @@ class Programs(unittest.TestCase):
 
     def test_wrong_programs_are_one_sentence(self):
         cases = (
-            ("echo wrinkle 0.0.9", "is version 0.0.9; this add-on needs 0.1.0 or later"),
-            ("echo wrinkle 2.1.0", "is version 2.1.0; .* before 2.0.0"),
-            ("echo something else", "is not Wrinkle"),
-            ("echo", "is not Wrinkle"),
+            ("echo wrinkle 0.0.9", "version 0.0.9; this add-on needs 0.1.0 or later"),
+            ("echo wrinkle 2.1.0", "version 2.1.0; .* before 2.0.0"),
+            ("echo something else", ": not Wrinkle"),
+            ("echo", ": not Wrinkle"),
             ("echo 'p: error while loading shared libraries: libSDL2.so: not there' >&2; exit 127", "a library is missing .*libSDL2"),
             ("kill -SEGV $$", "ended by signal 11"),
         )
@@ -186,7 +186,7 @@ class Programs(unittest.TestCase):
             with self.assertRaisesRegex(WrinkleError, sentence) as caught:
                 program.checked(fake("fake%d" % number, text))
             self.assertNotIn("\n", str(caught.exception))
-        with self.assertRaisesRegex(WrinkleError, "is no program"):
+        with self.assertRaisesRegex(WrinkleError, ": not a program"):
             program.checked("/nowhere/wrinkle")
 
     def test_the_programs_own_sentence_is_the_error(self):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Differences between Blender 3.4 and 4.x; no other file asks for the version.
+"""Differences between Blender 3.4 and 4.x; no other file checks the version.
 
 Run with 3.4.1 (Debian 12). For 4.x these pages were read; nothing was run there:
   4.0  NodeTree.inputs and .outputs became NodeTree.interface: https://docs.blender.org/api/4.3/bpy.types.NodeTreeInterface.html
@@ -26,13 +26,13 @@ def clear_sockets(tree):
 
 
 def displace_and_bump(material):
-    """Cycles moves the surface, and bumps what is finer than its faces."""
+    """Displacement in Cycles, with bump mapping for detail finer than the faces."""
     owner = material if hasattr(material, "displacement_method") else material.cycles
     owner.displacement_method = "BOTH"
 
 
 def smooth(mesh):
-    """Smooth faces with the normals that the mesh has."""
+    """Smooth shading with the normals of the mesh."""
     mesh.polygons.foreach_set("use_smooth", [True] * len(mesh.polygons))
     if hasattr(mesh, "use_auto_smooth"):
         mesh.use_auto_smooth = mesh.has_custom_normals

@@ -79,7 +79,7 @@ class MapSet:
 
 
 def _damaged(path):
-    return WrinkleError("%s: is incomplete or damaged; write it again in Wrinkle" % path)
+    return WrinkleError("%s: incomplete or damaged; export it again from Wrinkle" % path)
 
 
 def _png(path, data):
@@ -147,7 +147,7 @@ def read_map(path):
         return _exr(path, data)
     if not data or path.endswith((".png", ".exr")):
         raise _damaged(path)
-    raise WrinkleError("%s: is neither PNG nor EXR" % path)
+    raise WrinkleError("%s: neither PNG nor EXR" % path)
 
 
 # ---- sets ----
@@ -164,7 +164,7 @@ def _of_receipts(path):
     except OSError as why:
         raise WrinkleError("%s: cannot be read (%s)" % (path, why.strerror)) from None
     except (ValueError, KeyError, TypeError):
-        raise WrinkleError("%s: is no list of receipts of `wrinkle export --json`" % path) from None
+        raise WrinkleError("%s: not a list from `wrinkle export --json`" % path) from None
     return found
 
 
@@ -192,8 +192,8 @@ def read_set(path, name=None):
     maps = [m for m in map(read_map, paths) if m.role]
     cells = sorted({m.cell for m in maps})
     if not cells:
-        raise WrinkleError("%s: holds no maps of Wrinkle; export a set there" % path)
+        raise WrinkleError("%s: contains no maps from Wrinkle; export a set there" % path)
     if len(cells) > 1:
-        raise WrinkleError("%s: holds maps of %s; choose a file of one of them" % (path, ", ".join(cells)))
+        raise WrinkleError("%s: contains maps of %s; choose a file of one of them" % (path, ", ".join(cells)))
     folder = os.path.dirname(maps[0].path)
     return MapSet(cells[0], folder, {m.role: m for m in maps})

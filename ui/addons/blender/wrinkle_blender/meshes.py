@@ -17,7 +17,7 @@ def _metres(context):
 def write(context, thing, path):
     """The object as it is seen, in world space."""
     if thing is None or thing.type != "MESH":
-        raise WrinkleError("no mesh is chosen; select one")
+        raise WrinkleError("no mesh is selected; select one")
     if not thing.data.uv_layers:
         raise WrinkleError("%s: the mesh has no UV map; unwrap it first" % thing.name)
     if thing.mode != "OBJECT":
@@ -34,7 +34,7 @@ def write(context, thing, path):
         for other in selected:
             other.select_set(True)
     if not os.path.exists(path) or os.path.getsize(path) == 0:
-        raise WrinkleError("%s: cannot be written; see whether the disk is full" % path)
+        raise WrinkleError("%s: cannot be written; check whether the disk is full" % path)
 
 
 def make_document(context, path, thing, document, side, height):
@@ -55,6 +55,6 @@ def bring_back(context, path, document, error_m):
         raise WrinkleError("%s: cannot be read (%s)" % (out, str(why).strip())) from None
     fresh = [o for o in bpy.data.objects if o.name not in before]
     if not fresh:
-        raise WrinkleError("%s: holds no mesh" % out)
+        raise WrinkleError("%s: contains no mesh" % out)
     compat.smooth(fresh[0].data)
     return fresh[0]

@@ -20,7 +20,7 @@ class WrinklePreferences(bpy.types.AddonPreferences):
     bl_idname = ADDON
 
     program: StringProperty(
-        name="Wrinkle", subtype="FILE_PATH", description="The program; empty: the one that the shell finds"
+        name="Wrinkle", subtype="FILE_PATH", description="Path of the program wrinkle; empty: search PATH"
     )
 
     def draw(self, context):
@@ -31,26 +31,31 @@ class WrinkleSceneSettings(bpy.types.PropertyGroup):
     document: StringProperty(
         name="Document",
         subtype="FILE_PATH",
-        description="Wrinkle's document: an .exr or .ora file, a script, or a picture of heights",
+        description="Wrinkle document: an .exr or .ora file, a script, or a height map",
     )
     folder: StringProperty(
         name="Maps",
         subtype="DIR_PATH",
-        description="Folder of the maps; empty: the document's name with _maps, beside the document",
+        description="Folder for the maps; empty: a folder beside the document, named after it with _maps",
     )
     maps: EnumProperty(
         name="Live Maps",
         items=(
-            ("HEIGHTS", "Heights", "The heights alone, which are there soonest; Bump and Displacement use them"),
-            ("ALL", "All", "Heights, normals, occlusion and roughness"),
+            ("HEIGHTS", "Heights", "Only the height map, for Bump and Displacement: the fastest updates"),
+            ("ALL", "All", "Height, normal, ambient occlusion and roughness maps"),
         ),
     )
     side: IntProperty(name="Texels", default=1024, min=16, max=16384, description="Width and height of a new table")
     height: FloatProperty(
-        name="Height", default=0.0, min=0.0, unit="LENGTH", description="Height of white; 0: a fiftieth of the object"
+        name="Height", default=0.0, min=0.0, unit="LENGTH", description="Height of white; 0: 1/50 of the object's size"
     )
     error: FloatProperty(
-        name="Error", default=0.0005, min=1e-6, unit="LENGTH", precision=5, description="Of the displaced mesh"
+        name="Error",
+        default=0.0005,
+        min=1e-6,
+        unit="LENGTH",
+        precision=5,
+        description="Largest distance from the exact surface in Bring Back Mesh",
     )
 
 
@@ -63,9 +68,9 @@ class WrinkleMaterialSettings(bpy.types.PropertyGroup):
         name="Relief",
         update=_rewire,
         items=(
-            ("NORMAL", "Normal Map", "The normal map: exact shading, the surface stays flat"),
-            ("BUMP", "Bump", "Slopes of the heights"),
-            ("DISPLACEMENT", "Displacement", "Cycles moves the surface; it needs a finely subdivided mesh"),
+            ("NORMAL", "Normal Map", "Normal map: exact shading on a flat surface"),
+            ("BUMP", "Bump", "Shading from the slopes of the height map"),
+            ("DISPLACEMENT", "Displacement", "Displaced surface in Cycles; needs a finely subdivided mesh"),
         ),
     )
     folder: StringProperty()
@@ -73,7 +78,7 @@ class WrinkleMaterialSettings(bpy.types.PropertyGroup):
     document: StringProperty()
     of_mesh: BoolProperty(
         name="Baked",
-        description="The document's object is this mesh: its normal map is baked for its faces",
+        description="Normal maps are baked for the faces of this mesh, which is the document's object",
     )
 
 
@@ -88,9 +93,9 @@ def _program(context):
 def _document(context):
     path = bpy.path.abspath(context.scene.wrinkle.document)
     if not path:
-        raise WrinkleError("no document is chosen; set Document in the panel")
+        raise WrinkleError("no document is set; choose one under Document in the panel")
     if not os.path.isfile(path):
-        raise WrinkleError("%s: is not there" % path)
+        raise WrinkleError("%s: does not exist" % path)
     return path
 
 
@@ -98,7 +103,7 @@ def _folder(context, document=""):
     """The folder of the maps, made if it is missing."""
     path = bpy.path.abspath(context.scene.wrinkle.folder)
     if not path and not document:
-        raise WrinkleError("no folder is chosen; set Maps in the panel")
+        raise WrinkleError("no folder is set; choose one under Maps in the panel")
     path = link.key(path or os.path.splitext(document)[0] + "_maps")
     try:
         os.makedirs(path, exist_ok=True)
@@ -169,7 +174,7 @@ class _Operator:
 
 
 class WRINKLE_OT_import_set(_Operator, bpy.types.Operator, ImportHelper):
-    """Make a material of a set of maps: choose its folder, one of its files, or a list of receipts"""
+    """Make a material from a set of maps: choose its folder, one of its files, or a list from `wrinkle export --json`"""
 
     bl_idname = "wrinkle.import_set"
     bl_label = "Import Set of Maps"
@@ -209,7 +214,7 @@ class WRINKLE_OT_paint(_Operator, bpy.types.Operator):
 
 
 class WRINKLE_OT_follow(_Operator, bpy.types.Operator):
-    """Follow the document: each time it is saved, the active object's material changes"""
+    """Update the active object's material each time the document is saved"""
 
     bl_idname = "wrinkle.follow"
     bl_label = "Follow Document"
@@ -228,7 +233,7 @@ class WRINKLE_OT_follow(_Operator, bpy.types.Operator):
 
 
 class WRINKLE_OT_connect(_Operator, bpy.types.Operator):
-    """Follow a folder into which a running Wrinkle writes its maps (File > Export maps, Live)"""
+    """Update the material from a folder into which a running Wrinkle exports (File > Export maps, Live)"""
 
     bl_idname = "wrinkle.connect"
     bl_label = "Follow Folder"
@@ -252,7 +257,7 @@ class WRINKLE_OT_unlink(_Operator, bpy.types.Operator):
 
 
 class WRINKLE_OT_export_all(_Operator, bpy.types.Operator):
-    """Export all maps of the material's document as it was last saved, normals included"""
+    """Export all maps of the material's document, as last saved, including the normal map"""
 
     bl_idname = "wrinkle.export_all"
     bl_label = "Export All Maps"
@@ -272,7 +277,7 @@ class WRINKLE_OT_export_all(_Operator, bpy.types.Operator):
 
 
 class WRINKLE_OT_send_mesh(_Operator, bpy.types.Operator):
-    """Make a document of the active mesh, beside the .blend file, and open it in Wrinkle"""
+    """Make a document for the active mesh, beside the .blend file, and open it in Wrinkle"""
 
     bl_idname = "wrinkle.send_mesh"
     bl_label = "Paint on This Mesh"
@@ -286,11 +291,11 @@ class WRINKLE_OT_send_mesh(_Operator, bpy.types.Operator):
         document = self.filepath
         if not document:
             if not bpy.data.filepath:
-                raise WrinkleError("the .blend file has no name yet; save it first")
+                raise WrinkleError("the .blend file has not been saved; save it first")
             name = bpy.path.clean_name(thing.name) if thing else "mesh"
             document = os.path.join(os.path.dirname(bpy.data.filepath), name + ".exr")
         if os.path.exists(document):
-            raise WrinkleError("%s: is there already; choose it as Document, or remove it" % document)
+            raise WrinkleError("%s: already exists; choose it as Document, or remove it" % document)
         scale = context.scene.unit_settings.scale_length or 1.0
         height = own.height * scale or 0.02 * scale * max(thing.dimensions if thing else (1.0,))
         meshes.make_document(context, path, thing, document, own.side, height)
@@ -303,7 +308,7 @@ class WRINKLE_OT_send_mesh(_Operator, bpy.types.Operator):
 
 
 class WRINKLE_OT_bring_mesh(_Operator, bpy.types.Operator):
-    """Add the document's object with its relief as triangles, as it was last saved"""
+    """Add the document's displaced mesh, as last saved, to the scene"""
 
     bl_idname = "wrinkle.bring_mesh"
     bl_label = "Bring Back Mesh"

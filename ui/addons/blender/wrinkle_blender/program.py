@@ -20,7 +20,7 @@ def find(path=""):
     if found:
         return found
     if path:
-        raise WrinkleError("%s: is no program; set Wrinkle's path in the add-on's preferences" % path)
+        raise WrinkleError("%s: not a program; set Wrinkle's path in the add-on's preferences" % path)
     raise WrinkleError("wrinkle was not found; install it, or set its path in the add-on's preferences")
 
 
@@ -38,10 +38,10 @@ def version(path):
         if words[0] != "wrinkle" or len(numbers) != 3:
             raise ValueError
     except (IndexError, ValueError):
-        raise WrinkleError("%s: is not Wrinkle; set Wrinkle's path in the add-on's preferences" % path) from None
+        raise WrinkleError("%s: not Wrinkle; set Wrinkle's path in the add-on's preferences" % path) from None
     if not MINIMUM <= numbers < BEYOND:
         raise WrinkleError(
-            "%s: is version %s; this add-on needs %s or later, before %s"
+            "%s: version %s; this add-on needs %s or later, before %s"
             % (path, words[1], ".".join(map(str, MINIMUM)), ".".join(map(str, BEYOND)))
         )
     _checked[key] = numbers

@@ -23,7 +23,7 @@ _IN_CLOEXEC, _IN_NONBLOCK = 0o2000000, 0o4000
 def _open(folder):
     libc = ctypes.CDLL(None, use_errno=True)
     if not hasattr(libc, "inotify_init1"):
-        raise WrinkleError("the live link needs Linux, whose kernel reports changes of files")
+        raise WrinkleError("the live link needs Linux (inotify)")
     fd = libc.inotify_init1(_IN_CLOEXEC | _IN_NONBLOCK)
     if fd >= 0 and libc.inotify_add_watch(fd, os.fsencode(folder), _WANTED) >= 0:
         return fd
