@@ -325,7 +325,7 @@ def check_errors():
     plane(1, 1)
     document = write("wrong.wrinkle", "table 8x8\n")
     bpy.context.scene.wrinkle.document = document
-    for text, sentence in (("echo wrinkle 0.0.9", "is version 0.0.9"), ("echo x: error while loading shared libraries: libz.so >&2; exit 127", "a library is missing")):
+    for text, sentence in (("echo wrinkle 0.0.9", ": version 0.0.9"), ("echo x: error while loading shared libraries: libz.so >&2; exit 127", "a library is missing")):
         preferences.program = write("other", "#!/bin/sh\n" + text + "\n")
         os.chmod("other", 0o755)
         for operator in (bpy.ops.wrinkle.paint, bpy.ops.wrinkle.follow, bpy.ops.wrinkle.bring_mesh):
@@ -334,7 +334,7 @@ def check_errors():
     fails(bpy.ops.wrinkle.paint, "/nowhere/wrinkle: not a program")
     preferences.program = WRINKLE
     bpy.context.scene.wrinkle.document = ""
-    fails(bpy.ops.wrinkle.paint, "no document is chosen")
+    fails(bpy.ops.wrinkle.paint, "no document is set")
     bpy.context.scene.wrinkle.document = write("bad.wrinkle", "table 8x8\nnonsense\n")
     fails(bpy.ops.wrinkle.follow, 'unknown command "nonsense"')
     fails(bpy.ops.wrinkle.import_set, "contains no maps", filepath=folder("nothing"))
