@@ -514,7 +514,8 @@ static bool take_quoted(const char **p, WrText *value, WrError *err)
     const char *s = *p + 1;
     for (; *s && *s != '"'; s++) {
         if (*s == '\\' && s[1] != '"' && s[1] != '\\')
-            return wr_fail(err, "a backslash in quotes must stand before a quote or a backslash");
+            return wr_fail(err,
+                           "in double quotes, write \\\\ for a backslash and \\\" for a quote");
         if (*s == '\\') s++;
         wr_text_add_n(value, s, 1);
     }

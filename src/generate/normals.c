@@ -32,7 +32,7 @@ static const char *const ways[] = { SLOPES(WR_WORD) NULL };
 static const char *const codes[] = { WR_NORMAL_CODES(WR_WORD) NULL };
 
 const WrParam wr_params_normals[] = {
-    WR_P_FILE("file of the normal map"),
+    WR_P_FILE("a normal map"),
     WR_P_CHANNELS("layer", "channel"),
     WR_P_CHOICE("y", "Green", Y_AUTO, ys,
                 "direction of green: up (+Y), down (-Y), or auto: detected from the map"),

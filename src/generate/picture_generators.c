@@ -25,7 +25,7 @@ enum { MIRRORS(WR_WORD_ID) };
 static const char *const mirrors[] = { MIRRORS(WR_WORD) NULL };
 
 const WrParam wr_params_paste[] = {
-    WR_P_FILE("of the picture, or of a file that `copy` wrote"),
+    WR_P_FILE("a picture, or a file that `copy` wrote"),
     { .name = "at",
       .label = "At",
       .help = "position of its centre",
@@ -362,7 +362,7 @@ enum { LIGHTS(WR_WORD_ID) };
 static const char *const lights[] = { LIGHTS(WR_WORD) NULL };
 
 const WrParam wr_params_photo[] = {
-    WR_P_FILE("file of the picture"),
+    WR_P_FILE("a picture"),
     WR_P_CHANNELS("layer", NULL),
     WR_P_CHOICE("channel", "Channel", LUMINANCE, channels, "channel that is read as height"),
     WR_P_CHOICE("light", "Light", LINEAR, lights,
