@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
+#include "base/progress.h"
 #include "bench/peak.h"
 #include "system/clock.h"
 
@@ -83,60 +84,80 @@ static void copy(int index, int worker, void *ctx)
     }
 }
 
+typedef struct Machine {
+    WrPool *pool;
+    Piece *pieces;
+    int count;
+    const volatile int *cancel;
+} Machine;
+
 /* Seconds of all pieces at once, the best of the rounds; the first warms the memory and is not counted. */
-static double best(WrPool *pool, WrPiece work, Piece *pieces, int count, int rounds)
+static double best(const Machine *on, WrPiece work, int rounds)
 {
     double least = INFINITY;
-    for (int k = -1; k < rounds; k++) {
+    for (int k = -1; k < rounds && !wr_cancel_requested(on->cancel); k++) {
         const double start = wr_clock_seconds();
-        wr_pool_run(pool, count, work, pieces);
+        wr_pool_run(on->pool, on->count, work, on->pieces);
         const double seconds = wr_clock_seconds() - start;
         if (k >= 0 && seconds < least) least = seconds;
     }
     return least > 0 ? least : INFINITY;
 }
 
-static void measure_sums(WrPool *pool, Piece *pieces, int count, bool quick, WrPeaks *peaks)
+static void measure_sums(const Machine *on, bool quick, WrPeaks *peaks)
 {
     const long rounds = quick ? 10000 : 100000;
-    const double sums = (double)count * (double)rounds * NUMBERS * SUMS;
+    const double sums = on->count * (double)rounds * NUMBERS * SUMS;
     for (int b = 0; b < WR_PEAK_BUILDS; b++) {
         const Sums *build = wr_cpu_build(&builds, b);
         if (!build) continue;
-        for (int i = 0; i < count; i++) pieces[i].sums = build, pieces[i].rounds = rounds;
-        peaks->gflops[b] = 2e-9 * sums / best(pool, sum, pieces, count, quick ? 3 : 7);
+        for (int i = 0; i < on->count; i++)
+            on->pieces[i].sums = build, on->pieces[i].rounds = rounds;
+        peaks->gflops[b] = 2e-9 * sums / best(on, sum, quick ? 3 : 7);
     }
 }
 
-static void measure_copies(WrPool *pool, Piece *pieces, int count, bool quick, WrPeaks *peaks)
+static void measure_copies(const Machine *on, bool quick, WrPeaks *peaks)
 {
     /* bytes per thread and round, at least the block once */
     const double moved = quick ? 0x1p27 : 0x1p30;
     for (int level = 0; level < WR_PEAK_LEVELS; level++) {
         const size_t half = (size_t)peaks->bytes[level] / 2;
         const long rounds = (long)fmax(1, moved / peaks->bytes[level]);
-        for (int i = 0; i < count; i++) pieces[i].half = half, pieces[i].rounds = rounds;
-        peaks->gbytes[level] = 1e-9 * count * (double)rounds * peaks->bytes[level] /
-                               best(pool, copy, pieces, count, quick ? 2 : 5);
+        for (int i = 0; i < on->count; i++)
+            on->pieces[i].half = half, on->pieces[i].rounds = rounds;
+        peaks->gbytes[level] =
+            1e-9 * on->count * (double)rounds * peaks->bytes[level] / best(on, copy, quick ? 2 : 5);
     }
 }
 
-bool wr_peaks_measure(WrPool *pool, bool quick, WrPeaks *peaks, WrError *err)
+/* Untouched zero pages would share one physical page. */
+static void touch(char *memory, size_t size, const volatile int *cancel)
+{
+    const size_t step = (size_t)8 << 20;
+    for (size_t at = 0; at < size && !wr_cancel_requested(cancel); at += step)
+        memset(memory + at, 1, size - at < step ? size - at : step);
+}
+
+bool wr_peaks_measure(WrPool *pool, bool quick, const volatile int *cancel, WrPeaks *peaks,
+                      WrError *err)
 {
     const int count = wr_pool_threads(pool);
     const size_t most =
         DRAM_BYTES / (size_t)count > DRAM_MIN ? DRAM_BYTES / (size_t)count : (size_t)DRAM_MIN;
     *peaks = (WrPeaks){ .bytes = { 16 << 10, 512 << 10, (double)most } };
     Piece *pieces = wr_alloc((size_t)count, sizeof *pieces);
+    const Machine on = { pool, pieces, count, cancel };
     char *memory = wr_try_alloc((size_t)count, most, "the copies of a measurement", err);
+    bool good = memory != NULL;
     if (memory) {
-        /* untouched zero pages would share one physical page */
-        memset(memory, 1, (size_t)count * most);
+        touch(memory, (size_t)count * most, cancel);
         for (int i = 0; i < count; i++) pieces[i].block = memory + (size_t)i * most;
-        measure_sums(pool, pieces, count, quick, peaks);
-        measure_copies(pool, pieces, count, quick, peaks);
+        measure_sums(&on, quick, peaks);
+        measure_copies(&on, quick, peaks);
+        good = !wr_cancel_requested(cancel) || wr_fail(err, "interrupted");
     }
     wr_free(memory);
     wr_free(pieces);
-    return memory;
+    return good;
 }

@@ -20,4 +20,6 @@ typedef struct WrPeaks {
 extern const char *const wr_peak_builds[WR_PEAK_BUILDS]; /* "v1", "v3", "v4" */
 extern const char *const wr_peak_levels[WR_PEAK_LEVELS]; /* "L1", "L2", "DRAM" */
 
-bool wr_peaks_measure(WrPool *pool, bool quick, WrPeaks *peaks, WrError *err);
+/* cancel: as in base/progress.h; between two rounds. */
+bool wr_peaks_measure(WrPool *pool, bool quick, const volatile int *cancel, WrPeaks *peaks,
+                      WrError *err);

@@ -392,7 +392,8 @@ bool wr_bench_sections(const WrCli *cli, uint64_t chosen, bool quick, bool exact
     all->height = cli->height;
     all->rounds = quick ? 5 : 15;
     all->fast = !exact;
-    bool good = wr_peaks_measure(cli->pool, quick, &all->peaks, err), any = false;
+    bool good = wr_peaks_measure(cli->pool, quick, cli->cancel, &all->peaks, err);
+    bool any = false;
     if (good && cli->json) head_json(all, text);
     else if (good) print_peaks(all, text);
     for (int i = 0; wr_bench_section_table[i].name && good; i++) {
