@@ -235,13 +235,14 @@ static const WrForm camera_forms[] = {
                              .help = "move the camera around its target",
                              .args = { { PLACE("right,up"), .type = WR_ARG_TUPLE, .components = 2,
                                          .low = -1e9, .high = 1e9, .unit = "degrees",
-                                         .help = "to the right about the world's y axis, and "
-                                                 "upwards, at most to the pole" } } },
+                                         .help = "angles to the right, about the world's y axis, "
+                                                 "and upwards, at most to the pole" } } },
     [WR_ROW(FORM_PAN)] = { .name = "pan",
                            .help = "move the camera and its target sideways; switches fit= off",
                            .args = { { PLACE("right,up"), .type = WR_ARG_TUPLE, .components = 2,
                                        .low = -1e6, .high = 1e6,
-                                       .help = "in picture heights, at the target" },
+                                       .help = "distances to the right and upwards, in picture "
+                                               "heights at the target" },
                                      ASPECT } },
     [WR_ROW(FORM_DOLLY)] = { .name = "dolly",
                              .help =

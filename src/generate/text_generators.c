@@ -214,7 +214,7 @@ static const WrParam params[] = {
       .shape = "u,v",
       .components = 2 },
     WR_P_CHOICE("align", "Alignment", WR_FONT_CENTRE, align_words,
-                "of the lines with one another and to the anchor"),
+                "alignment of the lines with one another and to the anchor"),
     WR_P_CHOICE("anchor", "Anchor", WR_TEXT_MIDDLE, anchor_words, "vertical anchor of the text"),
     WR_P_NUMBER("letters", "Letter spacing", 0, -16384, 16384, 32, "texels",
                 "extra space between letters"),

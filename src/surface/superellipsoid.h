@@ -115,7 +115,7 @@ static const WrSurfaceInfo superellipsoid_row = {
                   0.1,
                   4,
                   false,
-                  "from pole to pole: 0.1 box, 1 round, 2 straight" },
+                  "exponent from pole to pole: 0.1 box, 1 round, 2 straight" },
                 { "e2", 1, { 0.4 }, 0.1, 4, false, "exponent around the axis, as e1" } },
     /* Upright with u = 1/2 in front, rotated 35 degrees to the left and tilted 25 forward, like the
      * cube. */
