@@ -84,6 +84,7 @@ static void copy(int index, int worker, void *ctx)
     }
 }
 
+/* Threads, their pieces and the interrupt of a measurement. */
 typedef struct Machine {
     WrPool *pool;
     Piece *pieces;
@@ -131,7 +132,7 @@ static void measure_copies(const Machine *on, bool quick, WrPeaks *peaks)
     }
 }
 
-/* Untouched zero pages would share one physical page. */
+/* Write to every page: untouched zero pages would share one physical page. */
 static void touch(char *memory, size_t size, const volatile int *cancel)
 {
     const size_t step = (size_t)8 << 20;

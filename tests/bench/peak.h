@@ -20,6 +20,6 @@ typedef struct WrPeaks {
 extern const char *const wr_peak_builds[WR_PEAK_BUILDS]; /* "v1", "v3", "v4" */
 extern const char *const wr_peak_levels[WR_PEAK_LEVELS]; /* "L1", "L2", "DRAM" */
 
-/* cancel: as in base/progress.h; between two rounds. */
+/* Fails with "interrupted" when *cancel is set (base/progress.h), which is checked between rounds. */
 bool wr_peaks_measure(WrPool *pool, bool quick, const volatile int *cancel, WrPeaks *peaks,
                       WrError *err);

@@ -454,8 +454,10 @@ void wr_input_router_pen(WrApp *app, const WrPenEvent *event)
     wr_app_redraw(app);
     switch (event->kind) {
     case WR_PEN_LOST:
-        if (holds) end_held(app);
-        if (holds) wr_input_router_let_go(app);
+        if (holds) {
+            end_held(app); /* also a stroke that is queued */
+            wr_input_router_let_go(app);
+        }
         return;
     case WR_PEN_CANCEL:
         if (holds) cancel_press(app);

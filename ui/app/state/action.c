@@ -48,16 +48,18 @@ bool wr_action_can(const WrApp *app, const WrAction *action)
     return (!action->enabled || action->enabled(app)) && layer_fits(app, action, &err);
 }
 
+/* Run a queued action. */
 static void run_late(WrApp *app, const char *name, bool dropped)
 {
     const WrAction *action = wr_action_find(app, name);
     if (!dropped && wr_action_can(app, action)) action->run(app);
 }
 
-/* True if the action is queued behind the running command. */
-static bool puts_off(WrApp *app, const WrAction *action)
+/* True if the action cannot run because of a background command: it is queued, or refused with a message. */
+static bool is_held_up(WrApp *app, const WrAction *action)
 {
-    if (!action->waits || !wr_busy_refuses(app) || !wr_busy_lets_wait(app)) return false;
+    if (!action->waits || !wr_busy_refuses(app) || !wr_busy_lets_wait(app))
+        return action->edits && wr_busy_refuse(app);
     wr_busy_put_off(app, wr_words(action->label), run_late, action->name, false);
     return true;
 }
@@ -65,7 +67,7 @@ static bool puts_off(WrApp *app, const WrAction *action)
 static void run_now(WrApp *app, const char *name)
 {
     const WrAction *action = wr_action_find(app, name);
-    if (action && (puts_off(app, action) || (action->edits && wr_busy_refuse(app)))) return;
+    if (action && is_held_up(app, action)) return;
     if (action && wr_action_can(app, action)) action->run(app);
     wr_app_redraw(app);
 }
@@ -73,7 +75,7 @@ static void run_now(WrApp *app, const char *name)
 void wr_action_run(WrApp *app, const char *name)
 {
     const WrAction *action = wr_action_find(app, name);
-    if (action && (puts_off(app, action) || (action->edits && wr_busy_refuse(app)))) return;
+    if (action && is_held_up(app, action)) return;
     for (WrActionFamily *const *f = app->registry->families; !action && *f; f++)
         if ((*f)(app, name)) break;
     WrError err;
